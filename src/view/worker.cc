@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/printable.h"
+#include "scene/material_parameters.h"
 #include "scene_io/material_json.h"
 #include "shading/material_fit.h"
 #include "view/answer.h"
@@ -50,6 +51,49 @@ double MsSince(Clock::time_point start) {
 }
 
 int DividedBy(int side, int divisor) { return std::max(1, (side + divisor - 1) / divisor); }
+
+// Takes the maps out of a material of a scene file: what is left needs no textures to be read.
+Json TakeMaps(Json* material) {
+  Json maps = Json::object();
+  if (!material->is_object()) return maps;
+  for (const auto& [name, value] : material->items()) {
+    if (name.ends_with("_map")) maps[name] = value;
+  }
+  for (const auto& [name, value] : maps.items()) material->erase(name);
+  return maps;
+}
+
+bool HasMap(const MaterialModel& model, std::string_view name) {
+  const auto named = [&](const auto& map) { return map.name == name; };
+  return std::any_of(model.maps.begin(), model.maps.end(), named) ||
+         std::any_of(model.normal_maps.begin(), model.normal_maps.end(), named);
+}
+
+// Gives the maps to a material of another model, those of its colour by the name that they have
+// there. Returns what cannot be kept.
+std::vector<std::string> KeepMaps(const Json& maps, std::string_view model_name, Json* material) {
+  constexpr std::array<std::string_view, 3> kOfColor = {"base_color_map", "albedo_map",
+                                                        "diffuse_map"};
+  const std::span<const MaterialModel> models = MaterialModels();
+  const auto model = std::find_if(models.begin(), models.end(),
+                                  [&](const MaterialModel& m) { return m.name == model_name; });
+  std::vector<std::string> lost;
+  for (const auto& [name, value] : maps.items()) {
+    std::vector<std::string_view> names = {name};
+    if (std::find(kOfColor.begin(), kOfColor.end(), name) != kOfColor.end()) {
+      names.insert(names.end(), kOfColor.begin(), kOfColor.end());
+    }
+    const auto found = std::find_if(names.begin(), names.end(), [&](std::string_view candidate) {
+      return model != models.end() && HasMap(*model, candidate);
+    });
+    if (found != names.end()) {
+      (*material)[std::string(*found)] = value;
+    } else {
+      lost.push_back(name);
+    }
+  }
+  return lost;
+}
 
 size_t BytesOf(const Image& image) {
   return image.channels.size() * image.data.pixel_count() * sizeof(float);
@@ -281,11 +325,14 @@ void Worker::ServeConvert(ClientId client, const ConvertRequest& convert) {
     if (!tree.contains(pointer)) {
       throw Error(ExitCode::kUsage, convert.pointer, "there is no material here");
     }
-    const MaterialFit fit =
-        FitMaterial(MaterialFromJson(tree.at(pointer), convert.pointer), convert.model);
-    ServeSet(client, {convert.pointer, MaterialJson(fit.fitted), convert.gesture, 0});
-    if (fit.notes.empty()) return;
+    Json own = tree.at(pointer);
+    const Json maps = TakeMaps(&own);
+    const MaterialFit fit = FitMaterial(MaterialFromJson(own, convert.pointer), convert.model);
+    Json fitted = MaterialJson(fit.fitted);
     Json notes = Json::array();
+    for (const std::string& name : KeepMaps(maps, convert.model, &fitted)) notes.push_back(name);
+    ServeSet(client, {convert.pointer, std::move(fitted), convert.gesture, 0});
+    if (notes.empty() && fit.notes.empty()) return;
     for (const std::string& note : fit.notes) notes.push_back(Printable(note));
     sinks_.say(client, JsonText({{"not_kept", std::move(notes)}, {"convert", convert.pointer}}));
   } catch (const Json::exception&) {

@@ -211,6 +211,15 @@ class ProtocolTest(unittest.TestCase):
             self.assertEqual(result.returncode, 64)
             self.assertIn('--spp: cannot be used with images', result.stderr)
 
+    def test_conversions_keep_the_maps_that_both_models_have(self):
+        _, page = self.open(SOURCE / 'scenes/textures.json', *SIZE, '--spp', 1)
+        page.until(is_done)
+        page.send({'convert': '/materials/planet', 'model': 'phong'})
+        value = page.until(lambda m: 'changed' in m or 'fault' in m)['value']
+        before = json.loads((SOURCE / 'scenes/textures.json').read_text(encoding='utf-8'))['materials']['planet']
+        self.assertEqual((value['model'], value['diffuse_map']), ('phong', before['base_color_map']))
+        self.assertEqual(page.until(lambda m: 'not_kept' in m)['not_kept'][0], 'metallic_roughness_map')
+
     def test_memory_stays_flat(self):
         """Some seconds of dragging with four pages open; NACRE_VIEW_SECONDS for more."""
         size = ('--size', '640x360', '--spp', 16)

@@ -81,9 +81,9 @@ class Explanation {
     };
     const byDegree = values => values.map((v, i) => [i, v]);
     return el('figure', {},
-        curves.distribution ? plot('D over the angle of h, 0 to 90°', byDegree(curves.distribution), lit.map(l => degrees(l.n_dot_h))) : null,
-        curves.fresnel ? plot('F (green) over the angle of v and h, 0 to 90°', byDegree(curves.fresnel.map(f => f[1])), lit.map(l => degrees(l.v_dot_h))) : null,
-        plot('albedo over the angle of v, 0 to 90°', curves.albedo, [degrees(dot(normal, view))]),
+        curves.distribution ? plot('D, angle of h 0–90°', byDegree(curves.distribution), lit.map(l => degrees(l.n_dot_h))) : null,
+        curves.fresnel ? plot('F (green), angle of v and h 0–90°', byDegree(curves.fresnel.map(f => f[1])), lit.map(l => degrees(l.v_dot_h))) : null,
+        plot('albedo, angle of v 0–90°', curves.albedo, [degrees(dot(normal, view))]),
         el('figcaption', {class: 'soft'}, 'Dashed: the angles here. Albedo: the share of light from everywhere that is seen, mean of the channels.'));
   }
 }

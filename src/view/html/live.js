@@ -40,6 +40,7 @@ class LiveViewer extends Viewer {
     if (reframed) {
       Object.assign(frame, {width: head.frameWidth, height: head.frameHeight});
       this.camera = new Camera(frame);
+      this.mark = {x: frame.width >> 1, y: frame.height >> 1};
     }
     if (head.done) {
       live.width = head.width;

@@ -180,7 +180,7 @@ class Panel {
     if (!control) return false;
     control.fault(text);
     control.show(this.valueOf(control.pointer));
-    return true;
+    return control.element.checkVisibility();  // in a group that is closed nobody sees it
   }
 
   filter() {
