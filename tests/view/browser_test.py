@@ -463,14 +463,14 @@ class ViewTest(unittest.TestCase):
     def test_latency(self):
         """Printed: from a slider's event to the picture, at 1280x720."""
         asked = os.environ.get('NACRE_VIEW_PICTURES')
-        count = int(asked or 25)
+        count = int(asked or 20)
         for name, pointer in list(SCENES.items())[:None if asked else 2]:
             self.view(SOURCE / f'scenes/{name}.json', '--size', '1280x720', '--spp', '16', '--quiet')
             if pointer is None:
                 pointer = self.browser.script('return document.querySelector(".control:has(input[type=range])").dataset.pointer')
             selector = f'[data-pointer="{pointer}"] input[type=range]'
             drawn, painted = map(sorted, zip(*self.later(LATENCY, selector, count)))
-            rate, frames = self.later(DRAG, selector, 2)
+            rate, frames = self.later(DRAG, selector, 1.5)
             half, late = count // 2, count * 95 // 100
             load = os.getloadavg()[0]
             print(f'{name}: {pointer}: drawn after {drawn[half]:.1f} ms (median), {drawn[late]:.1f} ms (p95), painted after '

@@ -229,7 +229,7 @@ class ProtocolTest(unittest.TestCase):
         for taker in takers:
             taker.start()
         page.until(is_done)
-        seconds, count, sizes = float(os.environ.get('NACRE_VIEW_SECONDS', 8)), 0, []
+        seconds, count, sizes = float(os.environ.get('NACRE_VIEW_SECONDS', 5)), 0, []
         start = time.monotonic()
         while time.monotonic() - start < seconds:
             count += 1
