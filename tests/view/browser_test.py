@@ -300,6 +300,7 @@ class ViewTest(unittest.TestCase):
         self.changed(before)
         self.assertEqual(self.browser.script('return VIEW.viewer.images.map(i => i.name)'), ['B, now', 'A'])
         self.assertEqual(self.value('/materials/floor/model'), 'lambert')
+        self.assertEqual(self.browser.script('return VIEW.banner.textContent'), '')
         # One step back.
         self.click('[aria-label="Undo"]')
         self.browser.wait('return VIEW.scene.materials.red.model === "metallic_roughness"')

@@ -61,7 +61,8 @@ const PHONG = ['phong', 'modified_phong', 'blinn_phong'], PBR = ['metallic_rough
 function convertible(scene) {
   const named = Object.entries(scene.materials || {}).map(([name, material]) => [`/materials/${token(name)}`, material]);
   const own = (scene.shapes || []).map((shape, i) => [`/shapes/${i}/material`, !shape.rows && !shape.columns && shape.material]);
-  return [...named, ...own].map(([pointer, material]) => ({pointer, model: material && (material.model ?? 'metallic_roughness'), phong: PHONG.includes(material?.model)}))
+  return [...named, ...own].filter(([, material]) => material && typeof material === 'object')
+      .map(([pointer, {model = 'metallic_roughness'}]) => ({pointer, model, phong: PHONG.includes(model)}))
       .filter(({model}) => PHONG.includes(model) || PBR.includes(model));
 }
 
