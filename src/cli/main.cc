@@ -83,6 +83,9 @@ void AddCommands(CLI::App* app, int* exit_code) {
       "Exit codes: 0 done, 1 images differ, 2 cannot compare, 64 usage, 65 bad input,\n"
       "            70 internal error, 74 cannot write, 130 and 143 stopped by a signal");
   nacre::AddRenderCommand(app, exit_code);
+#ifdef NACRE_VIEW
+  nacre::AddViewCommand(app, exit_code);
+#endif
   nacre::AddGridCommand(app, exit_code);
   nacre::AddPairCommand(app, exit_code);
   nacre::AddConvertCommand(app, exit_code);

@@ -36,16 +36,21 @@ void CheckReportPath(const std::string& path) {
   CheckTextOutput(path);
 }
 
+std::string ReportHtml(const std::string& title, const Json& sections,
+                       const PerceptualArguments& shown, const Page& page) {
+  const std::string generator = fmt::format("nacre {} ({})", kVersion, kCommit);
+  return page.Html(title, generator,
+                   {{"generator", generator},
+                    {"summary", Summary(shown, sections)},
+                    {"notes", Json::array()},
+                    {"tone", shown.tonemap},
+                    {"exposure", shown.exposure},
+                    {"sections", sections}});
+}
+
 void WriteReport(const std::string& path, const std::string& title, const Json& sections,
                  const PerceptualArguments& shown, const Page& page) {
-  const std::string generator = fmt::format("nacre {} ({})", kVersion, kCommit);
-  const std::string html = page.Html(title, generator,
-                                     {{"generator", generator},
-                                      {"summary", Summary(shown, sections)},
-                                      {"notes", Json::array()},
-                                      {"tone", shown.tonemap},
-                                      {"exposure", shown.exposure},
-                                      {"sections", sections}});
+  const std::string html = ReportHtml(title, sections, shown, page);
   WriteText(path, html);
   PrintError("{}: {:.1f} MiB\n", path, static_cast<double>(html.size()) / (1024 * 1024));
 }

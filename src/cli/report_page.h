@@ -14,7 +14,11 @@ namespace nacre {
 // Throws Error: kUsage unless `path` is a .html file, kCannotWrite.
 void CheckReportPath(const std::string& path);
 
-// `page` holds the sections' samples; pictures open as `shown` says. Tells its size on stderr.
+// The page: `page` holds the sections' samples; pictures open as `shown` says.
+std::string ReportHtml(const std::string& title, const nlohmann::ordered_json& sections,
+                       const PerceptualArguments& shown, const Page& page);
+
+// The same into a file. Tells its size on stderr.
 void WriteReport(const std::string& path, const std::string& title,
                  const nlohmann::ordered_json& sections, const PerceptualArguments& shown,
                  const Page& page);

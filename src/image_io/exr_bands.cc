@@ -191,7 +191,7 @@ void ExrBandReader::ReadRows(int y, int rows, const std::vector<std::string>& ch
 
 struct ExrBandWriter::State {
   State(const std::string& path, const ExrBandHeader& header)
-      : container(path, header.header, header.compression) {}
+      : container(path, nullptr, header.header, header.compression) {}
   ExrContainer container;
 };
 

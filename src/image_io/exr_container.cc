@@ -62,9 +62,10 @@ void Ignore(exr_const_context_t, exr_result_t, const char*) {}
 
 }  // namespace
 
-ExrContainer::ExrContainer(const std::string& path, const ExrHeader& header,
-                           Compression compression)
-    : path_(path), file_(path) {
+ExrContainer::ExrContainer(const std::string& path, std::vector<uint8_t>* memory,
+                           const ExrHeader& header, Compression compression)
+    : path_(path), memory_(memory) {
+  if (memory_ == nullptr) file_.emplace(path);
   exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
   initializer.error_handler_fn = Ignore;
   initializer.user_data = this;
@@ -100,7 +101,7 @@ void ExrContainer::WriteHeader(const ExrHeader& header, Compression compression)
   SetAttributes(header);
   Check(exr_write_header(context_));
   in_header_ = false;
-  file_.Write(0, header_);
+  Write(0, header_);
 }
 
 void ExrContainer::SetAttributes(const ExrHeader& header) {
@@ -143,7 +144,7 @@ void ExrContainer::UpdateAttribute(const std::string& name, const ExrAttribute& 
   const auto bits =
       integer != nullptr ? std::bit_cast<uint32_t>(*integer) : std::bit_cast<uint32_t>(*real);
   std::memcpy(&header_[place], &bits, 4);
-  file_.Write(place, std::span(header_).subspan(place, 4));
+  Write(place, std::span(header_).subspan(place, 4));
 }
 
 size_t ExrContainer::FindAttribute(const std::string& name, const std::string& type) const {
@@ -168,7 +169,13 @@ size_t ExrContainer::FindAttribute(const std::string& name, const std::string& t
 void ExrContainer::Finish(bool sync) {
   Check(exr_finish(&context_));
   WriteChecksum();
-  file_.Commit(sync);
+  if (file_) file_->Commit(sync);
+}
+
+void ExrContainer::Write(uint64_t offset, std::span<const uint8_t> bytes) {
+  if (file_) return file_->Write(offset, bytes);
+  if (memory_->size() < offset + bytes.size()) memory_->resize(offset + bytes.size());
+  std::ranges::copy(bytes, memory_->begin() + static_cast<ptrdiff_t>(offset));
 }
 
 void ExrContainer::Count(uint64_t offset, std::span<const uint8_t> bytes) {
@@ -190,7 +197,7 @@ void ExrContainer::WriteChecksum() {
   const uint32_t head = Crc32(Crc32(0, header_), table_);
   const std::string digits =
       ExrChecksumDigits(CombineCrc32(head, chunks_crc_, chunks_end_ - chunks_begin_));
-  file_.Write(place, {reinterpret_cast<const uint8_t*>(digits.data()), digits.size()});
+  Write(place, {reinterpret_cast<const uint8_t*>(digits.data()), digits.size()});
 }
 
 int64_t ExrContainer::OnWrite(exr_const_context_t, void* user, const void* bytes, uint64_t size,
@@ -203,7 +210,7 @@ int64_t ExrContainer::OnWrite(exr_const_context_t, void* user, const void* bytes
       std::ranges::copy(source, self->header_.begin() + static_cast<ptrdiff_t>(offset));
     } else {
       self->Count(offset, source);
-      self->file_.Write(offset, source);
+      self->Write(offset, source);
     }
     return static_cast<int64_t>(size);
   } catch (...) {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <exception>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,8 +22,9 @@ namespace nacre {
 class ExrContainer {
  public:
   // Opens the file and writes the header. Throws Error: kCannotWrite as OutputFile does,
-  // kInternal for a header that OpenEXR refuses.
-  ExrContainer(const std::string& path, const ExrHeader& header, Compression compression);
+  // kInternal for a header that OpenEXR refuses. With `memory` its bytes go there, and to no file.
+  ExrContainer(const std::string& path, std::vector<uint8_t>* memory, const ExrHeader& header,
+               Compression compression);
   ~ExrContainer();
   ExrContainer(const ExrContainer&) = delete;
   ExrContainer& operator=(const ExrContainer&) = delete;
@@ -42,6 +44,7 @@ class ExrContainer {
                          uint64_t offset, exr_stream_error_func_ptr_t error);
   void WriteHeader(const ExrHeader& header, Compression compression);
   void SetAttributes(const ExrHeader& header);
+  void Write(uint64_t offset, std::span<const uint8_t> bytes);
   // Notes bytes of the table or the chunks for the checksum.
   void Count(uint64_t offset, std::span<const uint8_t> bytes);
   void WriteChecksum();
@@ -51,7 +54,8 @@ class ExrContainer {
   void Check(exr_result_t result);
 
   std::string path_;
-  OutputFile file_;
+  std::vector<uint8_t>* memory_;    // where the bytes go, or null:
+  std::optional<OutputFile> file_;  // they go there
   exr_context_t context_ = nullptr;
   bool in_header_ = true;
   std::vector<uint8_t> header_;  // its bytes, written at once, kept for UpdateAttribute

@@ -46,12 +46,13 @@ std::vector<uint8_t> ToBytes(std::span<const uint16_t> words) {
 }  // namespace
 
 struct ExrWriter::State {
-  State(const std::string& path_in, const ExrHeader& header, const ExrOptions& options_in)
+  State(const std::string& path_in, std::vector<uint8_t>* memory, const ExrHeader& header,
+        const ExrOptions& options_in)
       : path(path_in),
         data(header.data),
         options(options_in),
         layout(MakeExrLayout(path_in, header)),
-        container(path_in, header, options_in.compression),
+        container(path_in, memory, header, options_in.compression),
         in_order([this](size_t, const Chunks& chunks) {
           for (const Chunk& chunk : chunks) container.WriteChunk(chunk.y, chunk.bytes);
         }) {}
@@ -128,7 +129,11 @@ void ExrWriter::State::Gather(const StripView& strip, std::span<const uint16_t> 
 }
 
 ExrWriter::ExrWriter(const std::string& path, const ExrHeader& header, const ExrOptions& options)
-    : state_(std::make_unique<State>(path, header, options)) {}
+    : state_(std::make_unique<State>(path, nullptr, header, options)) {}
+
+ExrWriter::ExrWriter(std::vector<uint8_t>* bytes, const ExrHeader& header,
+                     const ExrOptions& options)
+    : state_(std::make_unique<State>("EXR", bytes, header, options)) {}
 
 ExrWriter::~ExrWriter() = default;
 

@@ -2,6 +2,7 @@
 // image_io/exr_writer.h: EXR files written strip by strip while the picture is being rendered.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,6 +29,8 @@ class ExrWriter {
  public:
   // Opens the file and writes its header: call before rendering.
   ExrWriter(const std::string& path, const ExrHeader& header, const ExrOptions& options = {});
+  // The same bytes into `bytes`, which is empty, and into no file.
+  ExrWriter(std::vector<uint8_t>* bytes, const ExrHeader& header, const ExrOptions& options = {});
   // Without Finish, nothing remains of the file.
   ~ExrWriter();
 

@@ -89,14 +89,6 @@ std::string_view EnvironmentText(const char* name) {
   return value != nullptr ? value : "";
 }
 
-std::optional<std::string> FindProgram(const std::string& name) {
-  for (const std::string& folder : AbsoluteFolders(EnvironmentText("PATH"))) {
-    std::string file = folder + "/" + name;
-    if (access(file.c_str(), X_OK) == 0) return file;
-  }
-  return std::nullopt;
-}
-
 // The variables that are passed on to the child: where programs, libraries, fonts and their caches
 // are, and the language. All others that gnuplot and its libraries read (GNUPLOT_LIB, GNUTERM,
 // GIO_EXTRA_MODULES, ...) would change the diagram or name code to load.
@@ -128,6 +120,14 @@ std::vector<char*> Pointers(std::vector<std::string>* texts) {
 }
 
 }  // namespace
+
+std::optional<std::string> FindProgram(const std::string& name) {
+  for (const std::string& folder : AbsoluteFolders(EnvironmentText("PATH"))) {
+    std::string file = folder + "/" + name;
+    if (access(file.c_str(), X_OK) == 0) return file;
+  }
+  return std::nullopt;
+}
 
 bool IsProgramThere(const std::string& program) { return FindProgram(program).has_value(); }
 

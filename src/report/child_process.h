@@ -2,6 +2,7 @@
 // report/child_process.h: another program, run to its end: text in, bytes out.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,11 @@ struct ChildResult {
   std::string errors;
 };
 
-// Whether RunChild would find the program: in the absolute folders of PATH. Empty and relative
-// entries are passed over, so that no program is started because it lies in the working folder.
+// The program's file: in the absolute folders of PATH. Empty and relative entries are passed over,
+// so that no program is started because it lies in the working folder.
+std::optional<std::string> FindProgram(const std::string& name);
+
+// Whether RunChild would find the program.
 bool IsProgramThere(const std::string& program);
 
 // Starts arguments[0] with these arguments, without a shell, in the root folder, and with no more

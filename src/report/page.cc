@@ -16,16 +16,6 @@ namespace {
 
 constexpr int kDeflateLevel = 6;  // written once, mailed and kept: zlib's default
 
-// A digest as Content-Security-Policy writes it.
-std::string HashSource(std::string_view hex) {
-  std::vector<uint8_t> bytes;
-  bytes.reserve(hex.size() / 2);
-  for (size_t i = 0; i + 1 < hex.size(); i += 2) {
-    bytes.push_back(static_cast<uint8_t>(std::stoi(std::string(hex.substr(i, 2)), nullptr, 16)));
-  }
-  return Base64(bytes);
-}
-
 // JSON inside a <script>: "</script" and "<!--" would end it or change how it is read.
 std::string EscapeJson(const std::string& json) {
   std::string out;
@@ -54,24 +44,6 @@ nlohmann::ordered_json PrintableTree(const nlohmann::ordered_json& tree) {
     }
   }
   return printable;
-}
-
-using Values = std::vector<std::pair<std::string_view, std::string_view>>;
-
-// Puts values in the place of {{names}}; what they hold is not looked at again.
-std::string Fill(std::string_view text, const Values& values) {
-  std::string out;
-  while (true) {
-    const size_t open = text.find("{{");
-    out += text.substr(0, open);
-    if (open == std::string_view::npos) return out;
-    const size_t close = text.find("}}", open);
-    const std::string_view name = text.substr(open + 2, close - open - 2);
-    for (const auto& [key, value] : values) {
-      if (key == name) out += value;
-    }
-    text.remove_prefix(close + 2);
-  }
 }
 
 }  // namespace
@@ -114,6 +86,35 @@ std::string EscapeHtml(std::string_view text) {
   return out;
 }
 
+std::string PolicySource(std::string_view sha256) {
+  std::vector<uint8_t> bytes;
+  bytes.reserve(sha256.size() / 2);
+  for (size_t i = 0; i + 1 < sha256.size(); i += 2) {
+    bytes.push_back(static_cast<uint8_t>(std::stoi(std::string(sha256.substr(i, 2)), nullptr, 16)));
+  }
+  return "sha256-" + Base64(bytes);
+}
+
+std::string ScriptJson(const nlohmann::ordered_json& data) {
+  return EscapeJson(
+      PrintableTree(data).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+std::string FillPage(std::string_view text, const PageValues& values) {
+  std::string out;
+  while (true) {
+    const size_t open = text.find("{{");
+    out += text.substr(0, open);
+    if (open == std::string_view::npos) return out;
+    const size_t close = text.find("}}", open);
+    const std::string_view name = text.substr(open + 2, close - open - 2);
+    for (const auto& [key, value] : values) {
+      if (key == name) out += value;
+    }
+    text.remove_prefix(close + 2);
+  }
+}
+
 int Page::AddBlob(std::span<const uint8_t> bytes) {
   blobs_.push_back(Base64(Deflate(bytes, DeflateForm::kZlib, kDeflateLevel)));
   return static_cast<int>(blobs_.size()) - 1;
@@ -127,20 +128,19 @@ std::string Page::Html(const std::string& title, const std::string& generator,
     blobs += blobs_[i];
     blobs += "</script>\n";
   }
-  const std::string json = EscapeJson(
-      PrintableTree(data).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
-  const std::string script_hash = HashSource(PageScriptSha256());
-  const std::string style_hash = HashSource(PageStyleSha256());
+  const std::string json = ScriptJson(data);
+  const std::string script_hash = PolicySource(PageScriptSha256());
+  const std::string style_hash = PolicySource(PageStyleSha256());
   const std::string safe_title = EscapeHtml(Printable(title));
   const std::string safe_generator = EscapeHtml(generator);
-  return Fill(PageTemplate(), {{"title", safe_title},
-                               {"generator", safe_generator},
-                               {"style_hash", style_hash},
-                               {"script_hash", script_hash},
-                               {"style", PageStyle()},
-                               {"script", PageScript()},
-                               {"data", json},
-                               {"blobs", blobs}});
+  return FillPage(PageTemplate(), {{"title", safe_title},
+                                   {"generator", safe_generator},
+                                   {"style_hash", style_hash},
+                                   {"script_hash", script_hash},
+                                   {"style", PageStyle()},
+                                   {"script", PageScript()},
+                                   {"data", json},
+                                   {"blobs", blobs}});
 }
 
 }  // namespace nacre

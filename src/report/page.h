@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -17,6 +18,17 @@ std::string Base64(std::span<const uint8_t> bytes);
 
 // Text between tags or in quoted attributes.
 std::string EscapeHtml(std::string_view text);
+
+// A digest, given in hexadecimal, as a Content-Security-Policy names what it allows:
+// "sha256-...".
+std::string PolicySource(std::string_view sha256);
+
+// JSON inside a <script>, its texts as PrintableLines() has them.
+std::string ScriptJson(const nlohmann::ordered_json& data);
+
+// Puts values in the place of {{names}}; what they hold is not looked at again.
+using PageValues = std::vector<std::pair<std::string_view, std::string_view>>;
+std::string FillPage(std::string_view text, const PageValues& values);
 
 class Page {
  public:

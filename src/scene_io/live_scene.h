@@ -44,9 +44,17 @@ class LiveScene {
   // scene is then the one before.
   SceneParts Set(const std::string& pointer, const std::string& json);
 
+  // What is read: the tree of a scene file with all changes; of a model, these alone. Plain spheres
+  // (SceneTree) are not in it until ListShapes puts them there, half a kilobyte each.
+  const Json& root() const { return tree_.root; }
+  bool lists_all_shapes() const { return tree_.spheres.runs.empty(); }
+  void ListShapes() { CompleteTree("/shapes", &tree_); }
+
   // Renders it with other settings than its own, until the next change of those. Nothing else
   // follows: a model's camera stays.
   void UseImage(const ImageSettings& image) { scene_.image = image; }
+  // The same of a material, until materials are read again.
+  void UseMaterial(size_t index, const Material& material) { scene_.materials[index] = material; }
   const ImageSettings& own_image() const { return own_image_; }
 
  private:

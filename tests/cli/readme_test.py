@@ -11,6 +11,7 @@ import json
 import pathlib
 import re
 import shlex
+import signal
 import shutil
 import subprocess
 import sys
@@ -79,6 +80,15 @@ class ReadmeTest(unittest.TestCase):
             if word.startswith('--'):
                 self.assertIn(word, told.stdout + run([PROGRAM, 'render', '--help-all'], SOURCE).stdout)
 
+    def check_view(self, words, root):
+        """It prints an address, and serves until Ctrl-C."""
+        process = subprocess.Popen([*words, '--no-open'], cwd=root, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        address = process.stdout.readline()
+        process.send_signal(signal.SIGINT)
+        errors = process.communicate(timeout=60)[1]
+        self.assertRegex(address, r'^http://127\.0\.0\.1:\d+/[0-9a-f]{32}/$', errors)
+        self.assertEqual(process.returncode, 130, errors)
+
     def test_every_command_does_what_it_says(self):
         done = set()
         targets = built_targets()
@@ -90,6 +100,9 @@ class ReadmeTest(unittest.TestCase):
                         self.check_script(words)
                         continue
                     self.assertIn(words[0], ('build/nacre', 'cp'))
+                    if words[1] == 'view':
+                        self.check_view(words, root)
+                        continue
                     # The same line elsewhere, and files that none of the later lines reads.
                     if tuple(words) in done and 'render' not in words:
                         continue

@@ -40,6 +40,8 @@ BRANCHES = {
     "study": TRUNK_FOLDERS | {"image_io", "report"},
     # The public API, nacre.h.
     "api": TRUNK_FOLDERS | {"image_io", "scene_io", "compare", "output"},
+    # The live view: its scene and render thread, its page and the server of it.
+    "view": TRUNK_FOLDERS | {"image_io", "scene_io", "compare", "report", "study", "output"},
     "textbook": {"base"},  # shares nothing with the renderer; only lesson/ and cli/ may use it
     "lesson": TRUNK_FOLDERS | {"textbook", "scene_io", "image_io", "compare"},
 }
@@ -82,6 +84,7 @@ HEADER_RULES = (
     (r"\w+/\w+-inl\.h", SIMD_FILE, "-inl.h only in *-inl.h and *_kernel.cc"),
     (r"nlohmann/", rf"(?!({'|'.join(sorted(TRUNK_FOLDERS))})/)", "JSON in no folder up to render/"),
     (r"CLI/", r"cli/", "CLI11 only in cli/"),
+    (r"boost/", r"view/server\.cc", "Boost only in view/server.cc"),
 )
 
 INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)[>"]')
@@ -110,8 +113,8 @@ def read_cmake(src):
     text = re.sub(r"#.*", "", (src / "CMakeLists.txt").read_text())
     for folder, arguments in LIBRARY_CALL.findall(text):
         depends[folder] = re.findall(r"\bnacre_(\w+)", arguments)
-    for arguments in PROGRAM_CALL.findall(text):
-        depends[TOP] = re.findall(r"\bnacre_(\w+)", arguments)
+    depends[TOP] = [folder for arguments in PROGRAM_CALL.findall(text)
+                    for folder in re.findall(r"\bnacre_(\w+)", arguments)]
     # A folder with a CMakeLists.txt of its own has no DEPENDS line: it is held to the table.
     for cmake in src.glob("*/CMakeLists.txt"):
         depends[cmake.parent.name] = sorted(BRANCHES.get(cmake.parent.name, ()))

@@ -148,6 +148,11 @@ TEST_CASE("a file's bytes depend neither on the order of strips nor on the targe
       WritePicture(folder / "shuffled.exr", picture, options);
       CHECK(ReadBytes(folder / "shuffled.exr") == expected);
     });
+    std::vector<uint8_t> in_memory;
+    ExrWriter writer(&in_memory, picture.header, options);
+    for (size_t i = 0; i < StripCount(picture); ++i) writer.WriteStrip(ViewStrip(picture, i));
+    writer.Finish();
+    CHECK(in_memory == expected);
   }
 }
 

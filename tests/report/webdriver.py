@@ -20,7 +20,8 @@ def missing():
 
 
 class Browser:
-    def __init__(self):
+    def __init__(self, network_log=True):
+        """`network_log`: what a page fetches can be read; it costs time for each byte of it."""
         self.profile = tempfile.TemporaryDirectory()
         self.driver = subprocess.Popen(['chromedriver', '--port=0'], stdout=subprocess.PIPE,
                                        stderr=subprocess.DEVNULL, text=True)
@@ -33,8 +34,8 @@ class Browser:
         if os.geteuid() == 0:  # Chromium's sandbox refuses to run as root
             arguments.append('--no-sandbox')
         options = {'args': arguments, 'binary': shutil.which('chromium')}
-        capabilities = {'browserName': 'chrome', 'goog:chromeOptions': options,
-                        'goog:loggingPrefs': {'browser': 'ALL', 'performance': 'ALL'}}
+        logs = {'browser': 'ALL', **({'performance': 'ALL'} if network_log else {})}
+        capabilities = {'browserName': 'chrome', 'goog:chromeOptions': options, 'goog:loggingPrefs': logs}
         self.session = ''
         answer = self.post('/session', {'capabilities': {'alwaysMatch': capabilities}})
         self.session = '/session/' + answer['sessionId']

@@ -30,6 +30,8 @@ class Camera {
   }
 }
 
+// What a drag does is the pane's own, to move and zoom, unless the viewer has a hand for it: the live
+// view's, which moves what the picture shows (view/html/hand.js).
 class Pane {
   constructor(viewer) {
     this.viewer = viewer;
@@ -56,17 +58,23 @@ class Pane {
     const {canvas, viewer, fingers} = this;
     canvas.addEventListener('wheel', event => {
       event.preventDefault();
+      if (viewer.hand) return viewer.hand.wheel(event);
       this.zoomBy(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.0016)), ...this.frameAt(event));
     }, {passive: false});
     canvas.addEventListener('pointerdown', event => {
       canvas.setPointerCapture(event.pointerId);
       fingers.set(event.pointerId, event);
+      if (viewer.hand) return viewer.hand.down(event, this);
       viewer.inspect(...this.frameAt(event));
     });
     canvas.addEventListener('pointermove', event => this.moved(event));
     for (const end of ['pointerup', 'pointercancel']) {
-      canvas.addEventListener(end, event => fingers.delete(event.pointerId));
+      canvas.addEventListener(end, event => {
+        fingers.delete(event.pointerId);
+        if (viewer.hand) viewer.hand.up(event, this);
+      });
     }
+    canvas.addEventListener('contextmenu', event => { if (viewer.hand) event.preventDefault(); });
     canvas.addEventListener('dblclick', () => { viewer.camera.fit(); viewer.draw(); });
   }
 
@@ -78,6 +86,11 @@ class Pane {
 
   moved(event) {
     const last = this.fingers.get(event.pointerId);
+    if (this.viewer.hand) {
+      if (last) this.viewer.hand.drag(event, last, [...this.fingers.values()].find(f => f.pointerId !== event.pointerId), this);
+      if (last) this.fingers.set(event.pointerId, event);
+      return;
+    }
     if (!last) {
       if (event.pointerType === 'mouse') this.viewer.inspect(...this.frameAt(event));
       return;
@@ -112,7 +125,7 @@ class Pane {
       context.translate(w / 2 - camera.x * scale, h / 2 - camera.y * scale);
       context.scale(scale * picture.cell, scale * picture.cell);
       context.imageSmoothingEnabled = scale * picture.cell * ratio < 1;
-      context.imageSmoothingQuality = 'high';
+      context.imageSmoothingQuality = this.viewer.smoothing || 'high';
       context.drawImage(picture.canvas, picture.x0, picture.y0);
       context.restore();
     }

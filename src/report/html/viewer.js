@@ -72,7 +72,7 @@ class Viewer {
   }
 
   place(image, canvas, from, to) {
-    return {canvas, x0: image.x0, y0: image.y0, cell: image.factor, from, to};
+    return {canvas, x0: image.x0, y0: image.y0, cell: image.cell ?? image.factor, from, to};
   }
 
   // A few pictures are kept: sliders go back and forth.
@@ -86,6 +86,7 @@ class Viewer {
 
   paint(index) {
     const image = this.images[index], {tone, exposure} = this.look;
+    if (image.canvas) return image.canvas;  // it is painted elsewhere
     return this.keep(`${index} ${this.layer} ${tone} ${exposure}`, async () => {
       const layer = await loadLayer(image, this.layer);
       return layer ? paintLayer(image, layer, this.look) : blank(image).canvas;
@@ -146,12 +147,16 @@ class Viewer {
     this.drawing = requestAnimationFrame(() => {
       this.drawing = 0;
       this.fitPanes();
-      const cell = this.cell(), mark = {x: this.mark.x - this.mark.x % cell, y: this.mark.y - this.mark.y % cell, cell};
-      this.panes.forEach((pane, i) => {
-        if (this.stage.contains(pane.element)) pane.draw(pane.content.pictures, mark, pane.content.divider ?? null);
-      });
-      this.controls.zoomText();
+      this.drawPanes();
     });
+  }
+
+  drawPanes() {
+    const cell = this.cell(), mark = {x: this.mark.x - this.mark.x % cell, y: this.mark.y - this.mark.y % cell, cell};
+    this.panes.forEach((pane, i) => {
+      if (this.stage.contains(pane.element)) pane.draw(pane.content.pictures, mark, pane.content.divider ?? null);
+    });
+    this.controls.zoomText();
   }
 
   drawLegend() {

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: Apache-2.0
+// cli/cmd_view.cc: nacre view [SCENE | IMAGES...]
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "base/path.h"
+#include "base/version.h"
+#include "cli/commands.h"
+#include "cli/given_options.h"
+#include "cli/help_text.h"
+#include "cli/print.h"
+#include "cli/progress.h"
+#include "cli/render_options.h"
+#include "cli/report_page.h"
+#include "cli/report_sections.h"
+#include "report/child_process.h"
+#include "report/page_parts.h"
+#include "scene_io/kept_files.h"
+#include "view/page.h"
+#include "view/server.h"
+#include "view/token.h"
+#include "view/worker.h"
+
+namespace nacre {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct ViewArguments {
+  std::vector<std::string> inputs;
+  bool no_open = false;
+  ServerOptions server;
+  RenderOptions options;
+};
+
+// The user's browser, if there is a display to show it on. Whether it comes is its own affair: the
+// address has been printed.
+void OpenBrowser(const std::string& url) {
+  if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
+  std::optional<std::string> program = FindProgram("xdg-open");
+  if (!program) {
+    PrintError("note: there is no xdg-open to open a browser with; open the address yourself\n");
+    return;
+  }
+  std::string argument = url;
+  char* const arguments[] = {program->data(), argument.data(), nullptr};
+  // In a session of its own, which Ctrl-C does not reach, and silent: stdout has the address.
+  posix_spawnattr_t attributes;
+  posix_spawn_file_actions_t actions;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID);
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+  pid_t child = 0;
+  const int failed =
+      posix_spawn(&child, program->c_str(), &actions, &attributes, arguments, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  posix_spawnattr_destroy(&attributes);
+  if (failed != 0) {
+    PrintError("note: {} does not start; open the address yourself\n", *program);
+    return;
+  }
+  std::thread([child] { waitpid(child, nullptr, 0); }).detach();
+}
+
+bool IsLoopback(const std::string& address) {
+  return address == "::1" || address.starts_with("127.");
+}
+
+LoadOptions MakeViewLoadOptions(const RenderOptions& options) {
+  // The samples are of the resting picture, and the worker's own.
+  RenderOptions of_scene = options;
+  of_scene.spp.reset();
+  LoadOptions load = MakeLoadOptions(of_scene);
+  load.on_progress = [](double) { ThrowIfStopped(); };
+  return load;
+}
+
+// How pictures open in a page that is made of them. HDR-FLIP takes seconds.
+PerceptualArguments ShownAs(const DisplaySettings& display) {
+  PerceptualArguments shown;
+  shown.metrics = {"ssim", "flip"};
+  shown.tonemap = ToneOperatorName(display.tone);
+  shown.exposure = display.exposure_ev;
+  return shown;
+}
+
+// The report's page of pictures, the first against the second.
+std::string PicturesPage(const std::vector<ReportPicture>& pictures,
+                         const PerceptualArguments& shown) {
+  constexpr size_t kMaxSampleBytes = size_t{256} << 20;
+  Page page;
+  const Json section = PictureSection(pictures, pictures.size() > 1 ? 1 : 0,
+                                      MakePerceptualOptions(shown), kMaxSampleBytes, &page);
+  std::string title = pictures[0].name;
+  if (pictures.size() > 1) title += " against " + pictures[1].name;
+  return ReportHtml(title, Json::array({section}), shown, page);
+}
+
+void Announce(const ViewArguments& arguments, const Server& server) {
+  const std::string& address = arguments.server.address;
+  if (!IsLoopback(address)) {
+    PrintError(
+        "warning: {} can be reached from other machines, and what is sent there is not "
+        "encrypted: put a proxy with TLS ahead of it, and name it by --origin https://HOST\n",
+        address);
+  }
+  PrintOut("{}\n", server.url());
+  FinishOutput();
+  if (!arguments.options.quiet) {
+    PrintError("nacre view: open the address above; Ctrl-C ends it\n");
+  }
+  if (!arguments.no_open) OpenBrowser(server.url());
+}
+
+// Serves until a signal, which is how it ends.
+void RunServer(Server* server, int* exit_code) {
+  try {
+    server->Run();
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kInterrupted && error.code() != ExitCode::kTerminated) throw;
+    *exit_code = static_cast<int>(error.code());
+  }
+}
+
+ServerOptions MakeServerOptions(const ViewArguments& arguments) {
+  ServerOptions options = arguments.server;
+  while (options.origin.ends_with('/')) options.origin.pop_back();
+  // A port that was asked for is asked for again.
+  options.token = options.port != 0 ? KeptToken(options.port) : MakeToken();
+  return options;
+}
+
+// Images are shown by the report's page, with no scene behind it. Files that have changed are in it
+// when it is loaded again.
+void RunImages(const ViewArguments& arguments, const CLI::App& command, int* exit_code) {
+  const RenderOptions& options = arguments.options;
+  const std::set<std::string> of_scenes = {"--size", "--spp",     "--max-error",
+                                           "--set",  "--threads", "--allow-paths"};
+  RefuseOptions(
+      command, [&](const CLI::Option& option) { return !of_scenes.contains(option.get_name()); },
+      "images", "it is for scenes, which are rendered");
+  PerceptualArguments shown = ShownAs({});
+  shown.tonemap = options.tonemap;
+  shown.exposure = options.exposure;
+  const auto keys = [&] {
+    std::vector<std::string> all;
+    for (const std::string& path : arguments.inputs) all.push_back(KeyOfFile(path));
+    return all;
+  };
+  const auto make = [&]() -> ServedPage {
+    std::vector<ReportPicture> pictures;
+    for (const std::string& path : arguments.inputs) pictures.push_back(ReadPicture(path, ""));
+    return {PicturesPage(pictures, shown), "'" + PolicySource(PageStyleSha256()) + "'",
+            "'" + PolicySource(PageScriptSha256()) + "'"};
+  };
+  std::vector<std::string> before = keys();
+  Server* running = nullptr;
+  int ticks = 0;
+  const auto tick = [&] {
+    ThrowIfStopped();
+    constexpr int kTicksBetweenLooks = 6;
+    if (++ticks % kTicksBetweenLooks != 0) return;
+    std::vector<std::string> now = keys();
+    if (now == before) return;
+    before = std::move(now);
+    try {
+      running->Serve(make());
+    } catch (const Error& error) {  // the pictures before stay
+      PrintError("{}\n", error.what());
+    }
+  };
+  Server server(MakeServerOptions(arguments), make(),
+                {[](ClientId) {}, [](ClientId) {},
+                 [](ClientId, std::string_view) {
+                   throw Error(ExitCode::kUsage, "", "images have nothing to ask for");
+                 },
+                 [](double, size_t) {}, tick});
+  running = &server;
+  Announce(arguments, server);
+  RunServer(&server, exit_code);
+}
+
+bool IsScene(const std::string& path) {
+  RefuseOtherModels(path);
+  return IsModelFile(path) || HasExtension(path, ".json");
+}
+
+void RunView(const ViewArguments& arguments, const CLI::App& command, int* exit_code) {
+  const RenderOptions& options = arguments.options;
+  ApplyTarget(options.target);
+  const std::vector<std::string>& inputs = arguments.inputs;
+  const auto scenes = std::count_if(inputs.begin(), inputs.end(), IsScene);
+  if (!inputs.empty() && scenes == 0) return RunImages(arguments, command, exit_code);
+  if (inputs.size() > 1) {
+    throw Error(ExitCode::kUsage, "nacre view", "shows one scene, or images",
+                "nacre report renders several scenes into one page");
+  }
+  const std::string scene = inputs.empty() ? "" : inputs[0];
+  const LoadOptions load = MakeViewLoadOptions(options);
+  const auto open = [&]() -> std::unique_ptr<ViewDocument> {
+    if (scene.empty()) return std::make_unique<ViewDocument>(load);
+    return std::make_unique<ViewDocument>(scene, load);
+  };
+  WorkerOptions work;
+  work.samples = options.spp.value_or(0);
+  work.max_error = options.max_error;
+  work.threads = options.threads;
+  work.display.tone = ParseToneOperator(options.tonemap);
+  work.display.exposure_ev = options.exposure;
+  work.file = scene;
+  const std::string generator = fmt::format("nacre {} ({})", kVersion, kCommit);
+  work.generator = generator;
+  work.make_report = [](const Image& a, const Image& b, const DisplaySettings& display) {
+    return PicturesPage({{"B", b, {}}, {"A", a, {}}}, ShownAs(display));
+  };
+  if (!options.size.empty()) work.given = {"--size", options.size};
+  for (const std::string& set : options.sets) {
+    work.given.emplace_back("--set");
+    work.given.push_back(set);
+  }
+  Worker worker(open, work);
+
+  const std::string title = scene.empty() ? "nacre view" : fmt::format("{} - nacre view", scene);
+  Server server(
+      MakeServerOptions(arguments),
+      MakeViewPage(title, generator, options.tonemap, options.exposure),
+      {[&](ClientId id) { worker.Opened(id); }, [&](ClientId id) { worker.Closed(id); },
+       [&](ClientId id, std::string_view text) { worker.Receive(id, text); },
+       [&](double ms, size_t bytes) { worker.Ready(ms, bytes); }, [] { ThrowIfStopped(); }});
+  Announce(arguments, server);
+  worker.Start({[&](SharedBytes frame) { server.Show(std::move(frame)); },
+                [&](ClientId id, std::string text) { server.Say(id, std::move(text)); },
+                [&](ClientId id, SharedBytes bytes) { server.Send(id, std::move(bytes)); }});
+  try {
+    RunServer(&server, exit_code);
+  } catch (...) {
+    worker.Stop();  // before the server, which it sends to
+    throw;
+  }
+  worker.Stop();
+}
+
+}  // namespace
+
+void AddViewCommand(CLI::App* app, int* exit_code) {
+  CLI::App* command = app->add_subcommand(
+      "view", "Show a scene in the browser, with a slider for everything that can be changed");
+  const auto arguments = std::make_shared<ViewArguments>();
+  command->add_option(
+      "INPUT", arguments->inputs,
+      "Scene file (.json) or model (.gltf, .glb, .obj, .ply), or images to compare; "
+      "without one, Phong and physically based spheres beside a grid");
+  command
+      ->add_option("--port", arguments->server.port,
+                   "Port to listen on; 0: one that is free. With a port the address stays the same "
+                   "from one start to the next, and open pages find the server again")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  command->add_flag("--no-open", arguments->no_open, "Open no browser, only print the address");
+  RenderOptions* const o = &arguments->options;
+  AddDisplayOptions(command, &o->tonemap, &o->exposure);
+  command->add_option("--size", o->size, "Width and height in pixels")->type_name("WxH");
+  command
+      ->add_option("--spp", o->spp,
+                   "Samples per pixel once nothing moves; the scene's if not given")
+      ->check(CLI::Range(1, 65536));
+  command
+      ->add_option("--max-error", o->max_error,
+                   "Once nothing moves, sample until each pixel's relative error is below this")
+      ->check(InRange(1e-6, 1))
+      ->type_name("E");
+  command->add_option("--set", o->sets, "Change a value of the scene, as render does; repeatable")
+      ->type_name("/POINTER=JSON")
+      ->allow_extra_args(false);
+  command
+      ->add_option(
+          "--listen", arguments->server.address,
+          "Address to listen on. Any but this machine's own (127.0.0.1, ::1) needs a proxy "
+          "with TLS ahead of it")
+      ->capture_default_str();
+  command
+      ->add_option("--origin", arguments->server.origin,
+                   "How browsers call the proxy ahead, e.g. https://nacre.example.org")
+      ->type_name("URL");
+  command->add_flag("--quiet", o->quiet, "Print nothing but the address and errors");
+  AddMachineOptions(command, o);
+  MoveBehindHelpAll(command, {"--listen", "--origin", "--quiet", "--max-error"});
+  command->footer(
+      "Examples:\n"
+      "  nacre view\n"
+      "  nacre view scenes/material_grid.json --spp 64\n"
+      "  nacre view a.exr b.exr\n"
+      "  nacre view scene.json --port 8080 --no-open");
+  command->callback([arguments, command, exit_code] { RunView(*arguments, *command, exit_code); });
+}
+
+}  // namespace nacre

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// view/document.h: the scene that pages edit, with its history. For one thread.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "render/prepared_scene.h"
+#include "scene_io/live_scene.h"
+
+namespace nacre {
+
+class ViewDocument {
+ public:
+  // A scene file or a model. Throws Error as LoadScene does.
+  ViewDocument(const std::filesystem::path& path, const LoadOptions& options);
+  // What is shown without a scene: two spheres, Phong and physically based, beside a grid.
+  explicit ViewDocument(const LoadOptions& options);
+  ViewDocument(const ViewDocument&) = delete;  // the scene's reader tells it which files it reads
+  ViewDocument& operator=(const ViewDocument&) = delete;
+
+  const Scene& scene() const { return live_.scene(); }
+  const ImageSettings& own_image() const { return live_.own_image(); }
+  PreparedScene* prepared() { return &prepared_; }
+
+  // Renders it with these settings, as LiveScene::UseImage.
+  void UseImage(const ImageSettings& image);
+  // The same of a material, until another is used or materials change.
+  void UseMaterial(size_t index, const Material& material);
+
+  // As LiveScene::Set, and kept in the history: changes of one gesture are one step of it. Gesture
+  // 0 is never the same as another. Throws Error: the scene is then the one before.
+  void Set(const std::string& pointer, const Json& value, uint64_t gesture);
+
+  // Each returns whether there was anything to do.
+  bool Undo();
+  bool Redo();
+  bool Reset();  // to the scene as it was read; a step of the history
+
+  bool can_undo() const { return !past_.empty(); }
+  bool can_redo() const { return !future_.empty(); }
+
+  // The file's tree with all changes. A model's has materials and camera of the file in it. Without
+  // "shapes" if these are too many to be listed.
+  Json Tree() const;
+  bool lists_all_shapes() const { return live_.lists_all_shapes(); }
+  // The file's tree as it was read: of a model, what it was given besides.
+  const Json& original() const { return original_; }
+  // The camera that is rendered with, every member of it.
+  Json Camera() const;
+  const std::string& name() const { return name_; }
+  // Image files of the scene's folder and of folders in it, as scenes name them: not all of very
+  // many.
+  std::vector<std::string> ImageFiles() const;
+
+  // Whether a file that the scene was read from has changed since it was read, or since the last
+  // call.
+  bool FilesChanged();
+
+ private:
+  struct Change {
+    std::string pointer;
+    Json before, after;
+  };
+  struct Step {
+    uint64_t gesture = 0;
+    std::vector<Change> changes;
+  };
+
+  void Put(const std::string& pointer, const Json& value);
+  void ListShapes();
+
+  std::string name_;
+  std::filesystem::path path_;  // empty: the built-in scene
+  std::filesystem::path folder_;
+  std::map<std::filesystem::path, std::string> files_;  // with KeyOfFile of each
+  LiveScene live_;
+  PreparedScene prepared_;
+  Json original_;
+  std::vector<Step> past_, future_;
+};
+
+}  // namespace nacre

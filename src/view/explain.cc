@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/explain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "base/printable.h"
+#include "brdf/ggx.h"
+#include "brdf/phong.h"
+#include "scene/material_parameters.h"
+#include "scene/shapes.h"
+#include "shading/light.h"
+#include "shading/scalar_material.h"
+#include "study/share.h"
+
+namespace nacre {
+namespace {
+
+constexpr double kDegrees = 180 / M_PI;
+constexpr int kCurveSteps = 90;  // of a quarter of a circle
+
+// JSON has no infinity: what is not finite is null.
+Json NumberJson(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json TripleJson(const Vec3d& v) {
+  Json json = Json::array();
+  for (int c = 0; c < 3; ++c) json.push_back(NumberJson(v[c]));
+  return json;
+}
+
+double SampleOf(const Image& pixel, const std::string& name) {
+  const Channel* const channel = pixel.Find(name);
+  return channel != nullptr && !channel->samples.empty() ? channel->samples[0] : 0;
+}
+
+Vec3d LayerOf(const Image& pixel, const std::string& layer, const char* letters = "RGB") {
+  const std::string prefix = layer.empty() ? "" : layer + ".";
+  return {SampleOf(pixel, prefix + letters[0]), SampleOf(pixel, prefix + letters[1]),
+          SampleOf(pixel, prefix + letters[2])};
+}
+
+struct Point {
+  Vec3d position, normal, to_view;
+};
+
+// The middle of a light with an extent, which its angles are told for; none of what is all around.
+std::optional<Vec3d> MiddleOf(const Light& light) {
+  const auto middle = [](const auto& kind) -> std::optional<Vec3d> {
+    if constexpr (requires { kind.center; }) return kind.center;
+    if constexpr (requires { kind.mesh; }) {
+      Vec3d sum(0, 0, 0);
+      for (const Vec3d& corner : kind.mesh->positions) sum += corner;
+      return sum / std::max(1.0, static_cast<double>(kind.mesh->positions.size()));
+    }
+    return {};
+  };
+  return std::visit(middle, light.kind);
+}
+
+// From the point towards a punctual light, and its irradiance there, shadows aside.
+struct Arrival {
+  Vec3d to_light;
+  double distance;  // infinite for directional lights
+  Rgb irradiance;   // perpendicular to the light's direction
+};
+
+std::optional<Arrival> ArrivalOf(const Light& light, const Point& point) {
+  const bool punctual = std::holds_alternative<DirectionalLight>(light.kind) ||
+                        std::holds_alternative<PointLight>(light.kind) ||
+                        std::holds_alternative<SpotLight>(light.kind);
+  if (!punctual) return {};
+  const ShadingLight prepared = PrepareLight(light, {0, 0, 0});
+  if (prepared.form == LightForm::kDirectional) {
+    return Arrival{prepared.to_light, std::numeric_limits<double>::infinity(), prepared.color};
+  }
+  const Vec3d way = prepared.position - point.position;
+  const double distance = way.length();
+  if (!(distance > 0)) return {};
+  const Vec3d to_light = way / distance;
+  // A light with the usual fall-off has its term in its colour.
+  double factor = 1 / (distance * distance);
+  if (prepared.form != LightForm::kInverseSquare) {
+    const AttenuationTerms<double> terms{prepared.attenuation.constant, prepared.attenuation.linear,
+                                         prepared.attenuation.quadratic};
+    factor = AttenuationFactor(terms, distance);
+  }
+  if (prepared.form == LightForm::kSpot) {
+    factor *= SpotFactor(prepared.cone, OneMinusCosine(-to_light, prepared.axis));
+  }
+  return Arrival{to_light, distance, prepared.color * factor};
+}
+
+Json TermsJson(const ShadingMaterial& material, const Point& point, const Vec3d& to_light) {
+  const Angles<double> a = ComputeAngles(point.normal, to_light, point.to_view);
+  Json terms = Json::object();
+  if (const auto* model = std::get_if<MicrofacetModel>(&material.model)) {
+    const double visibility = VisibilityOf(*model, a.n_dot_l, a.n_dot_v);
+    terms["alpha"] = model->alpha;
+    terms["D"] = NumberJson(GgxDistribution(a, model->alpha));
+    terms["G"] = NumberJson(4 * visibility * a.n_dot_l * a.n_dot_v);
+    terms["V"] = NumberJson(visibility);
+    terms["F"] = TripleJson(FresnelOf(*model, VDotH(a), OneMinusVDotH(a)));
+  } else if (const auto* phong = std::get_if<PhongFamilyModel>(&material.model)) {
+    const bool half = phong->model == PhongModel::kBlinnPhong;
+    const Vec3d mirrored = point.normal * (2 * a.n_dot_l) - to_light;
+    terms["shininess"] = phong->shininess;
+    if (!half) terms["r_dot_v"] = mirrored ^ point.to_view;
+    terms["lobe"] =
+        NumberJson(half ? BlinnLobe(a, phong->shininess)
+                        : PhongLobe(point.normal, to_light, point.to_view, phong->shininess));
+  }
+  return terms;
+}
+
+void AddAngles(const ShadingMaterial& material, const Point& point, const Vec3d& to_light,
+               Json* json) {
+  const double n_dot_l = point.normal ^ to_light, n_dot_v = point.normal ^ point.to_view;
+  const Vec3d sum = to_light + point.to_view;
+  const Vec3d half = sum.length() > 0 ? sum / sum.length() : point.normal;
+  (*json)["to_light"] = TripleJson(to_light);
+  (*json)["n_dot_l"] = n_dot_l;
+  (*json)["n_dot_v"] = n_dot_v;
+  (*json)["n_dot_h"] = point.normal ^ half;
+  (*json)["v_dot_h"] = point.to_view ^ half;
+  (*json)["terms"] =
+      n_dot_l > 0 && n_dot_v > 0 ? TermsJson(material, point, to_light) : Json::object();
+}
+
+Json LightJson(const Light& light, const ShadingMaterial& material, const Point& point,
+               const Image& pixel) {
+  const Vec3d rendered = LayerOf(pixel, "light." + light.name);
+  Json json = {{"name", Printable(light.name)}, {"rendered", TripleJson(rendered)}};
+  const std::optional<Arrival> arrival = ArrivalOf(light, point);
+  if (!arrival) {
+    // It comes from many directions, and the renderer samples it.
+    const std::optional<Vec3d> middle = MiddleOf(light);
+    json["state"] = middle ? "has an extent; angles to its middle" : "all around";
+    if (!middle) return json;
+    const Vec3d way = *middle - point.position;
+    const double distance = way.length();
+    json["distance"] = NumberJson(distance);
+    if (distance > 0) AddAngles(material, point, way / distance, &json);
+    return json;
+  }
+  const Vec3d& l = arrival->to_light;
+  AddAngles(material, point, l, &json);
+  const double n_dot_l = point.normal ^ l;
+  const Reflection reflected = Reflect(material, point.normal, l, point.to_view);
+  const Rgb diffuse = reflected.diffuse * arrival->irradiance;
+  const Rgb specular = reflected.specular * arrival->irradiance;
+  const double brightest = std::max({rendered.x, rendered.y, rendered.z});
+  json["distance"] = NumberJson(arrival->distance);
+  json["irradiance"] = TripleJson(arrival->irradiance);
+  json["diffuse"] = TripleJson(diffuse);
+  json["specular"] = TripleJson(specular);
+  json["state"] = !(n_dot_l > 0) ? "below the horizon"
+                  : !(brightest > 0) && std::max({diffuse.x + specular.x, diffuse.y + specular.y,
+                                                  diffuse.z + specular.z}) > 0
+                      ? "in shadow"
+                      : "lit";
+  return json;
+}
+
+// f n.l in the plane of normal and viewer, for light from -90 (the viewer's side) to 90 degrees.
+Json LobeJson(const ShadingMaterial& material, const Point& point) {
+  const double n_dot_v = point.normal ^ point.to_view;
+  Vec3d across = point.to_view - point.normal * n_dot_v;
+  if (!(across.length() > 1e-9)) {
+    // The viewer looks along the normal: any plane shows the same.
+    across = point.normal % (std::abs(point.normal.x) < 0.5 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0));
+  }
+  across.normalize();
+  Json diffuse = Json::array(), specular = Json::array();
+  for (int i = -kCurveSteps + 1; i < kCurveSteps; ++i) {
+    const double angle = i / kDegrees;
+    const Vec3d to_light = point.normal * std::cos(angle) - across * std::sin(angle);
+    const Reflection r = Reflect(material, point.normal, to_light, point.to_view);
+    const auto mean = [](const Rgb& rgb) { return (rgb.x + rgb.y + rgb.z) / 3; };
+    diffuse.push_back(NumberJson(mean(r.diffuse)));
+    specular.push_back(NumberJson(mean(r.specular)));
+  }
+  return {{"first_deg", -kCurveSteps + 1},
+          {"view_deg", -std::acos(std::clamp(n_dot_v, -1.0, 1.0)) * kDegrees},
+          {"diffuse", std::move(diffuse)},
+          {"specular", std::move(specular)}};
+}
+
+// The share of light from everywhere that is seen at an angle from the normal: [[degrees, mean of
+// the channels]...].
+Json AlbedoCurve(const ShadingMaterial& material) {
+  Json curve = Json::array();
+  for (const int degrees : {0, 10, 20, 30, 40, 50, 60, 65, 70, 75, 80, 83, 86, 89}) {
+    const Rgb share = ReflectedShare(material, ShareOf::kFurnace, std::cos(degrees / kDegrees));
+    curve.push_back({degrees, NumberJson((share.x + share.y + share.z) / 3)});
+  }
+  return curve;
+}
+
+// The albedo; of microfacets also their distribution over the half vector's angle, and Fresnel's
+// term over v.h, degree by degree.
+Json CurvesJson(const ShadingMaterial& material) {
+  Json curves = {{"albedo", AlbedoCurve(material)}};
+  const auto* const model = std::get_if<MicrofacetModel>(&material.model);
+  if (model == nullptr) return curves;
+  Json distribution = Json::array(), fresnel = Json::array();
+  const Vec3d normal(0, 0, 1);
+  for (int i = 0; i < kCurveSteps; ++i) {
+    const double cosine = std::cos(i / kDegrees), sine = std::sin(i / kDegrees);
+    const Vec3d half(sine, 0, cosine);  // light and viewer along it
+    distribution.push_back(
+        NumberJson(GgxDistribution(ComputeAngles(normal, half, half), model->alpha)));
+    const double half_sine = std::sin(i / kDegrees / 2);
+    fresnel.push_back(TripleJson(FresnelOf(*model, cosine, 2 * half_sine * half_sine)));
+  }
+  curves["distribution"] = std::move(distribution);
+  curves["fresnel"] = std::move(fresnel);
+  return curves;
+}
+
+bool IsParameterOf(const MaterialParameter& parameter, const MapTarget& target,
+                   const Material& material) {
+  constexpr double kOther = 0.40625;  // unlike any that a person chooses
+  Material changed = material;
+  parameter.set(changed, Rgb(kOther, kOther, kOther));
+  return target.factor(changed) != target.factor(material);
+}
+
+// The material with what its maps give this hit; `parameters` gets name and value of what they
+// multiply. A map is seen as the albedo of a white Lambertian that has it.
+Material MaterialAtHit(const Material& material, size_t index, const AlbedoWith& albedo_with,
+                       Json* parameters) {
+  Material at_hit = material;
+  const MaterialModel* const model = ModelOf(material);
+  if (model == nullptr) return at_hit;
+  for (const MaterialMap& map : model->maps) {
+    const TextureId texture = map.get(material);
+    if (!texture.valid() || map.target_count == 0) continue;
+    Material white = material;
+    white.model = LambertMaterial{.albedo = {1, 1, 1}, .albedo_map = texture};
+    white.vertex_colors = VertexColors::kNone;
+    const Rgb texel = albedo_with(index, white);
+    for (const MapTarget& target : TargetsOf(map)) {
+      Rgb value = target.factor(at_hit);
+      for (int c = 0; c < 3; ++c) {
+        value[c] =
+            std::clamp(value[c] * texel[target.is_color ? c : target.channel], 0.0, target.most);
+      }
+      for (const MaterialParameter& parameter : model->parameters) {
+        if (!IsParameterOf(parameter, target, material)) continue;
+        parameter.set(at_hit, value);
+        (*parameters)[std::string(parameter.name)] =
+            target.is_color ? TripleJson(value) : NumberJson(value.x);
+      }
+    }
+    map.set(at_hit, TextureId{});
+  }
+  return at_hit;
+}
+
+Vec3d ToView(const Camera& camera, const Vec3d& position) {
+  const Vec3d way = camera.projection == Projection::kPerspective
+                        ? camera.position - position
+                        : camera.position - camera.look_at;
+  return way.normalized();
+}
+
+}  // namespace
+
+Json ExplainPixel(const Scene& scene, const Image& pixel, const AlbedoWith& albedo_with) {
+  Json json = {{"value", TripleJson(LayerOf(pixel, ""))}};
+  const auto object = static_cast<size_t>(SampleOf(pixel, "id.object"));
+  const auto number = static_cast<size_t>(SampleOf(pixel, "id.material"));
+  if (object == 0 || number == 0 || number > scene.materials.size()) {
+    json["background"] = true;
+    return json;
+  }
+  Json mapped = Json::object();
+  const Material material =
+      MaterialAtHit(scene.materials[number - 1], number - 1, albedo_with, &mapped);
+  const MaterialModel* const model = ModelOf(material);
+  Point point;
+  point.position = LayerOf(pixel, "P", "XYZ");
+  point.normal = LayerOf(pixel, "N", "XYZ").normalized();
+  point.to_view = ToView(scene.camera, point.position);
+  const size_t spheres = scene.spheres.size();
+  json["shape"] = object <= spheres ? "sphere " + std::to_string(object)
+                                    : "mesh " + std::to_string(object - spheres);
+  json["material"] = Printable(material.name);
+  json["model"] = model == nullptr ? "split" : std::string(model->name);
+  json["mapped"] = std::move(mapped);
+  json["position"] = TripleJson(point.position);
+  json["normal"] = TripleJson(point.normal);
+  json["to_view"] = TripleJson(point.to_view);
+  for (const char* const layer : {"diffuse", "specular", "ambient", "emission"}) {
+    json["layers"][layer] = TripleJson(LayerOf(pixel, layer));
+  }
+  Json lights = Json::array();
+  const ShadingMaterial prepared = PrepareMaterial(material, {0, 0, 0});
+  for (const Light& light : scene.lights) {
+    if (std::holds_alternative<AmbientLight>(light.kind)) continue;
+    lights.push_back(LightJson(light, prepared, point, pixel));
+  }
+  json["lights"] = std::move(lights);
+  json["lobe"] = LobeJson(prepared, point);
+  json["curves"] = CurvesJson(prepared);
+  return json;
+}
+
+}  // namespace nacre

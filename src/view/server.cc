@@ -1,0 +1,413 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/server.h"
+
+#include <algorithm>
+#include <chrono>
+#include <deque>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/printable.h"
+#include "view/answer.h"
+#include "view/token.h"
+
+namespace nacre {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using Tcp = asio::ip::tcp;
+using boost::system::error_code;
+using Clock = std::chrono::steady_clock;
+using HttpRequest = http::request<http::empty_body>;
+using HttpResponse = http::response<http::string_body>;
+
+constexpr size_t kMaxConnections = 64;  // all together; more are closed at once
+constexpr size_t kMaxPages = 16;        // of these, with a socket
+constexpr uint32_t kMaxHeaderBytes = 8 << 10;
+constexpr size_t kMaxMessageBytes = 1 << 20;
+// A request is small, and comes from this machine.
+constexpr std::chrono::seconds kRequestTime(5);
+// A page that takes nothing for so long is gone, or asleep: it will connect again.
+constexpr std::chrono::seconds kIdleTime(60);
+// What may wait for a page that is slow.
+constexpr size_t kMaxWaitingBytes = size_t{192} << 20;
+constexpr std::chrono::milliseconds kTick(50);
+
+std::string_view View(beast::string_view text) { return {text.data(), text.size()}; }
+
+}  // namespace
+
+class PageSocket;
+
+struct Server::Impl {
+  Impl(ServerOptions server_options, ServedPage served, ServerEvents server_events)
+      : options(std::move(server_options)),
+        page(std::move(served)),
+        events(std::move(server_events)),
+        acceptor(context),
+        timer(context),
+        accept_timer(context) {}
+
+  void Listen();
+  void Accept();
+  void Tick();
+  std::string HostName() const;
+  bool IsOwnHost(std::string_view host) const;
+  bool IsOwnOrigin(std::string_view origin) const;
+  // The token is right, and so are the names that the request calls the server by.
+  unsigned Judge(const HttpRequest& request) const;
+  HttpResponse Answer(const HttpRequest& request, unsigned status) const;
+
+  ServerOptions options;
+  ServedPage page;
+  ServerEvents events;
+  size_t connections = 0;  // outlives the context, whose handlers hold connections
+  asio::io_context context{1};
+  Tcp::acceptor acceptor;
+  asio::steady_timer timer, accept_timer;
+  uint16_t port = 0;
+  ClientId last_client = 0;
+  std::map<ClientId, std::shared_ptr<PageSocket>> pages;
+  SharedBytes latest;
+};
+
+// ---- A page's WebSocket -------------------------------------------------------------------------
+
+// At most one picture is on its way to a page: it says "taken" when it has it.
+class PageSocket : public std::enable_shared_from_this<PageSocket> {
+ public:
+  PageSocket(Server::Impl* server, Tcp::socket socket, ClientId id)
+      : server_(server), socket_(std::move(socket)), id_(id) {
+    ++server_->connections;
+  }
+  ~PageSocket() { --server_->connections; }
+
+  void Accept(const HttpRequest& request) {
+    websocket::stream_base::timeout limits{};
+    limits.handshake_timeout = kRequestTime;
+    limits.idle_timeout = kIdleTime;
+    limits.keep_alive_pings = true;
+    socket_.set_option(limits);
+    socket_.read_message_max(kMaxMessageBytes);
+    socket_.auto_fragment(false);  // a picture is one frame, not nine hundred
+    socket_.binary(true);
+    socket_.async_accept(request, [self = shared_from_this()](error_code error) {
+      if (error) return;
+      self->open_ = true;
+      self->server_->pages[self->id_] = self;
+      self->server_->events.opened(self->id_);
+      self->server_->events.ready(0, 0);
+      self->Read();
+    });
+  }
+
+  void Say(std::shared_ptr<const std::string> text) { Add({std::move(text), nullptr}); }
+  void Send(SharedBytes bytes) { Add({nullptr, std::move(bytes)}); }
+
+  // There is a newer picture.
+  void Show() {
+    if (in_flight_ || shown_ == server_->latest || !server_->latest) return;
+    in_flight_ = true;
+    sent_at_ = Clock::now();
+    shown_ = server_->latest;
+    Add({nullptr, shown_});
+  }
+
+ private:
+  struct Outgoing {
+    std::shared_ptr<const std::string> text;
+    SharedBytes bytes;
+    size_t size() const { return text ? text->size() : bytes->size(); }
+  };
+
+  void Read() {
+    socket_.async_read(buffer_, [self = shared_from_this()](error_code error, size_t) {
+      if (error) return self->Close();
+      if (!self->socket_.got_text()) return self->Close();
+      const std::string text = beast::buffers_to_string(self->buffer_.data());
+      self->buffer_.consume(self->buffer_.size());
+      self->Received(text);
+      if (self->open_) self->Read();
+    });
+  }
+
+  void Received(const std::string& text) {
+    if (text == "taken") {
+      if (!std::exchange(in_flight_, false)) return;
+      const std::chrono::duration<double, std::milli> taken = Clock::now() - sent_at_;
+      const double taken_ms = taken.count();
+      const size_t taken_bytes = shown_->size();
+      if (shown_ != server_->latest) return Show();
+      return server_->events.ready(taken_ms, taken_bytes);
+    }
+    try {
+      server_->events.message(id_, text);
+    } catch (const Error& error) {
+      Say(std::make_shared<const std::string>(FaultMessage("", error)));
+    }
+  }
+
+  void Add(Outgoing message) {
+    waiting_bytes_ += message.size();
+    if (waiting_bytes_ > kMaxWaitingBytes) return Close();
+    waiting_.push_back(std::move(message));
+    if (waiting_.size() == 1) Write();
+  }
+
+  void Write() {
+    const Outgoing& next = waiting_.front();
+    socket_.text(next.text != nullptr);
+    const auto data = next.text ? asio::buffer(*next.text) : asio::buffer(*next.bytes);
+    socket_.async_write(data, [self = shared_from_this()](error_code error, size_t) {
+      if (error) return self->Close();
+      self->waiting_bytes_ -= self->waiting_.front().size();
+      self->waiting_.pop_front();
+      if (!self->waiting_.empty() && self->open_) self->Write();
+    });
+  }
+
+  void Close() {
+    if (!std::exchange(open_, false)) return;
+    beast::close_socket(beast::get_lowest_layer(socket_));
+    server_->events.closed(id_);
+    server_->pages.erase(id_);
+  }
+
+  Server::Impl* server_;
+  websocket::stream<beast::tcp_stream> socket_;
+  ClientId id_;
+  beast::flat_buffer buffer_;
+  bool open_ = false;
+  std::deque<Outgoing> waiting_;  // the first is being written
+  size_t waiting_bytes_ = 0;
+  bool in_flight_ = false;
+  Clock::time_point sent_at_;  // of the picture in flight
+  SharedBytes shown_;
+};
+
+// ---- An HTTP connection -------------------------------------------------------------------------
+
+namespace {
+
+// One request, one answer, and the connection is closed or becomes a page's socket.
+class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
+ public:
+  HttpConnection(Server::Impl* server, Tcp::socket socket)
+      : server_(server), stream_(std::move(socket)) {
+    ++server_->connections;
+  }
+  ~HttpConnection() { --server_->connections; }
+
+  void Start() {
+    parser_.header_limit(kMaxHeaderBytes);
+    parser_.body_limit(0);
+    stream_.expires_after(kRequestTime);
+    http::async_read(stream_, buffer_, parser_,
+                     [self = shared_from_this()](error_code error, size_t) {
+                       if (!error) self->Serve();
+                     });
+  }
+
+ private:
+  void Serve() {
+    const HttpRequest& request = parser_.get();
+    const unsigned status = server_->Judge(request);
+    if (status == 200 && websocket::is_upgrade(request)) {
+      stream_.expires_never();
+      if (server_->pages.size() >= kMaxPages) return Write(server_->Answer(request, 503));
+      const auto page =
+          std::make_shared<PageSocket>(server_, stream_.release_socket(), ++server_->last_client);
+      return page->Accept(request);
+    }
+    Write(server_->Answer(request, status));
+  }
+
+  void Write(HttpResponse answer) {
+    answer_ = std::move(answer);
+    stream_.expires_after(kRequestTime);
+    http::async_write(stream_, *answer_, [self = shared_from_this()](error_code, size_t) {
+      error_code ignored;
+      self->stream_.socket().shutdown(Tcp::socket::shutdown_send, ignored);
+    });
+  }
+
+  Server::Impl* server_;
+  beast::tcp_stream stream_;
+  beast::flat_buffer buffer_{kMaxHeaderBytes};
+  http::request_parser<http::empty_body> parser_;
+  std::optional<HttpResponse> answer_;
+};
+
+}  // namespace
+
+// ---- The server ---------------------------------------------------------------------------------
+
+void Server::Impl::Listen() {
+  error_code error;
+  const auto address = asio::ip::make_address(options.address, error);
+  if (error) {
+    throw Error(ExitCode::kUsage, "--listen", fmt::format("\"{}\" is no address", options.address),
+                "127.0.0.1 or ::1 for this machine alone, an address of its own for others");
+  }
+  if (address.is_unspecified() && options.origin.empty()) {
+    throw Error(
+        ExitCode::kUsage, "--listen",
+        fmt::format("{} stands for all addresses, and no browser calls it so", options.address),
+        "one address of this machine; or --origin, how browsers call the proxy ahead");
+  }
+  const Tcp::endpoint endpoint(address, options.port);
+  acceptor.open(endpoint.protocol(), error);
+  if (!error) acceptor.set_option(asio::socket_base::reuse_address(true), error);
+  if (!error) acceptor.bind(endpoint, error);
+  if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
+  if (error) {
+    throw Error(ExitCode::kUsage, fmt::format("{}:{}", options.address, options.port),
+                fmt::format("cannot listen: {}", error.message()),
+                options.port != 0 ? "another --port, or none for one that is free" : "");
+  }
+  port = acceptor.local_endpoint().port();
+}
+
+void Server::Impl::Accept() {
+  acceptor.async_accept([this](error_code error, Tcp::socket socket) {
+    if (!error && connections < kMaxConnections) {
+      error_code ignored;
+      socket.set_option(Tcp::no_delay(true), ignored);
+      std::make_shared<HttpConnection>(this, std::move(socket))->Start();
+    }
+    if (error == asio::error::operation_aborted) return;
+    if (!error) return Accept();
+    // No more files may be open: connections that end make room.
+    accept_timer.expires_after(kTick);
+    accept_timer.async_wait([this](error_code) { Accept(); });
+  });
+}
+
+void Server::Impl::Tick() {
+  timer.expires_after(kTick);
+  timer.async_wait([this](error_code) {
+    events.tick();
+    Tick();
+  });
+}
+
+std::string Server::Impl::HostName() const {
+  const bool v6 = options.address.find(':') != std::string::npos;
+  return fmt::format(fmt::runtime(v6 ? "[{}]:{}" : "{}:{}"), options.address, port);
+}
+
+bool Server::Impl::IsOwnHost(std::string_view host) const {
+  if (host == HostName() || host == fmt::format("localhost:{}", port)) return true;
+  return !options.origin.empty() && host == options.origin.substr(options.origin.find("//") + 2);
+}
+
+bool Server::Impl::IsOwnOrigin(std::string_view origin) const {
+  return origin == "http://" + HostName() || origin == fmt::format("http://localhost:{}", port) ||
+         (!options.origin.empty() && origin == options.origin);
+}
+
+unsigned Server::Impl::Judge(const HttpRequest& request) const {
+  // A page of elsewhere whose name leads here (DNS rebinding) calls the server by that name.
+  if (!IsOwnHost(View(request[http::field::host]))) return 403;
+  const std::string_view origin = View(request[http::field::origin]);
+  const bool upgrade = websocket::is_upgrade(request);
+  if ((upgrade || !origin.empty()) && !IsOwnOrigin(origin)) return 403;
+  if (request.method() != http::verb::get) return 405;
+  const std::string_view target = View(request.target());
+  const size_t slash = target.find('/', 1);
+  if (target.empty() || target[0] != '/' || slash == std::string_view::npos) return 404;
+  if (!SameToken(options.token, target.substr(1, slash - 1))) return 403;
+  const std::string_view path = target.substr(slash);
+  return path == (upgrade ? "/socket" : "/") ? 200 : 404;
+}
+
+HttpResponse Server::Impl::Answer(const HttpRequest& request, unsigned status) const {
+  HttpResponse answer(static_cast<http::status>(status), request.version());
+  answer.keep_alive(false);
+  answer.set(http::field::cache_control, "no-store");
+  answer.set("X-Content-Type-Options", "nosniff");
+  answer.set("Referrer-Policy", "no-referrer");
+  answer.set("Cross-Origin-Opener-Policy", "same-origin");
+  answer.set("Cross-Origin-Resource-Policy", "same-origin");
+  const std::string host(View(request[http::field::host]));
+  answer.set(
+      "Content-Security-Policy",
+      status == 200
+          ? fmt::format("default-src 'none'; script-src {}; style-src {}; img-src data: blob:; "
+                        "connect-src 'self' {}://{}; base-uri 'none'; form-action 'none'; "
+                        "frame-ancestors 'none'",
+                        page.script_hashes, page.style_hashes,
+                        options.origin.starts_with("https:") ? "wss" : "ws", host)
+          : "default-src 'none'; frame-ancestors 'none'");
+  answer.set(http::field::content_type,
+             status == 200 ? "text/html; charset=utf-8" : "text/plain; charset=utf-8");
+  answer.body() = status == 200   ? page.html
+                  : status == 403 ? "nacre view: this is not the address that it has printed\n"
+                  : status == 503 ? "nacre view: too many pages are open\n"
+                                  : "nacre view: there is nothing here\n";
+  answer.prepare_payload();
+  return answer;
+}
+
+Server::Server(ServerOptions options, ServedPage page, ServerEvents events)
+    : impl_(std::make_unique<Impl>(std::move(options), std::move(page), std::move(events))) {
+  impl_->Listen();
+}
+
+Server::~Server() { impl_->pages.clear(); }
+
+std::string Server::url() const {
+  const ServerOptions& options = impl_->options;
+  if (!options.origin.empty()) return fmt::format("{}/{}/", options.origin, options.token);
+  return fmt::format("http://{}/{}/", impl_->HostName(), options.token);
+}
+
+void Server::Run() {
+  impl_->Accept();
+  impl_->Tick();
+  impl_->context.run();
+}
+
+void Server::Show(SharedBytes frame) {
+  asio::post(impl_->context, [impl = impl_.get(), frame = std::move(frame)] {
+    impl->latest = frame;
+    const auto pages = impl->pages;  // a page that fails leaves
+    for (const auto& [id, page] : pages) page->Show();
+  });
+}
+
+void Server::Say(ClientId client, std::string text) {
+  asio::post(impl_->context, [impl = impl_.get(), client,
+                              text = std::make_shared<const std::string>(std::move(text))] {
+    const auto pages = impl->pages;
+    for (const auto& [id, page] : pages) {
+      if (client == 0 || id == client) page->Say(text);
+    }
+  });
+}
+
+void Server::Serve(ServedPage page) {
+  asio::post(impl_->context, [impl = impl_.get(), page = std::move(page)] { impl->page = page; });
+}
+
+void Server::Send(ClientId client, SharedBytes bytes) {
+  asio::post(impl_->context, [impl = impl_.get(), client, bytes = std::move(bytes)] {
+    const auto page = impl->pages.find(client);
+    if (page != impl->pages.end()) page->second->Send(bytes);
+  });
+}
+
+}  // namespace nacre

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// view/take.h: the picture as a file that a page takes away.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "render/render.h"
+
+namespace nacre {
+
+// Larger ones are not sent: a page and the server would hold several copies.
+inline constexpr size_t kMaxFileBytes = size_t{128} << 20;
+
+// The bytes of the EXR file that `nacre render` makes of the plan.
+std::vector<uint8_t> RenderExr(const FramePlan& plan, const RenderSettings& settings);
+
+}  // namespace nacre

@@ -1,0 +1,660 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/worker.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <new>
+#include <utility>
+
+#include "base/printable.h"
+#include "scene/material_parameters.h"
+#include "scene_io/material_json.h"
+#include "shading/material_fit.h"
+#include "view/answer.h"
+#include "view/explain.h"
+#include "view/metrics.h"
+#include "view/take.h"
+
+namespace nacre {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// What a picture may take while something moves, until a page has it: of the 33 ms from a slider's
+// event to the screen the rest is for the event's way here, and for the browser to draw.
+constexpr double kMovingMs = 24;
+// How long nothing must have moved before a picture is refined: a hand that drags moves every 8 to
+// 17 ms.
+constexpr std::chrono::milliseconds kRest(90);
+// A page that takes no picture for so long does not hold up the others.
+constexpr std::chrono::milliseconds kPatience(250);
+constexpr std::chrono::milliseconds kFilesEvery(300);
+// Between pictures that are refined, but for the first and the last: one that is on its way, all of
+// its pixels, holds up the next that moves.
+constexpr double kRefinedEveryMs = 250;
+// How long a picture must have been at rest before it is measured against those that are kept: FLIP
+// takes longer than a hand waits.
+constexpr std::chrono::milliseconds kMeasureAfter(400);
+// Of all pictures that are kept.
+constexpr size_t kMaxKeptBytes = size_t{200} << 20;
+// Of the picture's width and height, by which a frame may be smaller than it.
+constexpr std::array<int, 8> kDivisors = {1, 2, 3, 4, 6, 8, 12, 16};
+// Pixels that a page is sent at most: 33 MB. Larger pictures are shown smaller.
+constexpr double kMaxPixels = 3840.0 * 2160;
+// Scenes longer than this are told without their shapes: no page has controls for so many.
+constexpr size_t kMaxSceneText = size_t{2} << 20;
+
+double MsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+int DividedBy(int side, int divisor) { return std::max(1, (side + divisor - 1) / divisor); }
+
+// Takes the maps out of a material of a scene file: what is left needs no textures to be read.
+Json TakeMaps(Json* material) {
+  Json maps = Json::object();
+  if (!material->is_object()) return maps;
+  for (const auto& [name, value] : material->items()) {
+    if (name.ends_with("_map")) maps[name] = value;
+  }
+  for (const auto& [name, value] : maps.items()) material->erase(name);
+  return maps;
+}
+
+bool HasMap(const MaterialModel& model, std::string_view name) {
+  const auto named = [&](const auto& map) { return map.name == name; };
+  return std::any_of(model.maps.begin(), model.maps.end(), named) ||
+         std::any_of(model.normal_maps.begin(), model.normal_maps.end(), named);
+}
+
+// Gives the maps to a material of another model, those of its colour by the name that they have
+// there. Returns what cannot be kept.
+std::vector<std::string> KeepMaps(const Json& maps, std::string_view model_name, Json* material) {
+  constexpr std::array<std::string_view, 3> kOfColor = {"base_color_map", "albedo_map",
+                                                        "diffuse_map"};
+  const std::span<const MaterialModel> models = MaterialModels();
+  const auto model = std::find_if(models.begin(), models.end(),
+                                  [&](const MaterialModel& m) { return m.name == model_name; });
+  std::vector<std::string> lost;
+  for (const auto& [name, value] : maps.items()) {
+    std::vector<std::string_view> names = {name};
+    if (std::find(kOfColor.begin(), kOfColor.end(), name) != kOfColor.end()) {
+      names.insert(names.end(), kOfColor.begin(), kOfColor.end());
+    }
+    const auto found = std::find_if(names.begin(), names.end(), [&](std::string_view candidate) {
+      return model != models.end() && HasMap(*model, candidate);
+    });
+    if (found != names.end()) {
+      (*material)[std::string(*found)] = value;
+    } else {
+      lost.push_back(name);
+    }
+  }
+  return lost;
+}
+
+size_t BytesOf(const Image& image) {
+  return image.channels.size() * image.data.pixel_count() * sizeof(float);
+}
+
+// The layer's channels of an image, in the order R G B, or X Y Z.
+std::vector<const Channel*> ChannelsOf(const Image& image, const std::string& layer) {
+  std::vector<const Channel*> found;
+  const std::string prefix = layer.empty() ? "" : layer + ".";
+  for (const char* const letters : {"RGB", "XYZ"}) {
+    for (const char* letter = letters; *letter != 0; ++letter) {
+      const Channel* const channel = image.Find(prefix + *letter);
+      if (channel != nullptr && !(layer.empty() && *letters == 'X')) found.push_back(channel);
+    }
+    if (found.size() == 3) return found;
+    found.clear();
+  }
+  if (const Channel* const channel = image.Find(layer)) found.push_back(channel);
+  return found;
+}
+
+}  // namespace
+
+Worker::Worker(OpenDocument open, const WorkerOptions& options)
+    : open_(std::move(open)), options_(options), document_(open_()), display_(options.display) {}
+
+Worker::~Worker() { Stop(); }
+
+void Worker::Stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+    cancel_ = true;
+  }
+  woken_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+void Worker::Start(WorkerSinks sinks) {
+  sinks_ = std::move(sinks);
+  thread_ = std::thread([this] { Run(); });
+}
+
+void Worker::Receive(ClientId client, std::string_view message) {
+  Add(ReadRequest(client, message));
+}
+
+void Worker::Add(Request request) {
+  {
+    const std::lock_guard lock(mutex_);
+    const bool changes = request.ChangesPicture();
+    mailbox_.Add(std::move(request));
+    if (changes && refining_) cancel_ = true;
+  }
+  woken_.notify_all();
+}
+
+void Worker::Opened(ClientId client) {
+  {
+    const std::lock_guard lock(mutex_);
+    clients_.push_back(client);
+  }
+  Add({client, WelcomeRequest{}});
+}
+
+void Worker::Closed(ClientId client) {
+  const std::lock_guard lock(mutex_);
+  std::erase(clients_, client);
+}
+
+void Worker::Ready(double ms, size_t bytes) {
+  {
+    const std::lock_guard lock(mutex_);
+    ready_ = true;
+    // The mean of the last few: one may have met a busy browser.
+    if (bytes > 0) ms_per_byte_ += 0.3 * (ms / static_cast<double>(bytes) - ms_per_byte_);
+  }
+  woken_.notify_all();
+}
+
+void Worker::Run() {
+  Clock::time_point last_change = Clock::now(), last_files = Clock::now();
+  while (true) {
+    std::vector<Request> requests;
+    Next next = Next::kNothing;
+    {
+      std::unique_lock lock(mutex_);
+      refining_ = false;
+      std::erase_if(kept_, [&](const auto& kept) {
+        return std::find(clients_.begin(), clients_.end(), kept.first) == clients_.end();
+      });
+      const auto since_change = [&] { return Clock::now() - last_change; };
+      const bool to_measure = AnyToMeasure();
+      const auto has_work = [&] {
+        if (stop_ || !mailbox_.empty()) return true;
+        if (clients_.empty()) return false;
+        return moved_ || (!done_ && since_change() >= kRest) ||
+               (to_measure && since_change() >= kMeasureAfter);
+      };
+      if (!has_work()) {
+        // Until there is a request, or until it is time to refine or to look at the files.
+        const auto until = clients_.empty() || moved_ ? Clock::now() + kFilesEvery
+                           : !done_                   ? last_change + kRest
+                           : to_measure               ? last_change + kMeasureAfter
+                                                      : Clock::now() + kFilesEvery;
+        woken_.wait_until(lock, until, has_work);
+      }
+      // A picture that nobody can take yet would be old when it is sent: newer values may come.
+      if (!stop_ && (moved_ || !mailbox_.empty()) && !clients_.empty()) {
+        woken_.wait_for(lock, kPatience, [&] { return stop_ || ready_; });
+      }
+      if (stop_) return;
+      requests = mailbox_.Take();
+      cancel_ = false;
+    }
+    const bool was_moved = std::exchange(moved_, false);
+    for (const Request& request : requests) Serve(request);
+    const auto changes = [](const Request& request) { return request.ChangesPicture(); };
+    if (moved_ || std::any_of(requests.begin(), requests.end(), changes)) {
+      last_change = Clock::now();
+    }
+    moved_ |= was_moved;
+    if (requests.empty() && Clock::now() - last_files >= kFilesEvery) {
+      last_files = Clock::now();
+      CheckFiles();
+    }
+    {
+      const std::lock_guard lock(mutex_);
+      if (clients_.empty()) continue;
+      next = moved_                                                          ? Next::kMoving
+             : !done_ && Clock::now() - last_change >= kRest                 ? Next::kRefine
+             : AnyToMeasure() && Clock::now() - last_change >= kMeasureAfter ? Next::kMeasure
+                                                                             : Next::kNothing;
+      // What came meanwhile ends it at once; a request before this line has set no flag.
+      refining_ = next == Next::kRefine && mailbox_.empty();
+      if (next == Next::kRefine && !mailbox_.empty()) continue;
+      if (next == Next::kMoving) ready_ = false;
+    }
+    try {
+      if (next == Next::kMoving) RenderMoving();
+      if (next == Next::kRefine) Refine();
+      if (next == Next::kMeasure) Measure();
+    } catch (const Cancelled&) {
+      plan_.reset();  // its film is of no use any more
+    } catch (const Error& error) {
+      done_ = true;
+      moved_ = false;
+      plan_.reset();
+      SayFault(0, "", error);
+    } catch (const std::bad_alloc&) {
+      done_ = true;
+      moved_ = false;
+      plan_.reset();
+      SayFault(0, "",
+               Error(ExitCode::kInternal, "", "out of memory", "a smaller picture needs less"));
+    }
+  }
+}
+
+void Worker::Serve(const Request& request) {
+  try {
+    if (const auto* set = std::get_if<SetRequest>(&request.what)) {
+      ServeSet(request.client, *set);
+    } else if (const auto* step = std::get_if<HistoryRequest>(&request.what)) {
+      ServeHistory(*step);
+    } else if (const auto* look = std::get_if<LookRequest>(&request.what)) {
+      display_.tone = ParseToneOperator(look->tone);
+      display_.exposure_ev = look->exposure;
+      for (auto& [id, kept] : kept_) kept.measured = false;  // SSIM and FLIP are of what is seen
+      const std::string layer = std::exchange(layer_, look->layer);
+      try {
+        ParseLayers({"all", look->layer.empty() ? "albedo" : look->layer}, document_->scene());
+      } catch (const Error&) {
+        layer_ = layer;
+        throw;
+      }
+      if (layer != layer_) {
+        Changed();
+      } else if (!image_.channels.empty()) {
+        Publish(done_);
+      }
+    } else if (const auto* samples = std::get_if<SamplesRequest>(&request.what)) {
+      SendSamples(request.client, *samples);
+    } else if (const auto* explain = std::get_if<ExplainRequest>(&request.what)) {
+      Explain(request.client, *explain);
+    } else if (const auto* convert = std::get_if<ConvertRequest>(&request.what)) {
+      ServeConvert(request.client, *convert);
+    } else if (const auto* keep = std::get_if<KeepRequest>(&request.what)) {
+      Keep(request.client, keep->keep);
+    } else if (const auto* take = std::get_if<TakeRequest>(&request.what)) {
+      Take(request.client, *take);
+    } else {
+      SayScene(request.client);
+      if (image_.channels.empty()) {
+        moved_ = true;
+      } else {
+        Publish(done_);
+      }
+    }
+  } catch (const Error& error) {
+    SayFault(request.client, "", error);
+  }
+}
+
+void Worker::ServeSet(ClientId client, const SetRequest& set) {
+  plan_.reset();  // it refers to the scene
+  try {
+    document_->Set(set.pointer, set.value, set.gesture);
+  } catch (const Error& error) {
+    moved_ = true;  // the picture that was being made is gone
+    SayFault(client, set.pointer, error);
+    return;
+  }
+  Changed();
+  sinks_.say(0, JsonText({{"changed", set.pointer},
+                          {"value", set.value},
+                          {"revision", revision_},
+                          {"client", client},
+                          {"serial", set.serial},
+                          {"camera", document_->Camera()},
+                          {"undo", document_->can_undo()},
+                          {"redo", document_->can_redo()}}));
+}
+
+void Worker::ServeConvert(ClientId client, const ConvertRequest& convert) {
+  try {
+    const Json tree = document_->Tree();
+    const Json::json_pointer pointer(convert.pointer);
+    if (!tree.contains(pointer)) {
+      throw Error(ExitCode::kUsage, convert.pointer, "there is no material here");
+    }
+    Json own = tree.at(pointer);
+    const Json maps = TakeMaps(&own);
+    const MaterialFit fit = FitMaterial(MaterialFromJson(own, convert.pointer), convert.model);
+    Json fitted = MaterialJson(fit.fitted);
+    Json notes = Json::array();
+    for (const std::string& name : KeepMaps(maps, convert.model, &fitted)) notes.push_back(name);
+    ServeSet(client, {convert.pointer, std::move(fitted), convert.gesture, 0});
+    if (notes.empty() && fit.notes.empty()) return;
+    for (const std::string& note : fit.notes) notes.push_back(Printable(note));
+    sinks_.say(client, JsonText({{"not_kept", std::move(notes)}, {"convert", convert.pointer}}));
+  } catch (const Json::exception&) {
+    SayFault(client, convert.pointer,
+             Error(ExitCode::kUsage, convert.pointer, "is no JSON pointer"));
+  } catch (const Error& error) {
+    SayFault(client, convert.pointer, error);
+  }
+}
+
+void Worker::Explain(ClientId client, const ExplainRequest& request) {
+  // Of one sample through the pixel's centre, which is where its terms are computed.
+  ImageSettings image = FullImage();
+  const int divisor = FitDivisor();
+  image.width = DividedBy(image.width, divisor);
+  image.height = DividedBy(image.height, divisor);
+  image.spp = 1;
+  plan_.reset();  // it refers to the scene
+  document_->UseImage(image);
+  RenderSettings settings = Settings();
+  settings.cancel = nullptr;
+  settings.layers = {"all"};
+  const int x = std::min(request.x / divisor, image.width - 1);
+  const int y = std::min(request.y / divisor, image.height - 1);
+  settings.region = {x, y, x + 1, y + 1};
+  const auto render = [&] {
+    const FramePlan plan = MakePlan(document_->scene(), settings, document_->prepared());
+    return RenderImage(plan, settings, nullptr);
+  };
+  const auto albedo_with = [&](size_t index, const Material& other) {
+    const Material own = document_->scene().materials[index];
+    document_->UseMaterial(index, other);
+    settings.layers = {"albedo"};
+    const Image image = render();
+    document_->UseMaterial(index, own);
+    Rgb albedo;
+    for (int c = 0; c < 3; ++c) {
+      albedo[c] = image.Find(std::string("albedo.") + "RGB"[c])->samples.front();
+    }
+    return albedo;
+  };
+  const Image pixel = render();
+  Json json = ExplainPixel(document_->scene(), pixel, albedo_with);
+  json["x"] = request.x;
+  json["y"] = request.y;
+  sinks_.say(client, JsonText({{"explained", std::move(json)}, {"revision", revision_}}));
+}
+
+void Worker::ServeHistory(HistoryRequest step) {
+  plan_.reset();
+  const bool did = step == HistoryRequest::kUndo   ? document_->Undo()
+                   : step == HistoryRequest::kRedo ? document_->Redo()
+                                                   : document_->Reset();
+  Changed();
+  if (did) SayScene(0);
+}
+
+void Worker::Changed() {
+  plan_.reset();
+  ++revision_;
+  moved_ = true;
+  done_ = false;
+  for (auto& [id, kept] : kept_) kept.measured = false;
+}
+
+void Worker::SayScene(ClientId client) {
+  Json tree = document_->Tree(), original = document_->original();
+  const bool whole = document_->lists_all_shapes() && JsonText(tree).size() <= kMaxSceneText;
+  if (!whole) {
+    tree.erase("shapes");
+    original.erase("shapes");
+  }
+  Json layers = Json::array();
+  for (const Layer& layer : ParseLayers({"all"}, document_->scene())) {
+    if (layer.kind != LayerKind::kAlpha) layers.push_back(layer.name);
+  }
+  Json given = Json::array();
+  for (const std::string& word : options_.given) given.push_back(Printable(word));
+  sinks_.say(client, JsonText({{"scene", std::move(tree)},
+                               {"given", std::move(given)},
+                               {"camera", document_->Camera()},
+                               {"original", std::move(original)},
+                               {"whole", whole},
+                               {"name", Printable(document_->name())},
+                               {"file", Printable(options_.file)},
+                               {"layers", std::move(layers)},
+                               {"files", document_->ImageFiles()},
+                               {"generator", options_.generator},
+                               {"width", document_->own_image().width},
+                               {"height", document_->own_image().height},
+                               {"revision", revision_},
+                               {"client", client},
+                               {"banner", banner_},
+                               {"undo", document_->can_undo()},
+                               {"redo", document_->can_redo()}}));
+}
+
+void Worker::SayFault(ClientId client, const std::string& pointer, const Error& error) {
+  sinks_.say(client, FaultMessage(pointer, error));
+}
+
+void Worker::CheckFiles() {
+  if (!document_->FilesChanged()) return;
+  try {
+    std::unique_ptr<ViewDocument> read = open_();
+    plan_.reset();
+    document_ = std::move(read);
+    banner_.clear();
+    Changed();
+    SayScene(0);
+  } catch (const Error& error) {
+    // The picture stays: it is the last good one.
+    banner_ = error.what();
+    sinks_.say(0, JsonText({{"banner", banner_}}));
+  }
+}
+
+void Worker::SendSamples(ClientId client, const SamplesRequest& request) {
+  std::vector<const Channel*> channels;
+  if (!image_.channels.empty()) channels = ChannelsOf(image_, request.layer);
+  FrameHead head;
+  head.revision = revision_;
+  head.samples = request.id;
+  head.of_samples = static_cast<uint32_t>(channels.size());
+  head.width = static_cast<uint32_t>(channels.empty() ? 0 : image_.data.width());
+  head.height = static_cast<uint32_t>(channels.empty() ? 0 : image_.data.height());
+  head.done = done_ ? 1 : 0;
+  sinks_.send(client, SampleBytes(head, channels));
+}
+
+// ---- A and B, and what is taken away ------------------------------------------------------------
+
+void Worker::Keep(ClientId client, bool keep) {
+  kept_.erase(client);
+  size_t bytes = 0;
+  for (const auto& [id, kept] : kept_) bytes += BytesOf(*kept.image);
+  if (keep && done_ && bytes + BytesOf(image_) > kMaxKeptBytes) {
+    throw Error(ExitCode::kUsage, "", "pictures that are kept as A take too much memory",
+                "a smaller picture, or fewer pages that keep one");
+  }
+  if (keep && done_) kept_[client] = {std::make_shared<const Image>(image_)};
+  sinks_.say(client, JsonText({{"kept", keep && done_}, {"revision", revision_}}));
+}
+
+bool Worker::AnyToMeasure() const {
+  return done_ && std::any_of(kept_.begin(), kept_.end(),
+                              [](const auto& kept) { return !kept.second.measured; });
+}
+
+void Worker::Measure() {
+  for (auto& [client, kept] : kept_) {
+    if (std::exchange(kept.measured, true)) continue;
+    Json metrics;  // null: the pictures are of different sizes
+    if (kept.image->data == image_.data) metrics = BeautyMetricsJson(image_, *kept.image, display_);
+    sinks_.say(client, JsonText({{"metrics", std::move(metrics)}, {"revision", revision_}}));
+  }
+}
+
+void Worker::Take(ClientId client, TakeRequest what) {
+  {
+    const std::lock_guard lock(mutex_);
+    refining_ = true;  // a change ends it
+  }
+  SharedBytes bytes;
+  try {
+    bytes = what == TakeRequest::kExr ? TakeExr() : TakeReport(client);
+  } catch (const Cancelled&) {
+    throw Error(ExitCode::kUsage, "", "the scene has changed meanwhile", "take it away again");
+  }
+  if (bytes->size() > kMaxFileBytes) {
+    throw Error(ExitCode::kUsage, "", "the file is too large to be sent",
+                "the command line makes it: nacre render, nacre report");
+  }
+  sinks_.send(client, std::move(bytes));
+}
+
+SharedBytes Worker::TakeExr() {
+  plan_.reset();  // it refers to the scene
+  document_->UseImage(FullImage());
+  RenderSettings settings = Settings();
+  settings.layers = {"all"};
+  if (options_.max_error > 0) {
+    settings.max_error = options_.max_error;
+    settings.max_samples = options_.samples > 0 ? options_.samples : settings.max_samples;
+  }
+  const FramePlan plan = MakePlan(document_->scene(), settings, document_->prepared());
+  return FileBytes(FileKind::kExr, RenderExr(plan, settings));
+}
+
+SharedBytes Worker::TakeReport(ClientId client) {
+  const auto kept = kept_.find(client);
+  if (kept == kept_.end() || !options_.make_report) {
+    throw Error(ExitCode::kUsage, "", "there is no A to compare with", "keep a picture as A first");
+  }
+  if (!done_) {
+    throw Error(ExitCode::kUsage, "", "the picture is not finished", "take it away once it is");
+  }
+  const std::string html = options_.make_report(*kept->second.image, image_, display_);
+  return FileBytes(FileKind::kReport, std::vector<uint8_t>(html.begin(), html.end()));
+}
+
+// ---- Rendering ----------------------------------------------------------------------------------
+
+RenderSettings Worker::Settings() {
+  RenderSettings settings;
+  settings.threads = options_.threads;
+  settings.cancel = &cancel_;
+  if (!layer_.empty()) settings.layers = {layer_};
+  return settings;
+}
+
+ImageSettings Worker::FullImage() const {
+  ImageSettings image = document_->own_image();
+  if (options_.samples > 0) image.spp = options_.samples;
+  return image;
+}
+
+int Worker::FitDivisor() const {
+  const ImageSettings image = document_->own_image();
+  for (const int divisor : kDivisors) {
+    if (static_cast<double>(image.width) / divisor * image.height / divisor <= kMaxPixels) {
+      return divisor;
+    }
+  }
+  return 32;
+}
+
+void Worker::Plan(int divisor) {
+  plan_.reset();
+  ImageSettings image = FullImage();
+  image.width = DividedBy(image.width, divisor);
+  image.height = DividedBy(image.height, divisor);
+  document_->UseImage(image);
+  plan_.emplace(MakePlan(document_->scene(), Settings(), document_->prepared()));
+  film_ = {};
+  image_ = EmptyImage(*plan_);
+  planned_divisor_ = divisor;
+}
+
+void Worker::RenderMoving() {
+  const auto start = Clock::now();
+  Plan(std::max(divisor_, FitDivisor()));
+  RenderPass(*plan_, Settings(), 1, &film_, [&](const Strip& strip) { CopyStrip(strip, &image_); });
+  moved_ = false;
+  render_ms_ = MsSince(start);
+  done_ =
+      plan_->scene->image.spp == 1 && planned_divisor_ == FitDivisor() && !(options_.max_error > 0);
+  Publish(done_);
+  // The first picture makes all that later ones keep: it says nothing of these.
+  if (revision_ <= 1) return;
+  double way_ms = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    way_ms = ms_per_byte_ * 4.0 * static_cast<double>(image_.data.pixel_count());
+  }
+  Adapt(render_ms_ + way_ms);
+}
+
+// The next divisor, from what this picture took: at once smaller, and larger by a step if there is
+// time to spare.
+void Worker::Adapt(double ms) {
+  const auto place = std::find(kDivisors.begin(), kDivisors.end(), divisor_);
+  if (ms > kMovingMs) {
+    const double wanted = divisor_ * std::sqrt(ms / kMovingMs);
+    const auto enough =
+        std::find_if(place, kDivisors.end() - 1, [&](int d) { return d >= wanted; });
+    divisor_ = *enough;
+  } else if (place != kDivisors.begin()) {
+    const double larger = *(place - 1);
+    if (ms * (divisor_ / larger) * (divisor_ / larger) < 0.8 * kMovingMs) divisor_ = *(place - 1);
+  }
+}
+
+void Worker::Refine() {
+  const auto start = Clock::now();
+  const int full = FitDivisor();
+  RenderSettings settings = Settings();
+  if (options_.max_error > 0 && plan_ && planned_divisor_ == full && film_.samples > 0) {
+    settings.max_error = options_.max_error;
+    settings.max_samples = options_.samples > 0 ? options_.samples : settings.max_samples;
+    plan_.reset();
+    FramePlan plan = MakePlan(document_->scene(), settings, document_->prepared());
+    image_ = RenderImage(plan, settings, nullptr);
+    plan_.emplace(std::move(plan));
+    render_ms_ = MsSince(start);
+    done_ = true;
+    return Publish(true);
+  }
+  if (!plan_ || planned_divisor_ != full) Plan(full);
+  const int spp = plan_->scene->image.spp;
+  double last_shown = film_.samples == 0 ? -kRefinedEveryMs : 0;
+  do {
+    const int end = std::min(std::max(1, 2 * film_.samples), spp);
+    RenderPass(*plan_, settings, end, &film_,
+               [&](const Strip& strip) { CopyStrip(strip, &image_); });
+    // Pictures follow one another no faster than pages can show them beside the rendering.
+    if (film_.samples < spp && MsSince(start) - last_shown < kRefinedEveryMs) continue;
+    last_shown = MsSince(start);
+    render_ms_ = last_shown;
+    Publish(film_.samples == spp && !(options_.max_error > 0));
+  } while (film_.samples < spp && !cancel_ && !(options_.max_error > 0));
+  done_ = film_.samples == spp && !(options_.max_error > 0);
+}
+
+void Worker::Publish(bool done) {
+  std::vector<const Channel*> channels = ChannelsOf(image_, layer_);
+  if (channels.empty()) channels = ChannelsOf(image_, "");
+  const std::array<const float*, 3> rgb = {channels[0]->samples.data(),
+                                           channels[channels.size() > 1 ? 1 : 0]->samples.data(),
+                                           channels[channels.size() > 2 ? 2 : 0]->samples.data()};
+  const ImageSettings own = document_->own_image();
+  FrameHead head;
+  head.revision = revision_;
+  head.width = static_cast<uint32_t>(image_.data.width());
+  head.height = static_cast<uint32_t>(image_.data.height());
+  head.frame_width = static_cast<uint32_t>(own.width);
+  head.frame_height = static_cast<uint32_t>(own.height);
+  head.samples = static_cast<uint32_t>(film_.samples);
+  head.of_samples = static_cast<uint32_t>(FullImage().spp);
+  head.done = done ? 1 : 0;
+  head.render_us = static_cast<uint32_t>(std::min(1e3 * render_ms_, 4e9));
+  sinks_.show(PictureBytes(head, rgb, display_));
+}
+
+}  // namespace nacre

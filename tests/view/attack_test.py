@@ -1,0 +1,325 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What a stranger on this machine, or a page of elsewhere, gets from `nacre view`: nothing.
+
+Usage: attack_test.py PROGRAM SOURCE_FOLDER [UNITTEST-ARGUMENTS...]
+"""
+import json
+import os
+import pathlib
+import random
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+from server import Server
+
+PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+SCENE = SOURCE / 'scenes/first_scene.json'
+SMALL = ('--size', '64x36', '--spp', '4', '--quiet')
+
+
+def done(message):
+    return message.get('kind') == 1 and message['done'] == 1
+
+
+class AttackTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.server = Server(PROGRAM, SCENE, *SMALL)
+        cls.addClassCleanup(cls.server.close)
+
+    def tearDown(self):
+        """Whatever was tried, a page is served as before."""
+        page = self.server.upgrade()
+        self.assertTrue(hasattr(page, 'until'), page)
+        page.until(done)
+        page.close()
+
+    def page(self):
+        page = self.server.upgrade()
+        page.until(done)
+        return page
+
+    # ---- Who is let in ----
+
+    def test_the_page_and_its_policy(self):
+        status, headers, body = self.server.request(f'/{self.server.token}/')
+        self.assertEqual(status, 200)
+        self.assertIn(b'<script type="application/json"', body)
+        policy = headers['content-security-policy']
+        self.assertIn("default-src 'none'", policy)
+        self.assertIn("script-src 'sha256-", policy)
+        self.assertNotIn('unsafe', policy)
+        self.assertEqual(headers['referrer-policy'], 'no-referrer')
+        self.assertEqual(headers['cache-control'], 'no-store')
+        self.assertEqual(headers['x-content-type-options'], 'nosniff')
+        self.assertNotIn('access-control-allow-origin', headers)
+
+    def test_tokens_are_new_and_long(self):
+        with Server(PROGRAM, SCENE, *SMALL) as other:
+            self.assertNotEqual(other.token, self.server.token)
+            self.assertRegex(other.token, '^[0-9a-f]{32}$')
+
+    def test_wrong_tokens(self):
+        token = self.server.token
+        wrong = ['', 'x', token[:-1], token + '0', token[:-1] + ('0' if token[-1] != '0' else '1'), token.upper() + 'A',
+                 '%00', '..', '0' * 4000]
+        for path in wrong:
+            status, _, body = self.server.request(f'/{path}/')
+            self.assertIn(status, (403, 404), path)
+            self.assertNotIn(token.encode(), body)
+            self.assertIn(self.server.upgrade(f'/{path}/socket'), (403, 404), path)
+        self.assertEqual(self.server.request('/')[0], 404)
+        for path in ('/etc/passwd', '/../first_scene.json', '/socket', '/page.js', '//'):
+            self.assertIn(self.server.request(f'/{token}{path}')[0], (403, 404), path)
+
+    def test_wrong_hosts(self):
+        path = f'/{self.server.token}/'
+        for host in (None, '', 'evil.example', f'evil.example:{self.server.port}', '127.0.0.1', 'localhost',
+                     f'127.0.0.1:{self.server.port}.evil.example', f'127.0.0.2:{self.server.port}'):
+            self.assertEqual(self.server.request(path, Host=host)[0], 403, host)
+            self.assertEqual(self.server.upgrade(Host=host), 403, host)
+        self.assertEqual(self.server.request(path, Host=f'localhost:{self.server.port}')[0], 200)
+
+    def test_wrong_origins(self):
+        for origin in (None, 'null', 'https://evil.example', 'http://127.0.0.1', 'http://localhost',
+                       f'https://127.0.0.1:{self.server.port}', f'http://127.0.0.1:{self.server.port + 1}',
+                       f'http://127.0.0.1:{self.server.port}.evil.example'):
+            self.assertEqual(self.server.upgrade(Origin=origin), 403, origin)
+            if origin is not None:
+                self.assertEqual(self.server.request(f'/{self.server.token}/', Origin=origin)[0], 403, origin)
+
+    def test_other_methods_and_long_heads(self):
+        path = f'/{self.server.token}/'
+        for method in ('POST', 'PUT', 'DELETE', 'OPTIONS', 'TRACE', 'HEAD', 'PROPFIND'):
+            self.assertEqual(self.server.request(path, method)[0], 405, method)
+        self.assertEqual(self.server.request(path, X_Long='x' * 20000)[0], 0)  # closed
+        self.assertEqual(self.server.request(path, Content_Length='1000000000')[0], 0)
+
+    # ---- What is too much ----
+
+    def test_two_hundred_connections(self):
+        page, idle = self.page(), []
+        try:
+            for _ in range(200):
+                idle.append(socket.create_connection(('127.0.0.1', self.server.port), 5))
+            page.send({'set': '/materials/red/roughness', 'value': 0.4})
+            page.until(lambda m: 'changed' in m)
+        finally:
+            for connection in idle:
+                connection.close()
+            page.close()
+        time.sleep(0.2)
+
+    def test_half_and_slow_requests_are_dropped(self):
+        with self.server.connect() as half, self.server.connect() as slow:
+            half.sendall(b'GET / HTTP/1.1\r\nHost: ')
+            start = time.monotonic()
+            with self.assertRaises(OSError):
+                while time.monotonic() - start < 20:
+                    slow.sendall(b'G')
+                    time.sleep(0.2)
+            self.assertEqual(half.recv(10), b'')
+            self.assertLess(time.monotonic() - start, 10)
+
+    def test_sixteen_pages_and_no_more(self):
+        pages = [self.page() for _ in range(16)]
+        self.assertEqual(self.server.upgrade(), 503)
+        for page in pages:
+            page.close()
+        time.sleep(0.3)
+
+    def test_bad_frames(self):
+        def oversized(page):
+            page.frame(page.TEXT, b'', length=1 << 40)
+
+        def too_long(page):
+            page.send('"' + 'x' * (1 << 20) + '"')
+
+        def unmasked(page):
+            page.frame(page.TEXT, b'{}', masked=False)
+
+        def unknown_opcode(page):
+            page.frame(3, b'')
+
+        def long_ping(page):
+            page.frame(page.PING, b'x' * 200)
+
+        def continuation_of_nothing(page):
+            page.frame(0, b'x')
+
+        def binary(page):
+            page.frame(page.BINARY, b'{}')
+
+        def no_utf8(page):
+            page.frame(page.TEXT, b'\xff\xfe')
+
+        for attack in (oversized, too_long, unmasked, unknown_opcode, long_ping, continuation_of_nothing, binary,
+                       no_utf8):
+            with self.subTest(attack.__name__):
+                page = self.page()
+                with self.assertRaises(OSError):  # it is closed
+                    attack(page)
+                    for _ in range(1000):
+                        page.receive()
+                page.close()
+
+    # ---- What a page says ----
+
+    def fault_of(self, page, message):
+        page.send(message)
+        return page.until(lambda m: 'fault' in m)
+
+    def test_nonsense_gets_faults(self):
+        page = self.page()
+        for message in ('', '{', 'null', '[]', '{}', '{"set": 1, "value": 2}', '{"set": "/image/spp"}',
+                        '{"look": "no such"}', '{"history": "rewind"}', '{"set": "/image/spp", "value": 1, "gesture": -1}',
+                        '{"samples": "", "id": 1e10}', '[' * 5000, '{"set": "", "set": "", "value": 1}',
+                        '{"set": "/image/spp", "value": 1e999}'):
+            faults = self.fault_of(page, message)['faults']
+            self.assertTrue(faults and faults[0]['what'], message)
+        for pointer, value in (('/materials/red/roughness', 7), ('/materials/red/roughnes', 0.5), ('/nowhere', 1),
+                               ('no pointer', 1), ('/materials/none', 3), ('', 3), ('/lights/key/type', 'laser'),
+                               ('/image/width', 1e9), ('/shapes/7', {}), ('/shapes/-1/radius', 1)):
+            answer = self.fault_of(page, {'set': pointer, 'value': value})
+            self.assertEqual(answer['fault'], pointer)
+            self.assertTrue(answer['faults'][0]['what'])
+        # The scene is what it was.
+        page.send({'set': '/materials/red/roughness', 'value': 0.3})
+        self.assertIn('changed', page.until(lambda m: 'changed' in m or 'fault' in m))
+        page.close()
+
+    def test_files_of_other_folders(self):
+        with tempfile.TemporaryDirectory() as folder:
+            secret = pathlib.Path(folder, 'secret.png')
+            secret.write_bytes(b'\x89PNG')
+            page = self.page()
+            for name in (str(secret), os.path.relpath(secret, SOURCE / 'scenes'), '/etc/passwd', '/dev/zero',
+                         '../README.md'):
+                answer = self.fault_of(page, {'set': '/textures/t', 'value': {'file': name}})
+                self.assertTrue(answer['faults'], name)
+            page.close()
+
+    def test_a_scene_too_large(self):
+        page, before = self.page(), self.server.memory_mib()
+        cloud = {'type': 'cloud', 'count': 1e8, 'material': 'red', 'box': [[-1, -1, -1], [1, 1, 1]], 'radius': 0.01}
+        self.fault_of(page, {'set': '/shapes', 'value': [cloud]})
+        self.assertLess(self.server.memory_mib() - before, 300)
+        page.close()
+
+    def test_a_thousand_random_messages(self):
+        rng = random.Random(7)
+        names = ['set', 'value', 'look', 'history', 'samples', 'id', 'gesture', 'serial', 'exposure', 'layer', 'x']
+        values = [0, 1, -1, 1e30, 1e308, True, None, '', 'neutral', 'undo', 'redo', 'reset', '/materials/red/roughness',
+                  '/lights/key/position', '/camera', '/image', '', 'N', 'all', [], {}, [1, 2, 3], {'a': {}}, 'é\u202e\x1b[2J']
+        page = self.page()
+        # The picture stays small.
+        for _ in range(1000):
+            message = {rng.choice(names): rng.choice(values) for _ in range(rng.randrange(4))}
+            text = json.dumps(message).encode()
+            if rng.random() < 0.3:
+                text = bytes(rng.choice(text or b'x') for _ in range(len(text)))
+            page.send(text)
+        page.send({'history': 'reset'})
+        page.send({'set': '/materials/red/roughness', 'value': 0.25, 'serial': 4711})
+        page.until(lambda m: m.get('serial') == 4711)
+        page.send({'history': 'reset'})
+        page.close()
+
+    def test_a_page_that_takes_nothing(self):
+        """Pictures do not pile up for it, and do not wait for it."""
+        lazy = self.server.upgrade()
+        page, before = self.page(), self.server.memory_mib()
+        for i in range(50):
+            page.send({'set': '/materials/red/roughness', 'value': 0.2 + 0.01 * i, 'serial': i + 1})
+            page.until(lambda m, i=i: m.get('serial') == i + 1)
+        self.assertLess(self.server.memory_mib() - before, 50)
+        lazy.close()
+        page.close()
+
+
+class EndTest(unittest.TestCase):
+    """How it ends."""
+
+    def test_signals(self):
+        # A terminal that is closed sends the last one.
+        for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, -signal.SIGHUP)):
+            server = Server(PROGRAM, SCENE, '--size', '1920x1080', '--spp', '4096')
+            page = server.upgrade()
+            page.until(lambda m: m.get('kind') == 1)
+            start = time.monotonic()
+            server.process.send_signal(number)
+            self.assertEqual(server.process.wait(20), code)
+            self.assertLess(time.monotonic() - start, 5)
+            page.close()
+            server.close()
+
+    def test_the_port_is_free_again_and_taken_ports_are_told(self):
+        with Server(PROGRAM, SCENE, *SMALL) as server:
+            port = server.port
+            second = subprocess.run([PROGRAM, 'view', '--no-open', '--port', str(port), SCENE], capture_output=True,
+                                    text=True, timeout=60, check=False)
+            self.assertEqual(second.returncode, 64)
+            self.assertIn('cannot listen', second.stderr)
+            self.assertEqual(second.stdout, '')
+        with Server(PROGRAM, SCENE, *SMALL, '--port', port) as again:
+            self.assertEqual(again.port, port)
+
+    def test_addresses_for_others(self):
+        with Server(PROGRAM, SCENE, *SMALL, '--listen', '127.0.0.2') as server:
+            self.assertTrue(server.url.startswith('http://127.0.0.2:'))
+        # All addresses are none that a browser says; behind a proxy it says the proxy's.
+        command = [PROGRAM, 'view', '--no-open', *SMALL, '--listen', '0.0.0.0']
+        refused = subprocess.run([*command, SCENE], capture_output=True, text=True, timeout=60, check=False)
+        self.assertEqual((refused.returncode, refused.stdout), (64, ''))
+        self.assertIn('--origin', refused.stderr)
+        with Server(PROGRAM, SCENE, *SMALL, '--listen', '0.0.0.0', '--origin', 'https://nacre.example/') as server:
+            self.assertTrue(server.url.startswith('https://nacre.example/'))
+            self.assertIn('TLS', server.process.stderr.readline())
+
+    def test_a_display_opens_a_browser(self):
+        with tempfile.TemporaryDirectory() as folder:
+            opened, opener = pathlib.Path(folder, 'opened'), pathlib.Path(folder, 'xdg-open')
+            opener.write_text(f'#!/bin/sh\necho noise\necho "$1" > {opened}.new\nmv {opened}.new {opened}\n', encoding='utf-8')
+            opener.chmod(0o755)
+            for path, display in ((f'{folder}:{os.environ["PATH"]}', ':7'), (f'{folder}:{os.environ["PATH"]}', None), (folder, ':7')):
+                opened.unlink(missing_ok=True)
+                if path == folder:
+                    opener.unlink()
+                environment = {k: v for k, v in os.environ.items() if k not in ('DISPLAY', 'WAYLAND_DISPLAY')}
+                environment.update({'PATH': path}, **({'DISPLAY': display} if display else {}))
+                process = subprocess.Popen([PROGRAM, 'view', SCENE, *SMALL], env=environment, stdout=subprocess.PIPE,
+                                           stderr=subprocess.PIPE, text=True)
+                url = process.stdout.readline().strip()
+                end = time.monotonic() + (20 if display and path != folder else 0.5)
+                while not opened.exists() and time.monotonic() < end:
+                    time.sleep(0.05)
+                process.send_signal(signal.SIGINT)
+                out, errors = process.communicate(timeout=20)
+                self.assertEqual((process.returncode, out), (130, ''))
+                self.assertEqual(opened.exists(), bool(display) and path != folder)
+                if opened.exists():
+                    self.assertEqual(opened.read_text(encoding='utf-8').strip(), url)
+                self.assertEqual('no xdg-open' in errors, path == folder)
+
+    def test_broken_scenes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = pathlib.Path(folder, 'broken.json')
+            scene.write_text('{"nacre": 1, "materials": {"a": {"model": "phung"}}}', encoding='utf-8')
+            outcome = {}
+            for command in (['view', '--no-open'], ['render', '-o', 'null:']):
+                result = subprocess.run([PROGRAM, *command, str(scene)], capture_output=True, text=True, timeout=60,
+                                        check=False)
+                self.assertEqual(result.returncode, 65, result.stderr)
+                self.assertEqual(result.stdout, '')
+                outcome[command[0]] = result.stderr
+            self.assertEqual(outcome['view'], outcome['render'])
+
+
+if __name__ == '__main__':
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

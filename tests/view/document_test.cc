@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// view/document_test.cc: the scene that pages edit: its history, and what is refused.
+#include "view/document.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <catch2/catch.hpp>
+
+#include "base/error.h"
+
+namespace nacre {
+namespace {
+
+constexpr char kRoughness[] = "/materials/PBR/roughness";
+
+double Roughness(const ViewDocument& document) {
+  return document.Tree().at(Json::json_pointer(kRoughness)).get<double>();
+}
+
+TEST_CASE("changes of one gesture are one step") {
+  ViewDocument document(LoadOptions{});
+  const Json before = document.Tree();
+  document.Set(kRoughness, 0.5, 1);
+  document.Set(kRoughness, 0.6, 1);
+  document.Set(kRoughness, 0.7, 2);
+  CHECK(document.Undo());
+  CHECK(Roughness(document) == 0.6);
+  CHECK(document.Undo());
+  CHECK(document.Tree() == before);
+  CHECK_FALSE(document.Undo());
+  CHECK(document.Redo());
+  CHECK(document.Redo());
+  CHECK_FALSE(document.Redo());
+  CHECK(Roughness(document) == 0.7);
+  document.Undo();
+  document.Set(kRoughness, 0.1, 3);
+  CHECK_FALSE(document.can_redo());
+}
+
+TEST_CASE("members that a change has made go with it") {
+  ViewDocument document(LoadOptions{});
+  const Json before = document.Tree();
+  document.Set("/image/filter/type", "gaussian", 1);
+  document.Set("/camera", Json{{"position", {0, 0, 5}}}, 2);
+  document.Set("/materials/new", Json{{"model", "lambert"}}, 3);
+  for (int i = 0; i < 3; ++i) CHECK(document.Undo());
+  CHECK(document.Tree() == before);
+}
+
+TEST_CASE("reset is a step like others") {
+  ViewDocument document(LoadOptions{});
+  const Json before = document.Tree();
+  CHECK_FALSE(document.Reset());
+  document.Set(kRoughness, 0.9, 1);
+  CHECK(document.Reset());
+  CHECK(document.Tree() == before);
+  CHECK(document.Undo());
+  CHECK(Roughness(document) == 0.9);
+}
+
+TEST_CASE("what is refused changes nothing") {
+  ViewDocument document(LoadOptions{});
+  const Json before = document.Tree();
+  CHECK_THROWS_AS(document.Set(kRoughness, 2, 1), Error);
+  CHECK_THROWS_AS(document.Set("roughness", 0.5, 1), Error);
+  CHECK_THROWS_AS(document.Set("/nowhere/at/all", 0.5, 1), Error);
+  CHECK(document.Tree() == before);
+  CHECK_FALSE(document.can_undo());
+}
+
+std::filesystem::path TemporaryFile() {
+  return std::filesystem::temp_directory_path() / "nacre_view_document_test.json";
+}
+
+Json SphereJson(int i) {
+  return {{"type", "sphere"}, {"center", {i, 0, 0}}, {"radius", 0.5}, {"material", "red"}};
+}
+
+TEST_CASE("shapes are listed where a change needs it, and never lost") {
+  for (const int count : {2, 1500}) {
+    CAPTURE(count);
+    Json scene = {{"nacre", 1}, {"materials", {{"red", {{"model", "lambert"}}}}}};
+    for (int i = 0; i < count; ++i) scene["shapes"].push_back(SphereJson(i));
+    const std::filesystem::path path = TemporaryFile();
+    std::ofstream(path) << scene.dump();
+    ViewDocument document(path, LoadOptions{});
+    CHECK(document.lists_all_shapes() == (count == 2));
+    CHECK(document.Tree().contains("shapes") == (count == 2));
+    document.Set("/materials/red/albedo", 0.25, 1);
+    CHECK(document.lists_all_shapes() == (count == 2));
+    document.Set("/shapes/1/radius", 0.25, 2);
+    CHECK(document.Tree()["shapes"].size() == static_cast<size_t>(count));
+    CHECK(document.scene().spheres[1].radius == 0.25);
+    CHECK(document.Undo());
+    CHECK(document.Undo());
+    CHECK(document.Tree() == scene);
+    document.Set("/background", 1, 3);
+    CHECK(document.Reset());
+    CHECK(document.Tree() == scene);
+    CHECK(document.scene().spheres.size() == static_cast<size_t>(count));
+    std::filesystem::remove(path);
+  }
+}
+
+TEST_CASE("files are watched") {
+  const std::filesystem::path path = TemporaryFile();
+  const auto write = [&](const char* text) { std::ofstream(path) << text; };
+  write(R"({"nacre": 1})");
+  ViewDocument document(path, LoadOptions{});
+  CHECK_FALSE(document.FilesChanged());
+  write(R"({"nacre": 1, "background": 1})");
+  CHECK(document.FilesChanged());
+  CHECK_FALSE(document.FilesChanged());
+  std::filesystem::remove(path);
+  CHECK(document.FilesChanged());
+}
+
+}  // namespace
+}  // namespace nacre

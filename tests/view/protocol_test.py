@@ -1,0 +1,285 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What `nacre view` answers a page: pictures, samples, explanations, and how it bears use.
+
+Usage: protocol_test.py PROGRAM SOURCE_FOLDER [UNITTEST-ARGUMENTS...]
+"""
+import json
+import math
+import os
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / 'report'))
+import pictures  # noqa: E402
+from server import Server  # noqa: E402
+
+PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+SCENE = SOURCE / 'scenes/first_scene.json'
+SIZE = ('--size', '160x90')
+
+
+def is_done(message):
+    return message.get('kind') == 1 and message['done'] == 1
+
+
+class ProtocolTest(unittest.TestCase):
+    def open(self, *arguments):
+        server = Server(PROGRAM, *(arguments or (SCENE, *SIZE, '--spp', 8)), '--quiet')
+        self.addCleanup(server.close)
+        page = server.upgrade()
+        self.addCleanup(page.close)
+        return server, page
+
+    def set(self, page, pointer, value, **more):
+        page.send({'set': pointer, 'value': value, **more})
+        answer = page.until(lambda m: 'changed' in m or 'fault' in m)
+        self.assertIn('changed', answer, answer)
+        return answer
+
+    def rested(self, page, revision):
+        return page.until(lambda m: is_done(m) and m['revision'] >= revision)
+
+    def render(self, folder, *arguments):
+        png = pathlib.Path(folder, 'out.png')
+        subprocess.run([PROGRAM, 'render', *map(str, arguments), '-o', png, '--quiet'], check=True, timeout=120)
+        return [[list(pixel) for pixel in row] for row in pictures.read_png(png)]
+
+    def picture(self, head):
+        pixels = head['pixels']
+        return [[list(pixels[4 * (y * head['width'] + x):][:3]) for x in range(head['width'])]
+                for y in range(head['height'])]
+
+    def test_the_resting_picture_is_that_of_render(self):
+        _, page = self.open()
+        with tempfile.TemporaryDirectory() as folder:
+            first = page.until(is_done)
+            self.assertEqual((first['samples'], first['of_samples']), (8, 8))
+            self.assertEqual(self.picture(first), self.render(folder, SCENE, *SIZE, '--spp', 8))
+            for pointer, value, text in (('/materials/red/roughness', 0.7, '0.7'),
+                                         ('/camera', {'position': [2, 2, 5]}, '{"position": [2, 2, 5]}'),
+                                         ('/lights/key/position', [0, 4, 4], '[0, 4, 4]')):
+                answer = self.set(page, pointer, value)
+                head = self.rested(page, answer['revision'])
+                self.assertEqual(head['width'], 160)
+                page.send({'history': 'undo'})
+                page.until(lambda m: 'scene' in m)
+                self.assertEqual(self.picture(head), self.render(folder, SCENE, *SIZE, '--spp', 8, '--set', f'{pointer}={text}'),
+                                 pointer)
+
+    def test_samples_are_exact(self):
+        _, page = self.open()
+        page.until(is_done)
+        page.send({'samples': '', 'id': 77})
+        answer = page.until(lambda m: m.get('kind') == 2)
+        self.assertEqual((answer['samples'], answer['of_samples'], answer['width'], answer['height']), (77, 3, 160, 90))
+        with tempfile.TemporaryDirectory() as folder:
+            image = pathlib.Path(folder, 'a.exr')
+            subprocess.run([PROGRAM, 'render', SCENE, *SIZE, '--spp', '8', '-o', image, '--depth', 'float', '--compression', 'none',
+                            '--reproducible', '--quiet'], check=True, timeout=120)
+            planes = pictures.read_exr(image)
+        values = struct.unpack(f'<{3 * 160 * 90}f', answer['pixels'])
+        for i, channel in enumerate('RGB'):
+            self.assertEqual(list(values[i * 14400:(i + 1) * 14400]), [v for row in planes[channel] for v in row])
+
+    def test_an_explained_pixel_adds_up(self):
+        spot = {'type': 'spot', 'position': [0, 4, 4], 'direction_of_travel': [0, -3, -4], 'intensity': 80, 'cutoff_deg': 30, 'inner_deg': 5}
+        for scene, light in (('first_scene', spot), ('phong_vs_pbr', None), ('metals', None), ('textures', None)):
+            _, page = self.open(SOURCE / f'scenes/{scene}.json', *SIZE, '--spp', 2, *(('--set', f'/lights/spot={json.dumps(light)}') if light else ()))
+            page.until(is_done)
+            lit = mapped = 0
+            for x, y in ((80, 45), (70, 40), (40, 45), (120, 45), (85, 50), (2, 2)):
+                page.send({'explain': x, 'y': y})
+                answer = page.until(lambda m: 'explained' in m)['explained']
+                if answer.get('background'):
+                    continue
+                mapped += len(answer['mapped'])
+                self.assertLess(max(value for _, value in answer['curves']['albedo']), 1.001)
+                parts = [answer['layers'][name] for name in ('diffuse', 'specular', 'ambient', 'emission')]
+                for c in range(3):
+                    self.assertAlmostEqual(sum(p[c] for p in parts), answer['value'][c], delta=2e-6 * max(1, answer['value'][c]))
+                self.assertAlmostEqual(sum(v * v for v in answer['normal']), 1, places=6)
+                for light in answer['lights']:
+                    if light.get('state') != 'lit':
+                        continue
+                    lit += 1
+                    # Double against float, at a position that was rounded to float: highlights are
+                    # steep.
+                    for c in range(3):
+                        self.assertAlmostEqual(light['diffuse'][c] + light['specular'][c], light['rendered'][c],
+                                               delta=1e-4 * max(1, light['rendered'][c]))
+                    half = [a + b for a, b in zip(light['to_light'], answer['to_view'])]
+                    length = math.hypot(*half)
+                    self.assertAlmostEqual(sum(a * b for a, b in zip(answer['normal'], half)) / length, light['n_dot_h'], places=9)
+            self.assertGreater(lit, 0, scene)
+            self.assertEqual(mapped > 0, scene == 'textures')
+
+    def test_it_refines_while_nothing_moves(self):
+        _, page = self.open(SCENE, '--size', '320x180', '--spp', 64)
+        page.until(is_done)
+        answer = self.set(page, '/materials/red/roughness', 0.8)
+        counts = []
+        while not counts or counts[-1] != 64:
+            head = page.until(lambda m: m.get('kind') == 1)
+            if head['revision'] >= answer['revision']:
+                counts.append(head['samples'])
+        self.assertEqual(counts, sorted(counts))
+        self.assertEqual(counts[0], 1)
+
+    def test_conversions_are_those_of_convert(self):
+        _, page = self.open()
+        page.until(is_done)
+        page.send({'convert': '/materials/red', 'model': 'blinn_phong'})
+        value = page.until(lambda m: 'changed' in m)['value']
+        self.assertEqual(value['model'], 'blinn_phong')
+        text = subprocess.run([PROGRAM, 'convert', '{"model": "metallic_roughness", "base_color": [0.8, 0.1, 0.08], "roughness": 0.3}',
+                               '--to', 'blinn_phong', '--quiet'], capture_output=True, text=True, check=True, timeout=60).stdout
+        self.assertEqual(value, json.loads(text))
+
+    def test_metrics_are_those_of_compare(self):
+        _, page = self.open()
+        page.until(is_done)
+        page.send({'keep': True})
+        self.assertTrue(page.until(lambda m: 'kept' in m)['kept'])
+        self.assertEqual(page.until(lambda m: 'metrics' in m)['metrics']['rmse'], 0)
+        answer = self.set(page, '/materials/red/roughness', 0.7)
+        metrics = page.until(lambda m: 'metrics' in m and m['revision'] >= answer['revision'])['metrics']
+        with tempfile.TemporaryDirectory() as folder:
+            paths = [pathlib.Path(folder, f'{name}.exr') for name in 'ab']
+            for path, change in zip(paths, ((), ('--set', '/materials/red/roughness=0.7'))):
+                subprocess.run([PROGRAM, 'render', SCENE, *SIZE, '--spp', '8', *change, '-o', path, '--depth', 'float', '--quiet'],
+                               check=True, timeout=120)
+            text = subprocess.run([PROGRAM, 'compare', paths[1], paths[0], '--metrics', 'ssim,flip', '--json'], capture_output=True,
+                                  text=True, check=False, timeout=120).stdout
+        beauty, = (layer for layer in json.loads(text)['layers'] if layer['layer'] in ('', 'beauty'))
+        beauty['flip'] = beauty['flip']['mean']
+        # The same samples, by the same functions.
+        self.assertEqual(metrics, {name: beauty[name] for name in metrics})
+        page.send({'keep': False})
+        page.until(lambda m: m.get('kept') is False)
+
+    def test_files_to_take_away(self):
+        _, page = self.open()
+        page.until(is_done)
+        page.send({'take': 'report'})
+        self.assertIn('no A', page.until(lambda m: 'fault' in m)['faults'][0]['what'])
+        with tempfile.TemporaryDirectory() as folder:
+            exr = pathlib.Path(folder, 'a.exr')
+            subprocess.run([PROGRAM, 'render', SCENE, *SIZE, '--spp', '8', '--layers', 'all', '--reproducible', '--quiet', '-o', exr],
+                           check=True, timeout=120)
+            page.send({'take': 'exr'})
+            self.assertEqual(page.until(lambda m: m.get('kind') == 3)['pixels'], exr.read_bytes())
+        page.send({'keep': True})
+        page.until(lambda m: 'kept' in m)
+        self.set(page, '/materials/red/roughness', 0.7)
+        page.until(is_done)
+        page.send({'take': 'report'})
+        html = page.until(lambda m: m.get('kind') == 4)['pixels'].decode()
+        self.assertTrue(html.startswith('<!DOCTYPE html>'))
+        self.assertIn('B against A', html)
+
+    def test_images_are_shown_by_the_report(self):
+        with tempfile.TemporaryDirectory() as folder:
+            images = [pathlib.Path(folder, f'{name}.exr') for name in 'ab']
+            for image, spp in zip(images, '12'):
+                subprocess.run([PROGRAM, 'render', SCENE, *SIZE, '--spp', spp, '-o', image, '--quiet'], check=True, timeout=60)
+            with Server(PROGRAM, *images, '--quiet') as server:
+                status, headers, body = server.request(f'/{server.token}/')
+                self.assertEqual(status, 200)
+                self.assertIn(b'a.exr against b.exr', body)
+                self.assertNotIn('unsafe', headers['content-security-policy'])
+                # A broken file changes nothing, a good one comes with the next request.
+                whole = images[1].read_bytes()
+                images[0].write_bytes(b'no image')
+                time.sleep(0.8)
+                self.assertEqual(server.request(f'/{server.token}/')[2], body)
+                images[0].write_bytes(whole)
+                end = time.monotonic() + 20
+                while server.request(f'/{server.token}/')[2] == body and time.monotonic() < end:
+                    time.sleep(0.1)
+                self.assertNotEqual(server.request(f'/{server.token}/')[2], body)
+            result = subprocess.run([PROGRAM, 'view', '--no-open', images[0], SCENE], capture_output=True, text=True, timeout=60, check=False)
+            self.assertEqual(result.returncode, 64)
+            self.assertIn('one scene, or images', result.stderr)
+            result = subprocess.run([PROGRAM, 'view', '--no-open', images[0], '--spp', '4'], capture_output=True, text=True, timeout=60, check=False)
+            self.assertEqual(result.returncode, 64)
+            self.assertIn('--spp: cannot be used with images', result.stderr)
+
+    def test_conversions_keep_the_maps_that_both_models_have(self):
+        _, page = self.open(SOURCE / 'scenes/textures.json', *SIZE, '--spp', 1)
+        page.until(is_done)
+        page.send({'convert': '/materials/planet', 'model': 'phong'})
+        value = page.until(lambda m: 'changed' in m or 'fault' in m)['value']
+        before = json.loads((SOURCE / 'scenes/textures.json').read_text(encoding='utf-8'))['materials']['planet']
+        self.assertEqual((value['model'], value['diffuse_map']), ('phong', before['base_color_map']))
+        self.assertEqual(page.until(lambda m: 'not_kept' in m)['not_kept'][0], 'metallic_roughness_map')
+
+    def test_memory_stays_flat(self):
+        """Some seconds of dragging with four pages open; NACRE_VIEW_SECONDS for more."""
+        size = ('--size', '640x360', '--spp', 16)
+        server, page = self.open(SCENE, *size)
+        others = [server.upgrade() for _ in range(3)]
+        takers = [threading.Thread(target=self.take_all, args=(other,)) for other in others]
+        for taker in takers:
+            taker.start()
+        page.until(is_done)
+        seconds, count, sizes = float(os.environ.get('NACRE_VIEW_SECONDS', 5)), 0, []
+        start = time.monotonic()
+        while time.monotonic() - start < seconds:
+            count += 1
+            self.set(page, '/materials/red/roughness', 0.2 + 0.3 * (1 + math.sin(count / 7)), gesture=count // 50 + 1)
+            if count % 40 == 0:
+                time.sleep(0.15)  # it refines
+            if time.monotonic() - start > seconds / 3:
+                sizes.append(server.memory_mib())
+        print(f'{count} changes in {seconds:.0f} s; {sizes[0]:.0f} MiB after a third, {max(sizes):.0f} at most, {sizes[-1]:.0f} at the end', flush=True)
+        server.close()
+        for taker in takers:
+            taker.join()
+        self.assertLess(sizes[-1] - sizes[0], 20)
+        # `render` of the scene takes less than 40.
+        self.assertLess(max(sizes), 300)
+
+    @staticmethod
+    def take_all(page):
+        """A page that takes its pictures until the server goes."""
+        try:
+            page.until(lambda m: False)
+        except OSError:
+            page.close()
+
+    def test_the_address_stays_where_a_port_is_asked_for(self):
+        with tempfile.TemporaryDirectory() as folder:
+            before = os.environ.get('XDG_RUNTIME_DIR')
+            os.environ['XDG_RUNTIME_DIR'] = folder
+            try:
+                first = Server(PROGRAM, SCENE, *SIZE, '--quiet')
+                port = first.port
+                first.close()
+                self.assertEqual(os.listdir(folder), [])
+                urls = set()
+                for _ in range(2):
+                    with Server(PROGRAM, SCENE, *SIZE, '--quiet', '--port', port) as server:
+                        urls.add(server.url)
+                self.assertEqual(len(urls), 1)
+                kept, = pathlib.Path(folder).iterdir()
+                self.assertEqual(kept.stat().st_mode & 0o777, 0o600)
+                # One that others may read is not believed.
+                kept.chmod(0o644)
+                with Server(PROGRAM, SCENE, *SIZE, '--quiet', '--port', port) as server:
+                    self.assertNotIn(server.url, urls)
+            finally:
+                if before is None:
+                    del os.environ['XDG_RUNTIME_DIR']
+                else:
+                    os.environ['XDG_RUNTIME_DIR'] = before
+
+
+if __name__ == '__main__':
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
