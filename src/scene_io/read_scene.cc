@@ -45,13 +45,21 @@ void CheckIsObject(const Json& root, const std::string& file) {
 }
 
 // Members of the file that are other parts are known, and that is all.
-void ReadRoot(const SceneTree& tree, SceneParts parts, FaultList* faults, SceneContext* context,
-              ReadMembers* read) {
+void ReadRoot(const SceneTree& tree, SceneParts parts, WatchedFiles* files, FaultList* faults,
+              SceneContext* context, ReadMembers* read) {
   JsonObject object({tree.root, JsonPath{}, faults});
   Scene* const scene = context->scene;
+  ScenePart being_read = ScenePart::kCamera;
+  if (files != nullptr) {
+    context->references.on_file = [&, tell = context->references.on_file](const auto& file) {
+      files->Add(file, being_read);
+      if (tell) tell(file);
+    };
+  }
   const auto member = [&](std::string_view name, ScenePart part, const auto& read_member) {
     const Json* const json = object.Find(name);
     if (json == nullptr || !parts.Has(part)) return;
+    being_read = part;
     read_member(JsonValue{*json, object.path().Member(name), faults});
   };
   std::string schema;
@@ -165,7 +173,7 @@ ReadMembers ReadScene(const SceneTree& tree, SceneParts parts, const SceneReadin
   TexelBudget texels(reading.bytes);
   context.texels = &texels;
   ReadMembers read;
-  ReadRoot(tree, parts, faults, &context, &read);
+  ReadRoot(tree, parts, reading.files, faults, &context, &read);
   AddValidation(*scene, parts, faults);
   return read;
 }
