@@ -109,7 +109,7 @@ class WatchTest(unittest.TestCase):
         watch = self.watch(*options)
         first = self.png.read_bytes()
         for members in ({'background': [0.1, 0.2, 0.3]},
-                        {'materials': {'red': {'model': 'phong', 'shininess': 30}}},
+                        {'materials': {'red': {'model': 'modified_phong', 'shininess': 30, 'kd': 0.5, 'ks': 0.3}}},
                         {'camera': {'position': [1, 2, 6], 'look_at': [0, 0, 0]}},
                         {'lights': {'sky': {'type': 'ambient', 'radiance': 0.5}}},
                         {'shapes': [{'type': 'icosphere', 'center': [0, 0, 0], 'radius': 1, 'subdivisions': 1,

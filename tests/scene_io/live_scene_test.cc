@@ -178,15 +178,15 @@ TEST_CASE("A grid's materials change without its shapes", "[live_scene]") {
 }
 
 // A folder of scene files that are written while they are watched.
-struct Folder {
-  Folder() : path(std::filesystem::temp_directory_path() / "nacre_live_scene_XXXXXX") {
+struct WatchedFolder {
+  WatchedFolder() : path(std::filesystem::temp_directory_path() / "nacre_live_scene_XXXXXX") {
     std::string name = path.string();
     REQUIRE(mkdtemp(name.data()) != nullptr);
     path = name;
   }
-  ~Folder() { std::filesystem::remove_all(path); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
+  ~WatchedFolder() { std::filesystem::remove_all(path); }
+  WatchedFolder(const WatchedFolder&) = delete;
+  WatchedFolder& operator=(const WatchedFolder&) = delete;
 
   void Write(const char* name, const std::string& text) const {
     std::ofstream(path / name) << text;
@@ -203,19 +203,19 @@ bool SoonChanged(LiveScene* live) {
   return false;
 }
 
-constexpr char kTriangle[] = "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n";
+constexpr char kWatchedTriangle[] = "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n";
 
 // A scene file with a mesh, and a colour of its material.
-std::string SceneText(const std::string& albedo, const std::string& more = "") {
+std::string WatchedText(const std::string& albedo, const std::string& more = "") {
   return R"({"nacre": 1, "shapes": [{"type": "mesh", "file": "m.obj", "material": "a"}],
              "materials": {"a": {"model": "lambert", "albedo": )" +
          albedo + "}}" + more + "}";
 }
 
 TEST_CASE("Of files that have changed only what they make is read again", "[live_scene]") {
-  const Folder folder;
-  folder.Write("m.obj", kTriangle);
-  folder.Write("s.json", SceneText("0.5"));
+  const WatchedFolder folder;
+  folder.Write("m.obj", kWatchedTriangle);
+  folder.Write("s.json", WatchedText("0.5"));
   LoadOptions options;
   options.overrides = {{"/image/width", "64"}};
   LiveScene live(folder.path / "s.json", options);
@@ -223,19 +223,19 @@ TEST_CASE("Of files that have changed only what they make is read again", "[live
   CHECK_FALSE(live.FilesChanged());
   const Vec3d* const positions = live.scene().meshes[0].positions.data();
 
-  folder.Write("s.json", SceneText("0.25"));
+  folder.Write("s.json", WatchedText("0.25"));
   REQUIRE(SoonChanged(&live));
   CHECK(live.ReadChangedFiles() == (ScenePart::kMaterials | ScenePart::kTextures));
   CHECK(Describe(live.scene()) == read_anew());
   CHECK(live.scene().meshes[0].positions.data() == positions);
 
-  folder.Write("s.json", SceneText("0.25", R"(, "background": 1)"));
+  folder.Write("s.json", WatchedText("0.25", R"(, "background": 1)"));
   REQUIRE(SoonChanged(&live));
   CHECK(live.ReadChangedFiles() == SceneParts(ScenePart::kBackground));
   CHECK(Describe(live.scene()) == read_anew());
 
   // Written anew, and the same as before.
-  folder.Write("m.obj", kTriangle);
+  folder.Write("m.obj", kWatchedTriangle);
   REQUIRE(SoonChanged(&live));
   CHECK_FALSE(live.ReadChangedFiles().Has(ScenePart::kShapes));
   CHECK(live.scene().meshes[0].positions.data() == positions);
@@ -248,9 +248,9 @@ TEST_CASE("Of files that have changed only what they make is read again", "[live
 }
 
 TEST_CASE("Files that are wrong leave the scene as it was, until they are right", "[live_scene]") {
-  const Folder folder;
-  folder.Write("m.obj", kTriangle);
-  folder.Write("s.json", SceneText("0.5"));
+  const WatchedFolder folder;
+  folder.Write("m.obj", kWatchedTriangle);
+  folder.Write("s.json", WatchedText("0.5"));
   LiveScene live(folder.path / "s.json", {});
   const std::string before = Describe(live.scene());
   const auto check_wrong = [&] {
@@ -263,23 +263,22 @@ TEST_CASE("Files that are wrong leave the scene as it was, until they are right"
   // A change of the mesh is not forgotten because the scene is wrong.
   folder.Write("m.obj", "v -1 -1 0\nv 1 -1 0\nv 0 2 0\nf 1 2 3\n");
   check_wrong();
-  folder.Write("s.json", SceneText("0.5"));
+  folder.Write("s.json", WatchedText("0.5"));
   REQUIRE(SoonChanged(&live));
   CHECK(live.ReadChangedFiles().Has(ScenePart::kShapes));
   CHECK(live.scene().meshes[0].positions[2].y == 2);
   // A file that is missing is waited for.
-  folder.Write("s.json", SceneText("0.5", R"(, "textures": {"t": {"file": "t.exr"}})"));
+  folder.Write("s.json", WatchedText("0.5", R"(, "textures": {"t": {"file": "t.exr"}})"));
   REQUIRE(SoonChanged(&live));
   CHECK_THROWS_AS(live.ReadChangedFiles(), Error);
   std::filesystem::copy_file(kScenes / "textures/evening.exr", folder.path / "t.exr");
   REQUIRE(SoonChanged(&live));
-  live.ReadChangedFiles();
-  CHECK(live.scene().textures.size() == 1);
+  CHECK(live.ReadChangedFiles().Has(ScenePart::kTextures));
 }
 
 TEST_CASE("Models that have changed are read again", "[live_scene]") {
-  const Folder folder;
-  folder.Write("m.obj", std::string("mtllib m.mtl\nusemtl a\n") + kTriangle);
+  const WatchedFolder folder;
+  folder.Write("m.obj", std::string("mtllib m.mtl\nusemtl a\n") + kWatchedTriangle);
   LiveScene live(folder.path / "m.obj", {});
   folder.Write("m.mtl", "newmtl a\nKd 0 0 1\n");
   REQUIRE(SoonChanged(&live));
@@ -292,7 +291,7 @@ TEST_CASE("Models that have changed are read again", "[live_scene]") {
 }
 
 TEST_CASE("Files change once they have come to rest", "[live_scene]") {
-  const Folder folder;
+  const WatchedFolder folder;
   const std::filesystem::path file = folder.path / "f";
   WatchedFiles files;
   files.Add(file, ScenePart::kLights);
