@@ -71,8 +71,10 @@ void ReadRoot(const SceneTree& tree, SceneParts parts, WatchedFiles* files, Faul
          [&](const JsonValue& value) { ReadImage(value, &scene->image); });
   member("textures", ScenePart::kTextures,
          [&](const JsonValue& value) { ReadTextures(value, context); });
-  member("materials", ScenePart::kMaterials,
-         [&](const JsonValue& value) { ReadMaterials(value, context); });
+  member("materials", ScenePart::kMaterials, [&](const JsonValue& value) {
+    DecodeMapsAhead(value.json, context);
+    ReadMaterials(value, context);
+  });
   *read = {scene->materials.size(), scene->textures.size()};
   member("lights", ScenePart::kLights,
          [&](const JsonValue& value) { ReadLights(value, *context, &scene->lights); });
