@@ -30,12 +30,14 @@
 #include "base/seconds_since.h"
 #include "embree/embree_api.h"
 #include "hit/batch.h"
+#define NACRE_OWN_SOURCE  // the renderer's own types are here as well
 #include "nacre.h"
 #include "scene/scene.h"
 #include "visibility/intersector.h"
 
 namespace {
 
+namespace api = nacre::v0;
 using Clock = std::chrono::steady_clock;
 
 void PrintList(const char* name, const std::vector<double>& values, const char* end) {
@@ -62,23 +64,23 @@ void PrintSeconds(const std::vector<double>& seconds) {
 // ---- Sessions -----------------------------------------------------------------------------------
 
 void RunSession(char** arguments, int count) {
-  nacre::RenderSettings settings;
+  api::RenderSettings settings;
   if (std::sscanf(arguments[1], "%dx%d", &settings.width, &settings.height) != 2) {
     throw std::invalid_argument("the size is not WIDTHxHEIGHT");
   }
   settings.samples = std::atoi(arguments[2]);
   const int repetitions = std::atoi(arguments[3]);
   const std::string pointer = arguments[4];
-  std::vector<nacre::Value> values;
-  for (int i = 5; i < count; ++i) values.push_back(nacre::Value::Json(arguments[i]));
+  std::vector<api::Value> values;
+  for (int i = 5; i < count; ++i) values.push_back(api::Value::Json(arguments[i]));
   if (values.empty()) throw std::invalid_argument("a value is missing");
   const auto start = Clock::now();
-  nacre::Session session(nacre::Scene::FromFile(arguments[0]));
+  api::Session session(api::Scene::FromFile(arguments[0]));
   session.Render(settings);
   const double first = nacre::SecondsSince(start);
   std::vector<double> whole, render;
   for (int i = 0; i < repetitions; ++i) {
-    nacre::RenderStats stats;
+    api::RenderStats stats;
     const auto begin = Clock::now();
     session.Set(pointer, values[static_cast<size_t>(i) % values.size()]);
     session.Render(settings, &stats);
@@ -309,10 +311,10 @@ void DecodePng(const char* path, int count) {
 }
 
 void WriteJpeg(const char* from, const char* to) {
-  nacre::ToneMapSettings settings;
+  api::ToneMapSettings settings;
   settings.tonemap = "none";
   const std::vector<uint8_t> bytes =
-      nacre::EncodeJpeg(nacre::ToneMap(nacre::Read(from), settings), 90);
+      api::EncodeJpeg(api::ToneMap(api::Read(from), settings), 90);
   std::ofstream(to, std::ios::binary)
       .write(reinterpret_cast<const char*>(bytes.data()),
              static_cast<std::streamsize>(bytes.size()));
