@@ -52,9 +52,9 @@ def _commands(files, nacre, oiiotool):
                                     "1"),
         "mesh light of 320 triangles, 1080p, 16 samples": _null(
             nacre, files["mesh_light.json"], "--size", "1920x1080", "--spp", "16"),
-        "compare, 4k floats": [nacre, "compare", files["a.exr"], files["b.exr"], "--max-rmse", "9"],
+        "compare, 4k floats": [nacre, "compare", files["a.exr"], files["b.exr"], "--rmse", "9"],
         "compare --metrics all, 4k floats": [nacre, "compare", files["a.exr"], files["b.exr"],
-                                             "--metrics", "all", "--max-rmse", "9"],
+                                             "--metrics", "all", "--rmse", "9"],
         "report, 4k pair": [nacre, "report", files["a.exr"].with_name("report.html"), files["a.exr"],
                             files["b.exr"]],
         "tonemap, 4k floats": [nacre, "tonemap", files["a.exr"], "-o",
@@ -64,14 +64,16 @@ def _commands(files, nacre, oiiotool):
         _null(nacre, files["rectangle_light.json"], "--size", "1920x1080", "--spp", "16"),
         "a rectangle light")}
     if oiiotool:
-        for row, name in (("8k environment, one sample, 1080p", "sky.hdr"),
-                          ("4k PNG texture", "texture.png")):
-            others[row] = ([oiiotool, files[name], "-o", "x.null"], "oiiotool reads it")
+        # All of an image is read, and one pixel of it written.
+        pixel = ["--cut", "1x1+0+0", "-o", files["a.exr"].with_name("pixel.exr")]
+        others["8k environment, one sample, 1080p"] = (
+            [oiiotool, files["sky.hdr"], *pixel], "oiiotool reads it")
         others["five 4k JPEG maps of a model"] = (
-            [oiiotool, *(files[f"map{i}.jpg"] for i in range(5)), "-o", "x.null"],
+            [oiiotool, *(word for i in range(5) for word in (files[f"map{i}.jpg"], *pixel))],
             "oiiotool reads them")
         others["compare, 4k floats"] = (
-            [oiiotool, "--diff", "--fail", "9", "--warn", "9", files["a.exr"], files["b.exr"]],
+            [oiiotool, "--fail", "1e9", "--hardfail", "1e9", "--warn", "1e9", "--hardwarn", "1e9",
+             "--diff", files["a.exr"], files["b.exr"]],
             "oiiotool --diff")
     return commands, others
 

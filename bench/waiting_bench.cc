@@ -313,8 +313,7 @@ void DecodePng(const char* path, int count) {
 void WriteJpeg(const char* from, const char* to) {
   api::ToneMapSettings settings;
   settings.tonemap = "none";
-  const std::vector<uint8_t> bytes =
-      api::EncodeJpeg(api::ToneMap(api::Read(from), settings), 90);
+  const std::vector<uint8_t> bytes = api::EncodeJpeg(api::ToneMap(api::Read(from), settings), 90);
   std::ofstream(to, std::ios::binary)
       .write(reinterpret_cast<const char*>(bytes.data()),
              static_cast<std::streamsize>(bytes.size()));
