@@ -23,6 +23,7 @@ import report
 import scaling
 import settings
 import summary
+import waiting
 from processes import Failed, Runner, say, scratch_folder
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -34,6 +35,7 @@ def parse_arguments():
     parser.add_argument("--summary", action="store_true")
     parser.add_argument("--readme", action="store_true")
     parser.add_argument("--redraw", action="store_true")
+    parser.add_argument("--waiting", action="store_true")
     parser.add_argument("--against", metavar="REV")
     parser.add_argument("--only", metavar="REGEX", default=".")
     parser.add_argument("--instructions", action="store_true")
@@ -94,6 +96,8 @@ def main():
     if arguments.summary:
         sizes = dataclasses.replace(sizes, groups=settings.SUMMARY_GROUPS)
     arguments.out.mkdir(parents=True, exist_ok=True)
+    if arguments.waiting:
+        return waiting.main(ROOT, arguments, Runner(arguments.build))
     file = arguments.out / "bench.json"
     if arguments.redraw:
         results = json.loads(file.read_text())

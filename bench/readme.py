@@ -12,6 +12,7 @@ import machine
 import report
 
 BEGIN, END = "<!-- bench: begin -->", "<!-- bench: end -->"
+WAITING_BEGIN, WAITING_END = "<!-- waiting: begin -->", "<!-- waiting: end -->"
 
 
 def replace_between(text, begin, end, new):
@@ -105,6 +106,12 @@ def markdown(results, runs):
         measured.append("The other columns: " + "; ".join(run["line"] for run in runs[1:]) + ".")
     return "\n".join([*headline_table(runs, FIRST), "", *measured, "",
                       *_folded("Kernels", lines), *_folded("All numbers", ways)])
+
+
+def update_waiting(root, table):
+    """Rewrites the table of what people wait for."""
+    readme = root / "bench" / "README.md"
+    readme.write_text(replace_between(readme.read_text(), WAITING_BEGIN, WAITING_END, table))
 
 
 def update(root, results, folder):

@@ -9,11 +9,12 @@ _CAMERA = {"position": [0, 0, 10], "look_at": [0, 0, 0], "fov_y_deg": 40}
 _LIGHTS = {"key": {"type": "directional", "direction_of_travel": [-0.4, -0.6, -1],
                    "irradiance": 3, "shadows": False},
            "sky": {"type": "ambient", "radiance": 0.1}}
-_MATERIAL = {"model": "metallic_roughness", "base_color": [0.9, 0.6, 0.2], "roughness": 0.3}
+MATERIAL = {"model": "metallic_roughness", "base_color": [0.9, 0.6, 0.2], "roughness": 0.3}
 
 
-def _write(path, **parts):
-    scene = {"nacre": 1, "camera": _CAMERA, "materials": {"gold": _MATERIAL}, "lights": _LIGHTS,
+def write_scene(path, **parts):
+    """A scene file of these members over a camera, a material and two lights; returns its path."""
+    scene = {"nacre": 1, "camera": _CAMERA, "materials": {"gold": MATERIAL}, "lights": _LIGHTS,
              **parts}
     path.write_text(json.dumps(scene))
     return path
@@ -25,7 +26,7 @@ def write_spheres(path, count):
     radius = math.sqrt(12.9 * 7.3 / (math.pi * count))
     cloud = {"type": "cloud", "count": count, "seed": 1, "min": [-6.5, -3.7, -0.5],
              "max": [6.5, 3.7, 0.5], "radius": radius, "materials": ["gold"]}
-    return _write(path, shapes=[cloud])
+    return write_scene(path, shapes=[cloud])
 
 
 def write_triangles(path, count):
@@ -49,7 +50,7 @@ def write_triangles(path, count):
             file.write("".join(lines))
     mesh = {"type": "mesh", "file": obj.name, "material": "gold",
             "transform": {"scale": 3.5}}
-    return _write(path, shapes=[mesh]), 2 * rows * columns
+    return write_scene(path, shapes=[mesh]), 2 * rows * columns
 
 
 def write_lights(path, count, kind):
@@ -68,4 +69,4 @@ def write_lights(path, count, kind):
         lights[f"light {i}"] = light
     shapes = [{"type": "sphere", "center": [0, 0, 0], "radius": 2, "material": "gold"},
               {"type": "sphere", "center": [0, 0, -1e4 - 1], "radius": 1e4, "material": "gold"}]
-    return _write(path, lights=lights, shapes=shapes)
+    return write_scene(path, lights=lights, shapes=shapes)

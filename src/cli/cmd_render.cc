@@ -8,16 +8,18 @@
 #include "cli/help_text.h"
 #include "cli/render_job.h"
 #include "cli/textbook_job.h"
+#include "cli/watch_job.h"
 
 namespace nacre {
 
-void AddRenderCommand(CLI::App* app, int*) {
+void AddRenderCommand(CLI::App* app, int* exit_code) {
   CLI::App* command =
       app->add_subcommand("render", "Render a scene file or a model to EXR and PNG");
   struct RenderArguments {
     std::string scene;
     std::string preset;
     std::string environment;
+    bool watch = false;
     RenderOptions options;
   };
   const auto arguments = std::make_shared<RenderArguments>();
@@ -41,6 +43,11 @@ void AddRenderCommand(CLI::App* app, int*) {
                    "turns it")
       ->type_name("FILE")
       ->group("Picture");
+  command
+      ->add_flag("--watch", arguments->watch,
+                 "Render again whenever the scene, its textures or models change on disk, until "
+                 "Ctrl-C. A file that is wrong is reported in one line, and the old picture stays")
+      ->group("Picture");
   AddRenderOptions(command, &arguments->options);
   MoveBehindHelpAll(command, {"--preset"});
   command->footer(
@@ -52,10 +59,15 @@ void AddRenderCommand(CLI::App* app, int*) {
       "--tile "
       "1/2\n"
       "  nacre merge -o all.exr top.exr low.exr\n"
+      "  nacre render scene.json -o look.png --watch\n"
       "  nacre render scenes/phong_vs_pbr.json --preset textbook -o lesson.exr -o lesson.png");
-  command->callback([arguments, command] {
+  command->callback([arguments, command, exit_code] {
     if (!arguments->preset.empty()) {
       RunTextbookJob(arguments->options, arguments->scene, *command);
+      return;
+    }
+    if (arguments->watch) {
+      *exit_code = RunWatchJob(arguments->options, arguments->scene, arguments->environment);
       return;
     }
     RunRenderJob(arguments->options, {arguments->scene}, [&](LoadOptions load) {

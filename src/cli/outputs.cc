@@ -2,8 +2,10 @@
 #include "cli/outputs.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <map>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -69,7 +71,10 @@ void CheckPathsDiffer(const std::vector<std::string>& paths) {
 void CheckOutputsAreNoInputs(const std::vector<std::string>& outputs,
                              const std::vector<std::string>& inputs) {
   std::map<std::string, std::string> read;
-  for (const std::string& input : inputs) read.emplace(FileIdentity(input), input);
+  for (const std::string& input : inputs) {
+    std::error_code unknown;
+    if (std::filesystem::exists(input, unknown)) read.emplace(FileIdentity(input), input);
+  }
   for (const std::string& output : outputs) {
     const auto found = read.find(FileIdentity(output));
     if (found == read.end()) continue;

@@ -36,7 +36,8 @@ void CheckPngPath(const std::string& path);
 void CheckPathsDiffer(const std::vector<std::string>& paths);
 
 // Throws Error (kUsage) if one of the outputs is a file that was read: the scene's own, its
-// textures, models and their parts (LoadOptions::on_file). Inputs may be named more than once.
+// textures, models and their parts (LoadOptions::on_file). Inputs may be named more than once, and
+// may be missing.
 void CheckOutputsAreNoInputs(const std::vector<std::string>& outputs,
                              const std::vector<std::string>& inputs);
 

@@ -19,6 +19,7 @@ namespace nacre {
 namespace {
 
 std::atomic<int> g_stop_signal{0};
+std::atomic<bool> g_cancel{false};
 
 // The command's files that are whole already.
 struct WrittenFiles {
@@ -37,6 +38,7 @@ int SignalExitCode(int signal) {
 
 extern "C" void NoteStopSignal(int signal) {
   if (g_stop_signal.exchange(signal) != 0) _exit(SignalExitCode(signal));
+  g_cancel = true;
 }
 
 std::string FormatSeconds(double seconds) {
@@ -99,6 +101,8 @@ void Progress::Print(double done, double elapsed_seconds) const {
   }
   std::fflush(stderr);
 }
+
+std::atomic<bool>& CancelFlag() { return g_cancel; }
 
 void CatchStopSignals() {
   struct sigaction action = {};

@@ -2,6 +2,7 @@
 // cli/progress.h: tells the user how far long work is, and notices when it is to stop.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <string>
 
@@ -40,6 +41,10 @@ class Progress {
 // From here on SIGINT and SIGTERM are noted instead of ending the process at once; a second one
 // ends it. Output that is not finished has no name yet, so nothing is left either way.
 void CatchStopSignals();
+
+// What ends a render at once, as RenderSettings::cancel: set by stop signals, and by who else wants
+// it to end.
+std::atomic<bool>& CancelFlag();
 
 // Throws Error if a stop signal has come, with what NoteWritten was told.
 void ThrowIfStopped();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/render_job.h"
 
-#include <chrono>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -9,7 +9,6 @@
 #include "cli/outputs.h"
 #include "cli/print.h"
 #include "cli/progress.h"
-#include "cli/stats_json.h"
 #include "cli/text_output.h"
 #include "render/frame_window.h"
 #include "render/render.h"
@@ -73,14 +72,12 @@ void Summarize(const RenderOptions& options, const FramePlan& plan, const Render
 
 }  // namespace
 
-void RunRenderJob(const RenderOptions& options, const std::vector<std::string>& inputs,
-                  const std::function<Scene(const LoadOptions&)>& load,
-                  const std::vector<TextItem>& captions) {
-  const Clock::time_point start = Clock::now();
-  JobTimes times;
-  LoadOptions load_options = MakeLoadOptions(options);
-  RenderSettings settings = MakeRenderSettings(options);
+RenderJob::RenderJob(const RenderOptions& options, const std::vector<std::string>& inputs)
+    : options_(options),
+      load_options_(MakeLoadOptions(options)),
+      settings_(MakeRenderSettings(options)) {
   ApplyTarget(options.target);
+  settings_.cancel = &CancelFlag();
   std::vector<std::string> paths = FilesAmong(options.outputs);
   CheckPicturePaths(paths);
   if (!options.stats.empty()) {
@@ -89,30 +86,39 @@ void RunRenderJob(const RenderOptions& options, const std::vector<std::string>& 
   }
   CheckPathsDiffer(paths);
   CheckOutputsAreNoInputs(paths, inputs);
+  paths_ = std::move(paths);
+  load_options_.on_warning = [this](const std::string& text) {
+    if (!options_.quiet) warnings_.push_back(text);
+  };
+  load_options_.on_file = [this](const std::filesystem::path& file) {
+    read_.insert(file.string());
+  };
+  load_options_.on_progress = [this](double done) { on_load_progress_(done); };
+}
 
-  std::vector<std::string> warnings;
-  std::vector<std::string> read;  // files that the scene refers to
-  const Scene scene = [&] {
-    Progress progress(EarlyProgressForm(options), "reading", 0, "");
-    load_options.on_warning = [&](const std::string& text) {
-      if (!options.quiet) warnings.push_back(text);
-    };
-    load_options.on_file = [&](const std::filesystem::path& file) {
-      read.push_back(file.string());
-    };
-    load_options.on_progress = [&](double done) { progress.Update(done); };
-    return load(load_options);
-  }();
-  CheckOutputsAreNoInputs(paths, read);
-  for (const std::string& text : warnings) PrintError("warning: {}\n", text);
-  times.load_seconds = SecondsSince(start);
+void RenderJob::Load(const std::function<void()>& load) {
+  start_ = Clock::now();
+  times_ = {};
+  warnings_.clear();
+  {
+    Progress progress(EarlyProgressForm(options_), "reading", 0, "");
+    on_load_progress_ = [&](double done) { progress.Update(done); };
+    load();
+  }
+  CheckOutputsAreNoInputs(paths_, {read_.begin(), read_.end()});
+  for (const std::string& text : warnings_) PrintError("warning: {}\n", text);
+  times_.load_seconds = SecondsSince(start_);
   ThrowIfStopped();
+}
 
+void RenderJob::Render(const Scene& scene, PreparedScene* prepared,
+                       const std::vector<TextItem>& captions) {
+  const RenderOptions& options = options_;
   const Clock::time_point plan_start = Clock::now();
   const FramePlan plan = [&] {
     Progress progress(EarlyProgressForm(options), "planning", 0, "");
-    settings.on_plan_progress = [&](double done) { progress.Update(done); };
-    return MakePlan(scene, settings);
+    settings_.on_plan_progress = [&](double done) { progress.Update(done); };
+    return prepared != nullptr ? MakePlan(scene, settings_, prepared) : MakePlan(scene, settings_);
   }();
   const double plan_seconds = SecondsSince(plan_start);
   // Only now: an option that is wrong in itself has been refused, once.
@@ -123,7 +129,7 @@ void RunRenderJob(const RenderOptions& options, const std::vector<std::string>& 
   }
   if (options.dry_run) {
     PrintOut(DryRunJson(MakeOutputHeader(options, plan), options,
-                        MaxBands(plan.frame, settings.band_rows)));
+                        MaxBands(plan.frame, settings_.band_rows)));
     return;
   }
   Outputs outputs(options, plan, captions);
@@ -131,15 +137,15 @@ void RunRenderJob(const RenderOptions& options, const std::vector<std::string>& 
   {
     const double samples = static_cast<double>(plan.window.pixel_count()) * scene.image.spp;
     Progress progress(ChooseProgressForm(options), "rendering", samples, "samples");
-    settings.on_progress = [&](double done) { progress.Update(done); };
-    stats = Render(plan, settings, [&](const Strip& strip) { outputs.WriteStrip(strip); });
+    settings_.on_progress = [&](double done) { progress.Update(done); };
+    stats = nacre::Render(plan, settings_, [&](const Strip& strip) { outputs.WriteStrip(strip); });
   }
   stats.plan_seconds = plan_seconds;
   ThrowIfStopped();
   const Clock::time_point finish_start = Clock::now();
   const OutputCounts counts = outputs.Finish(stats);
-  times.finish_seconds = SecondsSince(finish_start);
-  times.total_seconds = SecondsSince(start);
+  times_.finish_seconds = SecondsSince(finish_start);
+  times_.total_seconds = SecondsSince(start_);
 
   if (!options.quiet) {
     for (const std::string& note : plan.why.notes) PrintError("note: {}\n", note);
@@ -151,9 +157,23 @@ void RunRenderJob(const RenderOptions& options, const std::vector<std::string>& 
         stats.unsettled_pixels, plan.window.pixel_count(), stats.pixel_samples.most);
   }
   WarnAboutSamples(counts, stats);
-  if (!options.quiet && options.progress != "json") Summarize(options, plan, stats, times);
+  if (!options.quiet && options.progress != "json") Summarize(options, plan, stats, times_);
   if (options.explain) PrintOut(ExplainPlan(plan, &stats));
-  if (!options.stats.empty()) WriteText(options.stats, StatsJson(plan, stats, times, counts));
+  if (!options.stats.empty()) WriteText(options.stats, StatsJson(plan, stats, times_, counts));
+}
+
+void RunRenderJob(const RenderOptions& options, const std::vector<std::string>& inputs,
+                  const std::function<Scene(const LoadOptions&)>& load,
+                  const std::vector<TextItem>& captions) {
+  RenderJob job(options, inputs);
+  Scene scene;
+  job.Load([&] { scene = load(job.load_options()); });
+  try {
+    job.Render(scene, nullptr, captions);
+  } catch (const Cancelled&) {
+    ThrowIfStopped();
+    throw;
+  }
 }
 
 }  // namespace nacre

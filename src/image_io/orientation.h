@@ -3,6 +3,7 @@
 // resolution strings, TIFF's and EXIF's orientation tags. The only place that knows.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -56,6 +57,7 @@ class RowPlacer {
 
   // `row`: a stored row, the channels of a pixel together.
   void Place(int stored_y, const float* row, size_t channels) const {
+    if (orientation_ == Orientation()) return PlaceAsStored(stored_y, row, channels);
     for (const SampleTarget& target : targets_) {
       for (int x = 0; x < stored_width(); ++x) {
         int seen_x = orientation_.transpose ? stored_y : x;
@@ -74,6 +76,21 @@ class RowPlacer {
   }
 
  private:
+  // Rows that are seen as they are stored.
+  void PlaceAsStored(int stored_y, const float* row, size_t channels) const {
+    const int y = stored_y + data_.y0 - region_.y0;
+    if (y < 0 || y >= region_.height()) return;
+    const int first = std::max(region_.x0 - data_.x0, 0);
+    const int end = std::min(region_.x1 - data_.x0, data_.width());
+    for (const SampleTarget& target : targets_) {
+      float* out =
+          target.first + (first + data_.x0 - region_.x0) * target.step_x + y * target.step_y;
+      for (int x = first; x < end; ++x, out += target.step_x) {
+        *out = row[static_cast<size_t>(x) * channels + target.channel];
+      }
+    }
+  }
+
   Orientation orientation_;
   Window data_, region_;
   std::span<const SampleTarget> targets_;

@@ -248,6 +248,7 @@ GltfDocument ReadGltfDocument(const std::filesystem::path& path, const LoadOptio
   document.folder = path.parent_path();
   document.references = {options.allow_paths, options.on_file};
   document.on_warning = options.on_warning;
+  document.threads = options.threads;
   std::string bytes = ReadBytes(path, kMaxBytes, [&](std::string_view head, uint64_t size) {
     return JudgeHead(head, size, document.file);
   });

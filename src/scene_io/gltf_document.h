@@ -25,6 +25,7 @@ struct GltfDocument {
   uint64_t bytes = 0;  // of the file and its buffers
   std::function<void(const std::string&)> on_warning;
   std::unordered_set<std::string> warned;
+  int threads = 0;  // LoadOptions::threads
 
   // Reports `text` once.
   void Warn(const std::string& text);

@@ -327,6 +327,7 @@ GltfImage FindGltfImage(const GltfDocument& document, int image) {
 
 std::vector<Material> MakeGltfMaterials(GltfDocument* document, Scene* scene) {
   GltfTextures textures(document, scene);
+  textures.DecodeAhead();
   std::vector<Material> materials;
   const size_t count = document->model.materials.size();
   materials.reserve(count + 1);

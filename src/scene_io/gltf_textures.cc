@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "scene_io/gltf_extension.h"
-#include "scene_io/gltf_materials.h"
-#include "scene_io/temporary_file.h"
 
 namespace nacre {
 namespace {
@@ -57,6 +56,41 @@ ImageId GltfTextures::AddImage(int image, TextureEncoding encoding) {
   return id;
 }
 
+std::filesystem::path GltfTextures::FileOf(const GltfImage& image) {
+  if (!image.file.empty()) return image.file;
+  std::unique_ptr<const TemporaryFile>& file = files_[image.key];
+  if (file == nullptr) {
+    file = std::make_unique<const TemporaryFile>(
+        std::span(reinterpret_cast<const unsigned char*>(image.bytes.data()), image.bytes.size()),
+        SuffixOf(image.bytes));
+  }
+  return file->path();
+}
+
+void GltfTextures::WantAhead(int texture, TextureEncoding encoding) {
+  const gltf::Model& model = document_.model;
+  if (texture < 0 || static_cast<size_t>(texture) >= model.textures.size()) return;
+  const int image = model.textures[static_cast<size_t>(texture)].source;
+  if (image < 0) return;
+  try {
+    ahead_.Want(FileOf(FindGltfImage(document_, image)), Reading(encoding));
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): its user will throw it again
+  }
+}
+
+void GltfTextures::DecodeAhead() {
+  if (document_.model.images.size() < 2) return;
+  for (const gltf::Material& material : document_.model.materials) {
+    const auto& pbr = material.pbrMetallicRoughness;
+    WantAhead(pbr.baseColorTexture.index, TextureEncoding::kSrgb);
+    if (gltf::FindExtension(material.extensions, "KHR_materials_unlit") != nullptr) continue;
+    WantAhead(pbr.metallicRoughnessTexture.index, TextureEncoding::kLinear);
+    WantAhead(material.emissiveTexture.index, TextureEncoding::kSrgb);
+    WantAhead(material.normalTexture.index, TextureEncoding::kLinear);
+  }
+  ahead_.Decode(texels_, document_.threads);
+}
+
 ImageId GltfTextures::DecodeImage(int image, TextureEncoding encoding) {
   const GltfImage source = FindGltfImage(document_, image);
   const auto key = std::make_pair(source.key, encoding);
@@ -65,20 +99,11 @@ ImageId GltfTextures::DecodeImage(int image, TextureEncoding encoding) {
   const gltf::Image& named = document_.model.images[static_cast<size_t>(image)];
   const bool is_file = !source.file.empty();
   const std::string name = is_file ? named.uri : fmt::format("image {}", image);
-  const auto add = [&](const std::filesystem::path& path) {
-    return AddTextureImage(path, name, {.encoding = encoding, .part = {}}, &texels_, &scene_);
-  };
   try {
-    ImageId id;
-    if (is_file) {
-      texels_.AddFile(source.file);
-      id = add(source.file);
-    } else {
-      const TemporaryFile file(
-          {reinterpret_cast<const unsigned char*>(source.bytes.data()), source.bytes.size()},
-          SuffixOf(source.bytes));
-      id = add(file.path());
-    }
+    if (is_file) texels_.AddFile(source.file);
+    const ImageId id =
+        AddTextureImage(FileOf(source), name, Reading(encoding), &texels_, &scene_, &ahead_);
+    files_.erase(source.key);
     decoded_.emplace(key, id);
     return id;
   } catch (const Error& error) {

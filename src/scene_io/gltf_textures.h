@@ -2,12 +2,16 @@
 // scene_io/gltf_textures.h: the textures of a glTF file.
 #pragma once
 
+#include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 
 #include "scene/scene.h"
 #include "scene_io/gltf_document.h"
+#include "scene_io/gltf_materials.h"
+#include "scene_io/temporary_file.h"
 #include "scene_io/texture_image.h"
 
 namespace nacre {
@@ -33,16 +37,27 @@ class GltfTextures {
   // for images that are missing or broken, or more than TexelBudget allows.
   TextureId Add(const GltfTextureUse& use, const std::string& place);
 
+  // Before all that: decodes the images that most materials have, several at a time.
+  void DecodeAhead();
+
   // Whether it is a texture that changes nothing: all of its texels are 1.
   bool IsWhite(TextureId texture);
 
  private:
   ImageId AddImage(int image, TextureEncoding encoding);
   ImageId DecodeImage(int image, TextureEncoding encoding);
+  void WantAhead(int texture, TextureEncoding encoding);
+  // The image as a file: its own, or a temporary one.
+  std::filesystem::path FileOf(const GltfImage& image);
+  TextureReading Reading(TextureEncoding encoding) const {
+    return {.encoding = encoding, .part = {}, .threads = document_.threads};
+  }
 
   GltfDocument& document_;
   Scene& scene_;
   TexelBudget texels_;
+  TexturesAhead ahead_;
+  std::map<std::string, std::unique_ptr<const TemporaryFile>> files_;   // by GltfImage::key
   std::map<std::pair<int, TextureEncoding>, ImageId> images_;           // by index in the document
   std::map<std::pair<std::string, TextureEncoding>, ImageId> decoded_;  // by GltfImage::key
   std::map<uint32_t, bool> is_white_;                                   // by the image's index

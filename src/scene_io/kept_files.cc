@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_io/kept_files.h"
 
-#include <system_error>
-
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 namespace nacre {
 
 std::string KeyOfFile(const std::filesystem::path& path) {
-  std::error_code missing;  // its reader tells of that
-  const auto size = std::filesystem::file_size(path, missing);
-  const auto written = std::filesystem::last_write_time(path, missing);
-  return fmt::format("{}|{}|{}", path.string(), size, written.time_since_epoch().count());
+  struct stat status = {};
+  if (stat(path.c_str(), &status) != 0) return path.string() + "|missing";  // its reader reports it
+  // Inode and time of change as well: a file that is copied or renamed to this name may have size
+  // and time of writing of the one before.
+  const auto time = [](const timespec& t) { return fmt::format("{}.{:09}", t.tv_sec, t.tv_nsec); };
+  return fmt::format("{}|{}|{}|{}|{}|{}", path.string(), status.st_dev, status.st_ino,
+                     status.st_size, time(status.st_mtim), time(status.st_ctim));
 }
 
 void DropUnheld(KeptFiles* kept) {

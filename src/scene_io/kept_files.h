@@ -23,7 +23,8 @@ struct KeptFiles {
   std::map<std::string, std::weak_ptr<const Mesh>> light_meshes;
 };
 
-// The file, its size and when it was last written: files of one key have the same contents.
+// Names a file as it is now: two keys are equal only if the file has not been written or replaced
+// in between. A missing file has a key, too.
 std::string KeyOfFile(const std::filesystem::path& path);
 
 // Forgets entries that no scene holds any more.

@@ -60,6 +60,27 @@ bool KeepPlaces(const std::vector<Material>& before, const std::vector<Material>
   return now.size() >= before.size() && std::equal(before.begin(), before.end(), now.begin(), same);
 }
 
+// The parts whose members two trees of scene files have different values for.
+SceneParts DifferingParts(const SceneTree& a, const SceneTree& b) {
+  SceneParts parts;
+  const auto compare = [&](const Json& some, const Json& others) {
+    for (const auto& [name, value] : some.items()) {
+      const auto found = others.find(name);
+      if (found == others.end() || *found != value) parts |= PartsOf("/" + name);
+    }
+  };
+  compare(a.root, b.root);
+  compare(b.root, a.root);
+  // Of plain spheres it is the hash of the shapes that tells.
+  if (!a.spheres.runs.empty() || !b.spheres.runs.empty()) parts |= PartsOf("/shapes");
+  return parts;
+}
+
+// What is read along with these parts of a scene file.
+SceneParts WithMaterials(SceneParts parts) {
+  return parts.HasAny(kMaterialParts | ScenePart::kShapes) ? parts | kMaterialParts : parts;
+}
+
 }  // namespace
 
 LiveScene::LiveScene(std::string_view text, std::string file, std::filesystem::path folder,
@@ -67,35 +88,91 @@ LiveScene::LiveScene(std::string_view text, std::string file, std::filesystem::p
     : options_(std::move(options)),
       file_(std::move(file)),
       folder_(std::move(folder)),
-      bytes_(text.size()),
       complete_(std::move(complete)) {
-  FaultList faults;
-  tree_ = ParseScene({text, file_, folder_}, options_, &faults);
-  ThrowFaults(faults, file_);
-  options_.overrides.clear();  // they are in the tree
-  ReadAgain(SceneParts::All());
+  ReadText(text);
 }
 
 LiveScene::LiveScene(const std::filesystem::path& path, LoadOptions options,
                      std::function<void(Scene*)> complete)
-    : options_(std::move(options)),
+    : path_(path),
+      options_(std::move(options)),
       file_(path.string()),
       folder_(path.parent_path()),
       complete_(std::move(complete)) {
   RefuseOtherModels(path);
-  if (!IsModelFile(path)) {
-    *this =
-        LiveScene(ReadSceneText(path), file_, folder_, std::move(options_), std::move(complete_));
-    return;
+  if (IsModelFile(path)) {
+    files_.Add(path, SceneParts::All());
+    ReadModelFile();
+  } else {
+    files_.Add(path, {});  // the trees tell what has changed
+    ReadText(ReadSceneText(path));
   }
+}
+
+SceneTree LiveScene::Parse(std::string_view text) const {
+  LoadOptions options = options_;
+  options.overrides = overrides_;
+  FaultList faults;
+  SceneTree tree = ParseScene({text, file_, folder_}, options, &faults);
+  ThrowFaults(faults, file_);
+  return tree;
+}
+
+void LiveScene::ReadText(std::string_view text) {
+  overrides_ = std::move(options_.overrides);
+  options_.overrides.clear();
+  bytes_ = text.size();
+  tree_ = Parse(text);
+  ReadAgain(SceneParts::All());
+}
+
+void LiveScene::ReadModelFile() {
   model_.emplace();
-  model_->scene = ReadModel(path, options_, &model_->has_camera);
+  model_->scene = ReadModel(path_, Watching(), &model_->has_camera);
   ModelOverrides overrides = OverridesOf(options_);
   tree_.root = std::move(overrides.root);
   model_->own_lights = overrides.own_lights;
   SwapParts(ScenePart::kShapes, &scene_, &model_->scene);
   CompleteModel(SceneParts::All());
   if (complete_) complete_(&scene_);
+}
+
+SceneParts LiveScene::ReadChangedFiles() {
+  if (model_) {
+    // All of it is read. If that fails, the files that it was going to read are watched from now
+    // on.
+    LoadOptions options = Watching();
+    LiveScene fresh(path_, std::move(options), complete_);
+    fresh.options_.on_file = std::move(options_.on_file);
+    *this = std::move(fresh);
+    return SceneParts::All();
+  }
+  const std::string text = ReadSceneText(path_);
+  SceneTree other = Parse(text);
+  uint64_t other_bytes = text.size();
+  const SceneParts touched = WithMaterials(DifferingParts(other, tree_) | files_.ChangedParts());
+  const auto swap = [&] {
+    std::swap(other, tree_);
+    std::swap(other_bytes, bytes_);
+  };
+  swap();
+  try {
+    const SceneParts parts = ReadAgain(touched);
+    files_.ForgetChanges();
+    return parts;
+  } catch (...) {
+    swap();
+    throw;
+  }
+}
+
+LoadOptions LiveScene::Watching() {
+  LoadOptions options = options_;
+  options.on_file = [this](const std::filesystem::path& file) {
+    files_.Add(file, SceneParts::All());
+    if (options_.on_file) options_.on_file(file);
+  };
+  return options;
 }
 
 SceneParts LiveScene::Set(const std::string& pointer, const std::string& json) {
@@ -127,7 +204,7 @@ SceneParts LiveScene::ReadAgain(SceneParts touched) {
   try {
     FaultList faults;
     const ReadMembers read =
-        ReadScene(tree_, parts, {folder_, bytes_, &options_, &kept_}, &faults, &next);
+        ReadScene(tree_, parts, {folder_, bytes_, &options_, &kept_, &files_}, &faults, &next);
     ThrowFaults(faults, file_);
     const bool has_shapes = parts.Has(ScenePart::kShapes);
     moved = parts.Has(ScenePart::kMaterials) && !has_shapes &&
@@ -150,10 +227,13 @@ SceneParts LiveScene::ReadAgain(SceneParts touched) {
   DropUnheld(&kept_);
   if (!parts.Has(ScenePart::kShapes)) return parts;
   const uint64_t hash = HashShapes(scene_);
-  // Read along with materials, they are mostly what they were.
-  const bool same = with_shapes && hash == shapes_hash_;
-  shapes_hash_ = hash;
-  return same ? parts.Without(ScenePart::kShapes) : parts;
+  // Read along with materials, or from a file that was saved, they are mostly what they were. Those
+  // stay that others may point to.
+  const bool same = std::exchange(shapes_hash_, hash) == hash;
+  if (!same) return parts;
+  SwapParts(ScenePart::kShapes, &scene_, &next);
+  std::swap(scene_.labels, next.labels);
+  return parts.Without(ScenePart::kShapes);
 }
 
 SceneParts LiveScene::CompleteModel(SceneParts touched) {
@@ -168,10 +248,11 @@ SceneParts LiveScene::CompleteModel(SceneParts touched) {
   Scene next = model_->scene;
   SwapParts(others, &scene_, &next);
   const ModelOverrides overrides{tree_.root, model_->own_lights};
+  const LoadOptions options = Watching();
   bool new_coordinates = false;
   try {
-    new_coordinates = CompleteModelScene({&overrides, &options_, file_, model_->has_camera, &kept_},
-                                         parts, &next);
+    new_coordinates =
+        CompleteModelScene({&overrides, &options, file_, model_->has_camera, &kept_}, parts, &next);
     ThrowFaultsIn(next, touched == SceneParts::All() ? touched : parts, file_);
   } catch (...) {
     SwapParts(others, &scene_, &next);

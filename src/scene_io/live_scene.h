@@ -9,6 +9,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "scene/parts.h"
 #include "scene/scene.h"
@@ -16,6 +18,7 @@
 #include "scene_io/kept_files.h"
 #include "scene_io/load_scene.h"
 #include "scene_io/read_scene.h"
+#include "scene_io/watched_files.h"
 
 namespace nacre {
 
@@ -50,6 +53,15 @@ class LiveScene {
   bool lists_all_shapes() const { return tree_.spheres.runs.empty(); }
   void ListShapes() { CompleteTree("/shapes", &tree_); }
 
+  // Whether files that it was read from, those of failed reads included, have changed since: as
+  // WatchedFiles::Changed, to be called several times a second.
+  bool FilesChanged() { return files_.Changed(); }
+
+  // Reads those files again, and what else of the scene has changed with them. What Set has put is
+  // gone. Returns which parts may have other values now. Throws Error as LoadScene does: the scene
+  // is then the one before. Only of a scene that was read from a file.
+  SceneParts ReadChangedFiles();
+
   // Renders it with other settings than its own, until the next change of those. Nothing else
   // follows: a model's camera stays.
   void UseImage(const ImageSettings& image) { scene_.image = image; }
@@ -58,10 +70,16 @@ class LiveScene {
   const ImageSettings& own_image() const { return own_image_; }
 
  private:
+  void ReadText(std::string_view text);
+  void ReadModelFile();
+  SceneTree Parse(std::string_view text) const;
+  LoadOptions Watching();  // options_ of a model that put each file into files_; while this stays
   SceneParts ReadAgain(SceneParts touched);
   SceneParts CompleteModel(SceneParts touched);
 
-  LoadOptions options_;
+  std::filesystem::path path_;  // empty: `file_` is only what errors call the text
+  LoadOptions options_;         // without overrides where these are in tree_
+  std::vector<std::pair<std::string, std::string>> overrides_;  // of the options
   std::string file_;
   std::filesystem::path folder_;
   uint64_t bytes_ = 0;
@@ -73,6 +91,7 @@ class LiveScene {
   bool shapes_bring_materials_ = false;  // or textures: these are read again with those
   uint64_t shapes_hash_ = 0;
   KeptFiles kept_;
+  WatchedFiles files_;
 };
 
 }  // namespace nacre

@@ -38,7 +38,7 @@ struct LoadOptions {
   std::vector<std::filesystem::path> trusted_files = {};
 
   // Called with each file that the scene refers to, by its path without links, before it is read;
-  // for one file perhaps several times.
+  // for one file perhaps several times. Also with files that are not there.
   std::function<void(const std::filesystem::path&)> on_file = {};
 
   // To make large shapes on; 0: as many as the machine has.

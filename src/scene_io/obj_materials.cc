@@ -69,6 +69,7 @@ class ObjMaterials {
 
   std::vector<MaterialId> Add(const ObjFile& obj) {
     for (const std::string& line : obj.libraries) ReadLibraries(line);
+    DecodeAhead();
     for (size_t i = 0; i < sources_.size(); ++i) AddMaterial(i);
     const MaterialId none{static_cast<uint32_t>(scene_.materials.size())};
     scene_.materials.push_back(MakeClay());
@@ -171,6 +172,30 @@ class ObjMaterials {
         sources_.push_back(std::move(material));
       }
     }
+  }
+
+  // The images that most materials have, several at a time.
+  void DecodeAhead() {
+    const auto want = [&](const MtlImage& image, TextureEncoding encoding) {
+      if (image.file.empty()) return;
+      try {
+        const std::optional<std::filesystem::path> path = Find(image.file);
+        if (path) ahead_.Want(*path, Reading(encoding));
+      } catch (const Error&) {  // NOLINT(bugprone-empty-catch): its user will throw it again
+      }
+    };
+    for (const MtlMaterial& source : sources_) {
+      want(source.map_ke, TextureEncoding::kSrgb);
+      want(source.norm, TextureEncoding::kLinear);
+      want(source.map_kd, TextureEncoding::kSrgb);
+      want(source.map_pr, TextureEncoding::kLinear);
+      want(source.map_pm, TextureEncoding::kLinear);
+    }
+    ahead_.Decode(texels_, options_.threads);
+  }
+
+  TextureReading Reading(TextureEncoding encoding) const {
+    return {.encoding = encoding, .part = {}, .threads = options_.threads};
   }
 
   void AddMaterial(size_t index) {
@@ -280,8 +305,7 @@ class ObjMaterials {
     const auto known = images_.find(key);
     if (known != images_.end()) return known->second;
     const std::optional<ImageId> id = WithImage(source, [&] {
-      return AddTextureImage(path, source.file, {.encoding = encoding, .part = {}}, &texels_,
-                             &scene_);
+      return AddTextureImage(path, source.file, Reading(encoding), &texels_, &scene_, &ahead_);
     });
     images_.emplace(key, id);
     return id;
@@ -351,8 +375,8 @@ class ObjMaterials {
                           const MtlImage& image) -> std::shared_ptr<const MipChain> {
       if (path.empty()) return nullptr;
       const auto texture = WithImage(image, [&] {
-        return ReadTextureImage(path, image.file,
-                                {.encoding = TextureEncoding::kLinear, .part = {}}, &texels_);
+        return ReadTextureImage(path, image.file, Reading(TextureEncoding::kLinear), &texels_,
+                                &ahead_);
       });
       return texture ? texture->texels : nullptr;
     };
@@ -402,6 +426,7 @@ class ObjMaterials {
   UniqueNames names_;
   std::unordered_set<std::string> warned_, libraries_;
   TexelBudget texels_{0};
+  TexturesAhead ahead_;
   std::unordered_map<std::string, std::filesystem::path> image_paths_;  // by name; empty: no file
   // Nothing for those that cannot be read, or do not fit each other.
   std::map<std::pair<std::filesystem::path, TextureEncoding>, std::optional<ImageId>> images_;

@@ -45,13 +45,21 @@ void CheckIsObject(const Json& root, const std::string& file) {
 }
 
 // Members of the file that are other parts are known, and that is all.
-void ReadRoot(const SceneTree& tree, SceneParts parts, FaultList* faults, SceneContext* context,
-              ReadMembers* read) {
+void ReadRoot(const SceneTree& tree, SceneParts parts, WatchedFiles* files, FaultList* faults,
+              SceneContext* context, ReadMembers* read) {
   JsonObject object({tree.root, JsonPath{}, faults});
   Scene* const scene = context->scene;
+  ScenePart being_read = ScenePart::kCamera;
+  if (files != nullptr) {
+    context->references.on_file = [&, tell = context->references.on_file](const auto& file) {
+      files->Add(file, being_read);
+      if (tell) tell(file);
+    };
+  }
   const auto member = [&](std::string_view name, ScenePart part, const auto& read_member) {
     const Json* const json = object.Find(name);
     if (json == nullptr || !parts.Has(part)) return;
+    being_read = part;
     read_member(JsonValue{*json, object.path().Member(name), faults});
   };
   std::string schema;
@@ -63,8 +71,10 @@ void ReadRoot(const SceneTree& tree, SceneParts parts, FaultList* faults, SceneC
          [&](const JsonValue& value) { ReadImage(value, &scene->image); });
   member("textures", ScenePart::kTextures,
          [&](const JsonValue& value) { ReadTextures(value, context); });
-  member("materials", ScenePart::kMaterials,
-         [&](const JsonValue& value) { ReadMaterials(value, context); });
+  member("materials", ScenePart::kMaterials, [&](const JsonValue& value) {
+    DecodeMapsAhead(value.json, context);
+    ReadMaterials(value, context);
+  });
   *read = {scene->materials.size(), scene->textures.size()};
   member("lights", ScenePart::kLights,
          [&](const JsonValue& value) { ReadLights(value, *context, &scene->lights); });
@@ -165,7 +175,7 @@ ReadMembers ReadScene(const SceneTree& tree, SceneParts parts, const SceneReadin
   TexelBudget texels(reading.bytes);
   context.texels = &texels;
   ReadMembers read;
-  ReadRoot(tree, parts, faults, &context, &read);
+  ReadRoot(tree, parts, reading.files, faults, &context, &read);
   AddValidation(*scene, parts, faults);
   return read;
 }

@@ -13,6 +13,7 @@
 #include "scene_io/json_text.h"
 #include "scene_io/kept_files.h"
 #include "scene_io/load_scene.h"
+#include "scene_io/watched_files.h"
 
 namespace nacre {
 
@@ -43,7 +44,8 @@ struct SceneReading {
   std::filesystem::path folder;  // of the scene file
   uint64_t bytes = 0;            // of its text, which its images may be large in proportion to
   const LoadOptions* options = nullptr;
-  KeptFiles* kept = nullptr;  // files read before; null: none
+  KeptFiles* kept = nullptr;      // files read before; null: none
+  WatchedFiles* files = nullptr;  // gets all that are read; null: nobody asks
 };
 
 // The text of a scene file, up to 1 GiB.

@@ -70,6 +70,17 @@ void ReadMapping(const JsonValue& value, Texture* texture) {
   object.RefuseOthers();
 }
 
+// The image of this key that was kept, if any scene still holds it.
+std::optional<SceneImage> FindKept(const std::string& key, const SceneContext& context) {
+  const auto kept = context.kept->images.find(key);
+  if (kept == context.kept->images.end()) return std::nullopt;
+  auto texels = kept->second.texels.lock();
+  if (texels == nullptr) return std::nullopt;
+  SceneImage image = kept->second.image;
+  image.texels = std::move(texels);
+  return image;
+}
+
 // The image of a file, which is read unless it was kept. `how`: of its path and reading.
 ImageId AddImage(const std::filesystem::path& path, const std::string& file,
                  const TextureReading& reading, const std::string& how, SceneContext* context) {
@@ -78,18 +89,14 @@ ImageId AddImage(const std::filesystem::path& path, const std::string& file,
   std::string key;
   if (context->kept != nullptr) {
     key = how + KeyOfFile(path);
-    const auto kept = context->kept->images.find(key);
-    if (kept != context->kept->images.end()) {
-      if (auto texels = kept->second.texels.lock()) {
-        images.push_back(kept->second.image);
-        images.back().file = file;
-        images.back().texels = std::move(texels);
-        return id;
-      }
+    if (std::optional<SceneImage> kept = FindKept(key, *context)) {
+      kept->file = file;
+      images.push_back(*std::move(kept));
+      return id;
     }
   }
   context->texels->AddFile(path);
-  AddTextureImage(path, file, reading, context->texels, context->scene);
+  AddTextureImage(path, file, reading, context->texels, context->scene, &context->ahead);
   if (context->kept != nullptr) {
     KeptFiles::Image kept{images.back(), images.back().texels};
     kept.image.texels = nullptr;
@@ -98,14 +105,23 @@ ImageId AddImage(const std::filesystem::path& path, const std::string& file,
   return id;
 }
 
-// The image of the texture, decoded so; read once.
-ImageId FindImage(const TextureSource& source, TextureEncoding encoding, SceneContext* context) {
-  const auto path = ResolveReference(context->folder, source.file, context->references);
+// How the file of a texture is read where it is used so.
+TextureReading ReadingOf(const TextureSource& source, MapUse use, int threads) {
+  const auto by_use = use == MapUse::kColor     ? TextureEncoding::kSrgb
+                      : use == MapUse::kOpacity ? TextureEncoding::kAlpha
+                                                : TextureEncoding::kLinear;
   // A file that says what it is may contradict what is merely the custom.
-  const TextureReading reading{
-      .encoding = encoding, .trust_encoding = source.encoding.has_value(), .part = source.part};
-  const std::string key = path.string() + "sla"[static_cast<size_t>(encoding)] +
-                          (reading.trust_encoding ? "!" : "?") + source.part;
+  return {.encoding = source.encoding.value_or(by_use),
+          .trust_encoding = source.encoding.has_value(),
+          .part = source.part,
+          .threads = threads};
+}
+
+// The image of the texture, read so, once.
+ImageId FindImage(const TextureSource& source, const TextureReading& reading,
+                  SceneContext* context) {
+  const auto path = ResolveReference(context->folder, source.file, context->references);
+  const std::string key = reading.Key(path);
   const auto known = context->images.find(key);
   if (known != context->images.end()) return known->second;
   const ImageId id = AddImage(path, source.file, reading, key, context);
@@ -115,11 +131,11 @@ ImageId FindImage(const TextureSource& source, TextureEncoding encoding, SceneCo
 
 // Adds the texture to the scene. What is wrong with its file is reported where the scene
 // names it.
-TextureId AddTexture(TextureSource* source, TextureEncoding encoding, SceneContext* context,
+TextureId AddTexture(TextureSource* source, const TextureReading& reading, SceneContext* context,
                      FaultList* faults) {
   Texture texture = source->texture;
   try {
-    texture.image = FindImage(*source, encoding, context);
+    texture.image = FindImage(*source, reading, context);
   } catch (const Error& error) {
     source->is_readable = false;  // reported once
     for (const Fault& fault : error.faults()) {
@@ -192,6 +208,55 @@ void ReadTextures(const JsonValue& value, SceneContext* context) {
   }
 }
 
+namespace {
+
+// What the map of this name means, of whatever model; nothing for what is no map.
+std::optional<MapUse> UseOfMap(std::string_view name) {
+  if (name == "bump_map") return MapUse::kData;
+  for (const MaterialModel& model : MaterialModels()) {
+    for (const MaterialMap& map : model.maps) {
+      if (map.name == name) return map.use;
+    }
+    for (const MaterialNormalMap& map : model.normal_maps) {
+      if (map.name == name) return MapUse::kData;
+    }
+  }
+  return std::nullopt;
+}
+
+// The name of the texture of a map: the JSON, or its member "texture".
+const std::string* NameOfTexture(const Json& map) {
+  const auto member = map.is_object() ? map.find("texture") : map.end();
+  const Json& name = map.is_object() && member != map.end() ? *member : map;
+  return name.get_ptr<const std::string*>();
+}
+
+}  // namespace
+
+void DecodeMapsAhead(const Json& materials, SceneContext* context) {
+  if (context->textures.size() < 2 || !materials.is_object()) return;
+  for (const Json& material : materials) {
+    if (!material.is_object()) continue;
+    for (const auto& [member, map] : material.items()) {
+      const std::string* const name = NameOfTexture(map);
+      const std::optional<MapUse> use = name != nullptr ? UseOfMap(member) : std::nullopt;
+      if (!use) continue;
+      const auto found = context->textures.find(*name);
+      if (found == context->textures.end() || !found->second.is_readable) continue;
+      const TextureReading reading = ReadingOf(found->second, *use, context->threads);
+      try {
+        const auto path =
+            ResolveReference(context->folder, found->second.file, context->references);
+        const bool is_kept = context->kept != nullptr &&
+                             FindKept(reading.Key(path) + KeyOfFile(path), *context).has_value();
+        if (!is_kept) context->ahead.Want(path, reading);
+      } catch (const Error&) {  // NOLINT(bugprone-empty-catch): its reader will throw it again
+      }
+    }
+  }
+  context->ahead.Decode(*context->texels, context->threads);
+}
+
 void ReadTextureId(const JsonValue& value, MapUse use, SceneContext* context, TextureId* id) {
   std::string name;
   if (!value.Expect(value.json.is_string(), "a texture", kTextureHint)) return;
@@ -209,12 +274,9 @@ void ReadTextureId(const JsonValue& value, MapUse use, SceneContext* context, Te
   }
   TextureSource& source = found->second;
   if (!source.is_readable) return;  // reported before
-  const auto by_use = use == MapUse::kColor     ? TextureEncoding::kSrgb
-                      : use == MapUse::kOpacity ? TextureEncoding::kAlpha
-                                                : TextureEncoding::kLinear;
-  const TextureEncoding encoding = source.encoding.value_or(by_use);
-  TextureId& known = source.decoded[static_cast<size_t>(encoding)];
-  if (!known.valid()) known = AddTexture(&source, encoding, context, value.faults);
+  const TextureReading reading = ReadingOf(source, use, context->threads);
+  TextureId& known = source.decoded[static_cast<size_t>(reading.encoding)];
+  if (!known.valid()) known = AddTexture(&source, reading, context, value.faults);
   if (use == MapUse::kOpacity && known.valid()) {
     const ImageId image = context->scene->textures[known.index].image;
     if (context->scene->images[image.index].lacks_alpha) {

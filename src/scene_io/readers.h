@@ -53,6 +53,7 @@ struct SceneContext {
   };
   std::unordered_map<std::string, TextureSource> textures;
   std::unordered_map<std::string, ImageId> images;     // by path, encoding and part
+  TexturesAhead ahead;                                 // of DecodeMapsAhead
   std::function<void(const std::string&)> on_warning;  // LoadOptions::on_warning
   KeptFiles* kept = nullptr;                           // of a scene that is read again; else null
 };
@@ -92,6 +93,9 @@ void ReadMaps(const MaterialModel& model, JsonObject* object, SceneContext* cont
 
 // The object "materials": all of them, in its order.
 void ReadMaterials(const JsonValue& value, SceneContext* context);
+// Before them: decodes the images that they are going to read, several at a time. `materials` is
+// the same JSON, which may be wrong.
+void DecodeMapsAhead(const Json& materials, SceneContext* context);
 
 // Sets what the object says of a material that is there, its maps too. With a "model" it says all
 // of the material, and only the name stays.

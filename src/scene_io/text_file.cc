@@ -164,6 +164,7 @@ std::filesystem::path ResolveReference(const std::filesystem::path& folder, cons
                 fmt::format("\"{}\" is outside the scene's folder", Excerpt(name)),
                 "move it there, or allow it with --allow-paths");
   }
+  if (rules.on_file) rules.on_file(path);
   if (!std::filesystem::exists(path, error)) {
     throw Error(ExitCode::kBadInput, {}, fmt::format("there is no file \"{}\"", Excerpt(name)),
                 fmt::format("it was looked for as {}", path.string()));
@@ -172,7 +173,6 @@ std::filesystem::path ResolveReference(const std::filesystem::path& folder, cons
     throw Error(ExitCode::kBadInput, {},
                 fmt::format("\"{}\" is not a regular file", Excerpt(name)));
   }
-  if (rules.on_file) rules.on_file(path);
   return path;
 }
 

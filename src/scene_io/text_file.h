@@ -29,7 +29,7 @@ std::string ReadBytes(const std::filesystem::path& path, uint64_t max_bytes,
 // What a scene's references to other files may be, and who is told of them.
 struct ReferenceRules {
   bool allow_paths = false;                                     // outside the scene's folder, too
-  std::function<void(const std::filesystem::path&)> on_file{};  // each file, before it is read
+  std::function<void(const std::filesystem::path&)> on_file{};  // LoadOptions::on_file
   std::vector<std::filesystem::path> trusted{};  // files that may lie anywhere; without links
 };
 

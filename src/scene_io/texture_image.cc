@@ -2,6 +2,7 @@
 #include "scene_io/texture_image.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -13,6 +14,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/float_mode.h"
+#include "base/parallel.h"
 #include "color/transfer.h"
 #include "image_io/color_channels.h"
 #include "image_io/image_file.h"
@@ -38,13 +41,34 @@ struct CodeTable {
   // Whether the float is one of the table's codes, give or take two roundings: at most 0.016 of a
   // 16-bit code, and 255 times less than the distance of 16-bit codes of an 8-bit one.
   bool Holds(float value) const {
+    if (!(value >= 0 && value <= 1)) return false;
     const float code = value * maximum;
-    return value >= 0 && value <= 1 && std::abs(std::round(code) - code) <= maximum * 0x1p-22f;
+    return std::abs(static_cast<float>(NearestCode(value)) - code) <= maximum * 0x1p-22f;
   }
-  float Decode(float value) const {
-    return decoded[static_cast<size_t>(std::round(value * maximum))];
-  }
+  float Decode(float value) const { return decoded[static_cast<size_t>(NearestCode(value))]; }
+
+ private:
+  // Of a value in [0, 1]. std::round is a call of a function, for each texel.
+  int NearestCode(float value) const { return static_cast<int>(value * maximum + 0.5f); }
 };
+
+// Calls body(some) for the values in pieces, on several threads.
+template <class Body>
+void ForEachPiece(std::span<float> values, int threads, const Body& body) {
+  constexpr size_t kPiece = size_t{1} << 18;
+  ParallelFor((values.size() + kPiece - 1) / kPiece, threads, [&](size_t i) {
+    body(values.subspan(i * kPiece, std::min(kPiece, values.size() - i * kPiece)));
+  });
+}
+
+template <class Holds>
+bool AllHold(std::span<float> values, int threads, const Holds& holds) {
+  std::atomic<bool> all = true;
+  ForEachPiece(values, threads, [&](std::span<float> piece) {
+    if (all && !std::all_of(piece.begin(), piece.end(), holds)) all = false;
+  });
+  return all;
+}
 
 // The channels that a texture keeps: one or three, or none for the alpha of an opaque image.
 std::vector<size_t> ChannelsOf(const ImageFile& image, TextureEncoding encoding) {
@@ -66,19 +90,22 @@ std::vector<size_t> ChannelsOf(const ImageFile& image, TextureEncoding encoding)
 }
 
 // Decodes the values of an integer file and returns the code that a normal map has as 0.
-float DecodeIntegers(TextureEncoding encoding, std::span<float> values) {
+float DecodeIntegers(TextureEncoding encoding, int threads, std::span<float> values) {
   const CodeTable bytes(1 << 8, encoding);
-  const auto is_byte = [&](float value) { return bytes.Holds(value); };
-  if (std::all_of(values.begin(), values.end(), is_byte)) {
-    for (float& value : values) value = bytes.Decode(value);
+  if (AllHold(values, threads, [&](float value) { return bytes.Holds(value); })) {
+    ForEachPiece(values, threads, [&](std::span<float> piece) {
+      for (float& value : piece) value = bytes.Decode(value);
+    });
     return 128.0f / 255;
   }
   const CodeTable words(1 << 16, encoding);
-  for (float& value : values) {
-    value = words.Holds(value)                   ? words.Decode(value)
-            : encoding == TextureEncoding::kSrgb ? SrgbEotf(value)
-                                                 : value;
-  }
+  ForEachPiece(values, threads, [&](std::span<float> piece) {
+    for (float& value : piece) {
+      value = words.Holds(value)                   ? words.Decode(value)
+              : encoding == TextureEncoding::kSrgb ? SrgbEotf(value)
+                                                   : value;
+    }
+  });
   return 32768.0f / 65535;
 }
 
@@ -114,23 +141,42 @@ void TexelBudget::Spend(const std::string& where, int64_t width, int64_t height,
   spent_ += static_cast<uint64_t>(values);
 }
 
-SceneImage ReadTextureImage(const std::filesystem::path& path, const std::string& file,
-                            const TextureReading& reading, TexelBudget* budget) {
-  const ImageFile image = OpenImage(path.string(), reading.part);
-  const Window window = WholeWindow(image, "a texture");
-  const std::vector<size_t> channels = ChannelsOf(image, reading.encoding);
-  const auto& metadata = image.header.metadata;
-  const bool is_integer = metadata.at("transfer") == "display";
+namespace {
+
+// An image file whose header has been read and judged.
+struct OpenTexture {
+  ImageFile image;
+  Window window;
+  std::vector<size_t> channels;  // of the file; none: the alpha of an opaque image
+  bool is_integer = false;
+
+  size_t kept() const { return std::max<size_t>(channels.size(), 1); }
+};
+
+OpenTexture OpenTextureImage(const std::filesystem::path& path, const TextureReading& reading,
+                             TexelBudget* budget) {
+  OpenTexture texture;
+  texture.image = OpenImage(path.string(), reading.part);
+  const Window window = texture.window = WholeWindow(texture.image, "a texture");
+  texture.channels = ChannelsOf(texture.image, reading.encoding);
+  const auto& metadata = texture.image.header.metadata;
+  texture.is_integer = metadata.at("transfer") == "display";
   const auto not_srgb = metadata.find("not_srgb");
-  if (is_integer && !reading.trust_encoding && reading.encoding == TextureEncoding::kSrgb &&
+  if (texture.is_integer && !reading.trust_encoding && reading.encoding == TextureEncoding::kSrgb &&
       not_srgb != metadata.end()) {
     throw Error(ExitCode::kBadInput, path.string(), "has " + not_srgb->second,
                 R"(convert it to sRGB, or say "encoding": "srgb" to take it as that)");
   }
-  const size_t kept = std::max<size_t>(channels.size(), 1);
-  image.CheckSize(window, kept);
+  texture.image.CheckSize(window, texture.kept());
   budget->Spend(path.string(), int64_t{window.x1} - window.x0, int64_t{window.y1} - window.y0,
-                kept);
+                texture.kept());
+  return texture;
+}
+
+SceneImage DecodeTextureImage(const OpenTexture& open, const TextureReading& reading) {
+  const Window& window = open.window;
+  const std::vector<size_t>& channels = open.channels;
+  const size_t kept = open.kept();
   MipChain chain = MakeEmptyMipChain(window.width(), window.height(), static_cast<int>(kept));
   const size_t count = window.pixel_count() * kept;
   const std::span<float> values(chain.values.data(), count);
@@ -146,14 +192,14 @@ SceneImage ReadTextureImage(const std::filesystem::path& path, const std::string
                          values.data() + (window.height() - 1) * step_y + static_cast<ptrdiff_t>(c),
                          step_x, -step_y});
     }
-    image.read(window, targets);
+    open.image.read(window, targets);
   }
   SceneImage texture;
-  texture.file = file;
   texture.lacks_alpha = channels.empty();
-  if (is_integer) texture.middle = DecodeIntegers(reading.encoding, values);
-  if (!std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); })) {
-    throw Error(ExitCode::kBadInput, path.string(), "holds NaN or infinities",
+  const int threads = reading.threads;
+  if (open.is_integer) texture.middle = DecodeIntegers(reading.encoding, threads, values);
+  if (!AllHold(values, threads, [](float v) { return std::isfinite(v); })) {
+    throw Error(ExitCode::kBadInput, open.image.path, "holds NaN or infinities",
                 "a texture needs finite values");
   }
   FillMipLevels(&chain);
@@ -161,9 +207,62 @@ SceneImage ReadTextureImage(const std::filesystem::path& path, const std::string
   return texture;
 }
 
+}  // namespace
+
+std::string TextureReading::Key(const std::filesystem::path& path) const {
+  return path.string() + "sla"[static_cast<size_t>(encoding)] + (trust_encoding ? "!" : "?") + part;
+}
+
+void TexturesAhead::Want(const std::filesystem::path& path, const TextureReading& reading) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return;
+  if (by_key_.emplace(reading.Key(path), wanted_.size()).second) {
+    wanted_.push_back({path, reading, std::nullopt});
+  }
+}
+
+void TexturesAhead::Decode(TexelBudget budget, int threads) {
+  if (wanted_.size() < 2 || ThreadCount(threads) < 2) return;
+  std::vector<std::optional<OpenTexture>> open(wanted_.size());
+  for (size_t i = 0; i < wanted_.size(); ++i) {
+    try {
+      budget.AddFile(wanted_[i].path);
+      open[i] = OpenTextureImage(wanted_[i].path, wanted_[i].reading, &budget);
+    } catch (const Error&) {  // NOLINT(bugprone-empty-catch): its reader will throw it again
+    }
+  }
+  ParallelFor(wanted_.size(), threads, [&](size_t i) {
+    if (!open[i]) return;
+    const DefaultFloatMode keeps_denormals;
+    try {
+      wanted_[i].image = DecodeTextureImage(*open[i], wanted_[i].reading);
+    } catch (const Error&) {  // NOLINT(bugprone-empty-catch)
+    }
+  });
+}
+
+std::optional<SceneImage> TexturesAhead::Take(const std::filesystem::path& path,
+                                              const TextureReading& reading) {
+  const auto found = by_key_.find(reading.Key(path));
+  if (found == by_key_.end()) return std::nullopt;
+  return std::exchange(wanted_[found->second].image, std::nullopt);
+}
+
+SceneImage ReadTextureImage(const std::filesystem::path& path, const std::string& file,
+                            const TextureReading& reading, TexelBudget* budget,
+                            TexturesAhead* ahead) {
+  const OpenTexture open = OpenTextureImage(path, reading, budget);
+  std::optional<SceneImage> decoded;
+  if (ahead != nullptr) decoded = ahead->Take(path, reading);
+  SceneImage texture = decoded ? *std::move(decoded) : DecodeTextureImage(open, reading);
+  texture.file = file;
+  return texture;
+}
+
 ImageId AddTextureImage(const std::filesystem::path& path, const std::string& file,
-                        const TextureReading& reading, TexelBudget* budget, Scene* scene) {
-  scene->images.push_back(ReadTextureImage(path, file, reading, budget));
+                        const TextureReading& reading, TexelBudget* budget, Scene* scene,
+                        TexturesAhead* ahead) {
+  scene->images.push_back(ReadTextureImage(path, file, reading, budget, ahead));
   return {static_cast<uint32_t>(scene->images.size() - 1)};
 }
 

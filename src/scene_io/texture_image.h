@@ -4,8 +4,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "scene/scene.h"
 
@@ -22,6 +25,10 @@ struct TextureReading {
   // or cHRM of PNG, ICC profiles) is refused. glTF forbids to look, and a scene may say so.
   bool trust_encoding = true;
   std::string part;  // of an EXR file that has several
+  int threads = 0;   // to decode on; 0: as many as the machine has
+
+  // The same for readings of one file that give one texture.
+  std::string Key(const std::filesystem::path& path) const;
 };
 
 // How many values the images of one scene or model may have together: 2^27 whatever the size of its
@@ -46,6 +53,30 @@ class TexelBudget {
   std::set<std::filesystem::path> files_;
 };
 
+// Images that a scene is going to read, decoded ahead of that on several threads. What is wrong
+// with one is left to its reader, so that faults are found in the scene's order.
+class TexturesAhead {
+ public:
+  // In the order in which they are going to be read. Files that are missing are left out.
+  void Want(const std::filesystem::path& path, const TextureReading& reading);
+
+  // Decodes all that are wanted, as far as the budget would allow them; it is not spent. Nothing is
+  // done for a single one, which its reader decodes as fast.
+  void Decode(TexelBudget budget, int threads);
+
+  // The image, once; nothing if it was not decoded.
+  std::optional<SceneImage> Take(const std::filesystem::path& path, const TextureReading& reading);
+
+ private:
+  struct Wanted {
+    std::filesystem::path path;
+    TextureReading reading;
+    std::optional<SceneImage> image;
+  };
+  std::vector<Wanted> wanted_;
+  std::map<std::string, size_t> by_key_;
+};
+
 // Reads any image file (image_io/image_file.h), decodes it to linear floats, exactly, and makes its
 // mip levels. Red, green and blue are kept, or the one channel of a grey image; or else alpha.
 // Colours are not divided by alpha: those of EXR files are multiplied by it, by convention.
@@ -56,12 +87,15 @@ class TexelBudget {
 // infinities. `file` is what SceneImage calls it.
 //
 // Memory: 16/3 bytes a value, which is what the texture keeps, and what the reader takes.
+// `ahead`, which may be null, has some that are decoded.
 SceneImage ReadTextureImage(const std::filesystem::path& path, const std::string& file,
-                            const TextureReading& reading, TexelBudget* budget);
+                            const TextureReading& reading, TexelBudget* budget,
+                            TexturesAhead* ahead = nullptr);
 
 // The same, added to the scene.
 ImageId AddTextureImage(const std::filesystem::path& path, const std::string& file,
-                        const TextureReading& reading, TexelBudget* budget, Scene* scene);
+                        const TextureReading& reading, TexelBudget* budget, Scene* scene,
+                        TexturesAhead* ahead = nullptr);
 
 // How many values the images of the scene have, mip levels left out.
 uint64_t TexelValuesOf(const Scene& scene);

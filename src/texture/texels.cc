@@ -30,6 +30,33 @@ std::vector<Cover> CoversOf(int large, int small) {
   return covers;
 }
 
+// The weighted sums of neighbouring texels of a row, for each column of the smaller level.
+void SumColumns(const std::vector<Cover>& columns, size_t channels, const double* row, float* out) {
+  for (const Cover& column : columns) {
+    const double* const first = row + static_cast<size_t>(column.first) * channels;
+    for (size_t c = 0; c < channels; ++c) {
+      double sum = 0;
+      for (size_t k = 0; k < column.weights.size(); ++k) {
+        sum += column.weights[k] * first[k * channels + c];
+      }
+      *out++ = static_cast<float>(sum);
+    }
+  }
+}
+
+// The same where each column is two texels wide, the usual case, to the same bits.
+template <size_t kChannels>
+void SumPairs(size_t columns, const double* row, float* out) {
+  for (size_t x = 0; x < columns; ++x) {
+    for (size_t c = 0; c < kChannels; ++c) {
+      // With the 0 that the sum begins with: it makes -0 to 0.
+      const double sum =
+          (0.0 + 0.5 * row[2 * kChannels * x + c]) + 0.5 * row[2 * kChannels * x + kChannels + c];
+      out[kChannels * x + c] = static_cast<float>(sum);
+    }
+  }
+}
+
 // Fills `level` from the one before it.
 void FillLevel(size_t level, MipChain* chain) {
   const MipLevel& from = chain->levels[level - 1];
@@ -38,24 +65,26 @@ void FillLevel(size_t level, MipChain* chain) {
   const std::vector<Cover> columns = CoversOf(from.width, to.width);
   const std::vector<Cover> rows = CoversOf(from.height, to.height);
   const size_t from_stride = static_cast<size_t>(from.width) * channels;
+  const size_t to_stride = static_cast<size_t>(to.width) * channels;
   const float* const source = chain->values.data() + from.first;
-  float* out = chain->values.data() + to.first;
-  std::vector<double> column_sums(from_stride);
-  for (const Cover& row : rows) {
-    std::fill(column_sums.begin(), column_sums.end(), 0.0);
+  float* const target = chain->values.data() + to.first;
+  std::vector<double> sums(from_stride);
+  double* const column_sums = sums.data();
+  for (size_t y = 0; y < rows.size(); ++y) {
+    const Cover& row = rows[y];
+    std::fill_n(column_sums, from_stride, 0.0);
     for (size_t k = 0; k < row.weights.size(); ++k) {
       const float* const line = source + (static_cast<size_t>(row.first) + k) * from_stride;
       for (size_t i = 0; i < from_stride; ++i) column_sums[i] += row.weights[k] * double{line[i]};
     }
-    for (const Cover& column : columns) {
-      const double* const first = column_sums.data() + static_cast<size_t>(column.first) * channels;
-      for (size_t c = 0; c < channels; ++c) {
-        double sum = 0;
-        for (size_t k = 0; k < column.weights.size(); ++k) {
-          sum += column.weights[k] * first[k * channels + c];
-        }
-        *out++ = static_cast<float>(sum);
-      }
+    float* const out = target + y * to_stride;
+    const auto width = static_cast<size_t>(to.width);
+    if (from.width == 2 * to.width && channels == 3) {
+      SumPairs<3>(width, column_sums, out);
+    } else if (from.width == 2 * to.width && channels == 1) {
+      SumPairs<1>(width, column_sums, out);
+    } else {
+      SumColumns(columns, channels, column_sums, out);
     }
   }
 }

@@ -21,6 +21,8 @@ import readme
 import report
 import scaling
 import summary
+import waiting
+import waiting_files
 
 
 class Lights(unittest.TestCase):
@@ -326,6 +328,26 @@ class Tables(unittest.TestCase):
         self.assertEqual(text, "a\n<B>\nnew\n<E>\nz")
         with self.assertRaises(ValueError):
             readme.replace_between("no marks", "<B>", "<E>", "new")
+
+    def test_rows_of_waiting_are_medians_and_what_they_are_held_against(self):
+        rows = {"a": {"seconds": [3, 1, 2], "mib": [7, 7, 8], "against": [4, 4, 5], "what": "b"},
+                "c": {"seconds": [0.5]}}
+        table = waiting.markdown({"rows": rows, "command": "x", "machine": dict.fromkeys(
+            ("processor", "cores", "memory_gib", "system", "compiler", "build", "commit", "load"))})
+        self.assertIn("| a | 2 | 7 | 4 | 0.50 | b |", table)
+        self.assertIn("| c | 0.5 |  |  |  |  |", table)
+        growth = waiting.growth_of_spheres({"1e6 spheres, 1080p": {"seconds": [0.1, 0.2]},
+                                            "1e7 spheres, 1080p": {"seconds": [1.5, 1.5]}})
+        self.assertAlmostEqual(growth, 1)
+
+    def test_files_of_waiting_are_what_they_say(self):
+        positions, normals, indices = waiting_files._grid(3)
+        self.assertEqual((len(positions), len(normals), len(indices)), (48, 48, 54))
+        self.assertEqual(max(indices), 15)
+        self.assertAlmostEqual(sum(value ** 2 for value in normals[:3]), 1, 6)
+        glb = waiting_files._glb({"asset": {}}, b"12345")
+        self.assertEqual(int.from_bytes(glb[8:12], "little"), len(glb))
+        self.assertEqual(len(glb) % 4, 0)
 
     def test_gnuplot_strings(self):
         self.assertEqual(plots.quote("Embree's"), "'Embree''s'")

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/load/load_main.cc: the program behind scripts/load: many small renders in one process,
 // through the public API alone, with what a service would do around each (a scene read, changed,
-// rendered, written, read back, compared, and a faulty one refused). Its memory must stay flat, and
-// a job's picture the same from its first turn to its last.
+// rendered, written, read back, compared, and a faulty one refused); and as many changes of
+// sessions, each rendered. Memory must stay flat, and a picture the same from its first turn to its
+// last.
 //
 // Usage: nacre_load SCENES_FOLDER RENDERS
 #include <algorithm>
@@ -115,23 +116,13 @@ struct Memory {
   Use heap, resident;
 };
 
-Memory Run(const std::string& folder, int renders) {
-  const std::string path =
-      (std::filesystem::temp_directory_path() / ("nacre_load_" + std::to_string(getpid()) + ".exr"))
-          .string();
-  constexpr int kKinds = static_cast<int>(std::size(kJobs));
-  std::vector<std::vector<float>> first(kKinds);
+// What memory is in use over so many turns.
+Memory Measure(int renders, const std::function<void(int)>& turn) {
   Memory memory;
   memory.heap.at_start = HeapKib();
   memory.resident.at_start = ResidentKib();
   for (int i = 0; i < renders; ++i) {
-    const auto kind = static_cast<size_t>(i % kKinds);
-    const nacre::Image image = RenderJob(folder, kJobs[kind], i / kKinds);
-    const std::vector<float>& green = image.Find("G")->samples;
-    if (first[kind].empty()) first[kind] = green;
-    if (green != first[kind]) Fail(std::string(kJobs[kind].scene) + " changed between renders");
-    if (i % 10 == 0) RoundTrip(image, path);
-    if (i % 10 == 5) RefuseFaulty();
+    turn(i);
     const int done = i + 1;
     if (done == kWarmUp) {
       memory.heap.warm = HeapKib();
@@ -142,8 +133,77 @@ Memory Run(const std::string& folder, int renders) {
       memory.resident.later.push_back(ResidentKib());
     }
   }
+  return memory;
+}
+
+Memory MeasureJobs(const std::string& folder, int renders) {
+  const std::string path =
+      (std::filesystem::temp_directory_path() / ("nacre_load_" + std::to_string(getpid()) + ".exr"))
+          .string();
+  constexpr int kKinds = static_cast<int>(std::size(kJobs));
+  std::vector<std::vector<float>> first(kKinds);
+  const Memory memory = Measure(renders, [&](int i) {
+    const auto kind = static_cast<size_t>(i % kKinds);
+    const nacre::Image image = RenderJob(folder, kJobs[kind], i / kKinds);
+    const std::vector<float>& green = image.Find("G")->samples;
+    if (first[kind].empty()) first[kind] = green;
+    if (green != first[kind]) Fail(std::string(kJobs[kind].scene) + " changed between renders");
+    if (i % 10 == 0) RoundTrip(image, path);
+    if (i % 10 == 5) RefuseFaulty();
+  });
   std::filesystem::remove(path);
   return memory;
+}
+
+// A change of a scene; every part of one changes in some.
+struct SessionChange {
+  const char* pointer;
+  const char* values[2];
+};
+constexpr SessionChange kChanges[] = {
+    {"/materials/red/roughness", {"0.3", "0.1"}},
+    {"/camera/position", {"[0, 1.6, 6]", "[1, 2, 7]"}},
+    {"/lights/key/intensity", {"140", "20"}},
+    {"/lights/sky",
+     {R"({"type": "ambient", "radiance": [0.1, 0.11, 0.13]})",
+      R"({"type": "environment", "image": "textures/evening.exr"})"}},
+    {"/shapes/0/radius", {"1", "0.7"}},
+    {"/shapes/0",
+     {R"({"type": "sphere", "center": [0, 1, 0], "radius": 1, "material": "red"})",
+      R"({"type": "icosphere", "center": [0, 1, 0], "radius": 1, "subdivisions": 2,
+                       "material": "red"})"}},
+    {"/materials/red/base_color", {"[0.8, 0.1, 0.08]", "0.5"}},
+    {"/image/filter", {R"({"type": "box"})", R"({"type": "gaussian", "width": 3})"}},
+    {"/background", {"[0.05, 0.05, 0.08]", "0"}}};
+constexpr int kRound = 2 * static_cast<int>(std::size(kChanges));
+
+// Changes of one session, one after the other and back, and some that are refused.
+Memory MeasureSession(const std::string& folder, int renders) {
+  nacre::Session session(nacre::Scene::FromFile(folder + "/first_scene.json"));
+  nacre::RenderSettings settings;
+  settings.width = 32;
+  settings.height = 18;
+  settings.samples = 2;
+  settings.threads = 2;
+  std::vector<std::vector<float>> first(kRound);
+  return Measure(renders, [&](int i) {
+    const int turn = i % kRound;
+    const SessionChange& change = kChanges[turn / 2];
+    // There, and back: every turn of a round begins with the scene of the file.
+    session.Set(change.pointer, nacre::Value::Json(change.values[(turn + 1) % 2]));
+    const nacre::Image image = session.Render(settings);
+    const std::vector<float>& green = image.Find("G")->samples;
+    const auto place = static_cast<size_t>(turn);
+    if (first[place].empty()) first[place] = green;
+    if (green != first[place]) Fail(std::string(change.pointer) + " gives another picture");
+    if (i % 10 != 5) return;
+    try {
+      session.Set("/materials/red/roughness", 7);
+    } catch (const nacre::Error&) {
+      return;
+    }
+    Fail("a roughness of 7 was not refused");
+  });
 }
 
 // Prints what was used; whether it grew by no more than `allowed`.
@@ -165,11 +225,15 @@ int main(int argc, char** argv) {
   }
   GiveBackWhatIsFree();
   try {
-    const Memory memory = Run(argv[1], renders);
-    std::printf("%d renders\n", renders);
-    const bool heap = Flat("heap in use", memory.heap, kMaxHeapGrowthKib);
-    const bool resident = Flat("resident", memory.resident, kMaxResidentGrowthKib);
-    return heap && resident ? 0 : 1;
+    bool all_flat = true;
+    const auto judge = [&](const char* what, const Memory& memory) {
+      std::printf("%d renders of %s\n", renders, what);
+      all_flat &= Flat("heap in use", memory.heap, kMaxHeapGrowthKib);
+      all_flat &= Flat("resident", memory.resident, kMaxResidentGrowthKib);
+    };
+    judge("scenes that are read", MeasureJobs(argv[1], renders));
+    judge("a session, each after a change", MeasureSession(argv[1], renders));
+    return all_flat ? 0 : 1;
   } catch (const nacre::Error& error) {
     Fail(error.what());
   }

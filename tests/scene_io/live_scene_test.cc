@@ -2,8 +2,12 @@
 // A scene that was changed step by step is the one that all changes make as overrides.
 #include "scene_io/live_scene.h"
 
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
 #include <random>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -171,6 +175,146 @@ TEST_CASE("A grid's materials change without its shapes", "[live_scene]") {
   LiveScene live(kScenes / "material_grid.json", {});
   CHECK_FALSE(live.Set("/shapes/0/material/base_color", "[0, 0, 1]").Has(ScenePart::kShapes));
   CHECK(live.Set("/shapes/0/radius", "0.3").Has(ScenePart::kShapes));
+}
+
+// A folder of scene files that are written while they are watched.
+struct WatchedFolder {
+  WatchedFolder() : path(std::filesystem::temp_directory_path() / "nacre_live_scene_XXXXXX") {
+    std::string name = path.string();
+    REQUIRE(mkdtemp(name.data()) != nullptr);
+    path = name;
+  }
+  ~WatchedFolder() { std::filesystem::remove_all(path); }
+  WatchedFolder(const WatchedFolder&) = delete;
+  WatchedFolder& operator=(const WatchedFolder&) = delete;
+
+  void Write(const char* name, const std::string& text) const {
+    std::ofstream(path / name) << text;
+  }
+
+  std::filesystem::path path;
+};
+
+bool SoonChanged(LiveScene* live) {
+  for (int i = 0; i < 500; ++i) {
+    if (live->FilesChanged()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+constexpr char kWatchedTriangle[] = "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n";
+
+// A scene file with a mesh, and a colour of its material.
+std::string WatchedText(const std::string& albedo, const std::string& more = "") {
+  return R"({"nacre": 1, "shapes": [{"type": "mesh", "file": "m.obj", "material": "a"}],
+             "materials": {"a": {"model": "lambert", "albedo": )" +
+         albedo + "}}" + more + "}";
+}
+
+TEST_CASE("Of files that have changed only what they make is read again", "[live_scene]") {
+  const WatchedFolder folder;
+  folder.Write("m.obj", kWatchedTriangle);
+  folder.Write("s.json", WatchedText("0.5"));
+  LoadOptions options;
+  options.overrides = {{"/image/width", "64"}};
+  LiveScene live(folder.path / "s.json", options);
+  const auto read_anew = [&] { return Describe(LoadScene(folder.path / "s.json", options)); };
+  CHECK_FALSE(live.FilesChanged());
+  const Vec3d* const positions = live.scene().meshes[0].positions.data();
+
+  folder.Write("s.json", WatchedText("0.25"));
+  REQUIRE(SoonChanged(&live));
+  CHECK(live.ReadChangedFiles() == (ScenePart::kMaterials | ScenePart::kTextures));
+  CHECK(Describe(live.scene()) == read_anew());
+  CHECK(live.scene().meshes[0].positions.data() == positions);
+
+  folder.Write("s.json", WatchedText("0.25", R"(, "background": 1)"));
+  REQUIRE(SoonChanged(&live));
+  CHECK(live.ReadChangedFiles() == SceneParts(ScenePart::kBackground));
+  CHECK(Describe(live.scene()) == read_anew());
+
+  // Written anew, and the same as before.
+  folder.Write("m.obj", kWatchedTriangle);
+  REQUIRE(SoonChanged(&live));
+  CHECK_FALSE(live.ReadChangedFiles().Has(ScenePart::kShapes));
+  CHECK(live.scene().meshes[0].positions.data() == positions);
+
+  folder.Write("m.obj", "v -1 -1 0\nv 1 -1 0\nv 0 2 0\nf 1 2 3\n");
+  REQUIRE(SoonChanged(&live));
+  CHECK(live.ReadChangedFiles().Has(ScenePart::kShapes));
+  CHECK(Describe(live.scene()) == read_anew());
+  CHECK_FALSE(live.FilesChanged());
+}
+
+TEST_CASE("Files that are wrong leave the scene as it was, until they are right", "[live_scene]") {
+  const WatchedFolder folder;
+  folder.Write("m.obj", kWatchedTriangle);
+  folder.Write("s.json", WatchedText("0.5"));
+  LiveScene live(folder.path / "s.json", {});
+  const std::string before = Describe(live.scene());
+  const auto check_wrong = [&] {
+    REQUIRE(SoonChanged(&live));
+    CHECK_THROWS_AS(live.ReadChangedFiles(), Error);
+    CHECK(Describe(live.scene()) == before);
+  };
+  folder.Write("s.json", "{");
+  check_wrong();
+  // A change of the mesh is not forgotten because the scene is wrong.
+  folder.Write("m.obj", "v -1 -1 0\nv 1 -1 0\nv 0 2 0\nf 1 2 3\n");
+  check_wrong();
+  folder.Write("s.json", WatchedText("0.5"));
+  REQUIRE(SoonChanged(&live));
+  CHECK(live.ReadChangedFiles().Has(ScenePart::kShapes));
+  CHECK(live.scene().meshes[0].positions[2].y == 2);
+  // A file that is missing is waited for.
+  folder.Write("s.json", WatchedText("0.5", R"(, "textures": {"t": {"file": "t.exr"}})"));
+  REQUIRE(SoonChanged(&live));
+  CHECK_THROWS_AS(live.ReadChangedFiles(), Error);
+  std::filesystem::copy_file(kScenes / "textures/evening.exr", folder.path / "t.exr");
+  REQUIRE(SoonChanged(&live));
+  CHECK(live.ReadChangedFiles().Has(ScenePart::kTextures));
+}
+
+TEST_CASE("Models that have changed are read again", "[live_scene]") {
+  const WatchedFolder folder;
+  folder.Write("m.obj", std::string("mtllib m.mtl\nusemtl a\n") + kWatchedTriangle);
+  LiveScene live(folder.path / "m.obj", {});
+  folder.Write("m.mtl", "newmtl a\nKd 0 0 1\n");
+  REQUIRE(SoonChanged(&live));
+  CHECK(live.ReadChangedFiles() == SceneParts::All());
+  CHECK(Describe(live.scene()) == Describe(LoadScene(folder.path / "m.obj")));
+  folder.Write("m.obj", "f 1 2 3\n");
+  REQUIRE(SoonChanged(&live));
+  CHECK_THROWS_AS(live.ReadChangedFiles(), Error);
+  CHECK(live.scene().meshes.size() == 1);
+}
+
+TEST_CASE("Files change once they have come to rest", "[live_scene]") {
+  const WatchedFolder folder;
+  const std::filesystem::path file = folder.path / "f";
+  WatchedFiles files;
+  files.Add(file, ScenePart::kLights);
+  using std::chrono::milliseconds;
+  CHECK_FALSE(files.Changed(milliseconds(0)));
+  folder.Write("f", "1");
+  CHECK_FALSE(files.Changed(milliseconds(60'000)));
+  folder.Write("f", "12");
+  CHECK_FALSE(files.Changed(milliseconds(60'000)));
+  CHECK(files.ChangedParts().empty());
+  CHECK(files.Changed(milliseconds(0)));
+  CHECK_FALSE(files.Changed(milliseconds(0)));
+  CHECK(files.ChangedParts() == SceneParts(ScenePart::kLights));
+  files.ForgetChanges();
+  CHECK(files.ChangedParts().empty());
+  // Another file of the same name, size and time.
+  const auto written = std::filesystem::last_write_time(file);
+  folder.Write("g", "34");
+  std::filesystem::last_write_time(folder.path / "g", written);
+  std::filesystem::rename(folder.path / "g", file);
+  CHECK(files.Changed(milliseconds(0)));
+  std::filesystem::remove(file);
+  CHECK(files.Changed(milliseconds(0)));
 }
 
 }  // namespace

@@ -96,6 +96,56 @@ TEST_CASE("a texture is decoded by its use, or as it says") {
   CHECK(raw.images.size() == 1);
 }
 
+// Bytes without a pattern.
+std::vector<uint8_t> Noise(size_t count) {
+  std::vector<uint8_t> bytes(count);
+  uint32_t state = 1;
+  for (uint8_t& byte : bytes)
+    byte = static_cast<uint8_t>((state = state * 1664525 + 1013904223) >> 24);
+  return bytes;
+}
+
+TEST_CASE("textures are the same however many threads decode them") {
+  const Folder folder;
+  // More than one piece of each loop over texels, an odd size, and a grey image.
+  folder.WritePnm("a.ppm", 6, 512, 256, Noise(3 * 512 * 256));
+  folder.WritePnm("b.ppm", 6, 333, 301, Noise(3 * 333 * 301));
+  folder.WritePnm("c.pgm", 5, 640, 480, Noise(640 * 480));
+  const std::string textures = R"({"a": {"file": "a.ppm"}, "b": {"file": "b.ppm"},
+                                   "c": {"file": "c.pgm", "encoding": "linear"}})";
+  const std::string material = R"({"model": "metallic_roughness", "base_color_map": "a",
+      "normal_map": {"texture": "b", "scale": 2}, "emission_map": "b", "opacity_map": "c"})";
+  const auto load = [&](int threads, const std::string& maps) {
+    LoadOptions options;
+    options.threads = threads;
+    return LoadSceneText(
+        R"({"nacre": 1, "textures": )" + textures + R"(, "materials": {"m": )" + maps + "}}",
+        "t.json", folder.path(), options);
+  };
+  const Scene one = load(1, material), two = load(2, material);
+  REQUIRE(one.images.size() == 4);  // b as colours and as numbers
+  REQUIRE(two.images.size() == 4);
+  for (size_t i = 0; i < 4; ++i) {
+    CAPTURE(i);
+    CHECK(one.images[i].file == two.images[i].file);
+    CHECK(one.images[i].middle == two.images[i].middle);
+    CHECK(one.images[i].texels->values == two.images[i].texels->values);
+  }
+  // Faults are those of the first map, whoever meets one first.
+  folder.WritePnm("b.ppm", 6, 333, 301, Noise(100));
+  folder.WritePnm("c.pgm", 5, 640, 480, Noise(100));
+  const auto error_of = [&](int threads) -> std::string {
+    try {
+      load(threads, material);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return {};
+  };
+  CHECK(error_of(1).find("b.ppm") != std::string::npos);
+  CHECK(error_of(1) == error_of(2));
+}
+
 TEST_CASE("a texture's settings are read") {
   const Folder folder;
   folder.WritePnm("a.pgm", 5, 2, 1, {7, 9});

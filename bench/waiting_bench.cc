@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: Apache-2.0
+// bench/waiting_bench.cc: what bench/waiting.py cannot do from outside: sessions of the library,
+// and bare libraries that do the same work. Prints JSON.
+//
+//   session SCENE WIDTHxHEIGHT SAMPLES COUNT POINTER VALUE...
+//       sets the values one after the other, COUNT times, and renders after each: seconds from Set
+//       to the picture, and those of the render part alone
+//   embree TRIANGLES COUNT   builds a bare Embree tree of a square of triangles
+//   rays SPHERES COUNT       incoherent rays, one thread: nearest sphere, and whether anything is
+//   in
+//                            the way; nanoseconds a ray, and Embree's for its own spheres in float
+//   spng FILE COUNT          decodes a PNG file by libspng alone
+//   jpeg IN OUT              writes a picture as JPEG
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <memory>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <spng.h>
+
+#include "base/parallel.h"
+#include "base/seconds_since.h"
+#include "embree/embree_api.h"
+#include "hit/batch.h"
+#define NACRE_OWN_SOURCE  // the renderer's own types are here as well
+#include "nacre.h"
+#include "scene/scene.h"
+#include "visibility/intersector.h"
+
+namespace {
+
+namespace api = nacre::v0;
+using Clock = std::chrono::steady_clock;
+
+void PrintList(const char* name, const std::vector<double>& values, const char* end) {
+  std::printf("\"%s\": [", name);
+  for (size_t i = 0; i < values.size(); ++i) std::printf("%s%.9g", i == 0 ? "" : ", ", values[i]);
+  std::printf("]%s", end);
+}
+
+std::vector<double> Time(int count, const std::function<void()>& work) {
+  std::vector<double> seconds;
+  for (int i = 0; i < count; ++i) {
+    const auto start = Clock::now();
+    work();
+    seconds.push_back(nacre::SecondsSince(start));
+  }
+  return seconds;
+}
+
+void PrintSeconds(const std::vector<double>& seconds) {
+  std::printf("{");
+  PrintList("seconds", seconds, "}\n");
+}
+
+// ---- Sessions -----------------------------------------------------------------------------------
+
+void RunSession(char** arguments, int count) {
+  api::RenderSettings settings;
+  if (std::sscanf(arguments[1], "%dx%d", &settings.width, &settings.height) != 2) {
+    throw std::invalid_argument("the size is not WIDTHxHEIGHT");
+  }
+  settings.samples = std::atoi(arguments[2]);
+  const int repetitions = std::atoi(arguments[3]);
+  const std::string pointer = arguments[4];
+  std::vector<api::Value> values;
+  for (int i = 5; i < count; ++i) values.push_back(api::Value::Json(arguments[i]));
+  if (values.empty()) throw std::invalid_argument("a value is missing");
+  const auto start = Clock::now();
+  api::Session session(api::Scene::FromFile(arguments[0]));
+  session.Render(settings);
+  const double first = nacre::SecondsSince(start);
+  std::vector<double> whole, render;
+  for (int i = 0; i < repetitions; ++i) {
+    api::RenderStats stats;
+    const auto begin = Clock::now();
+    session.Set(pointer, values[static_cast<size_t>(i) % values.size()]);
+    session.Render(settings, &stats);
+    whole.push_back(nacre::SecondsSince(begin));
+    render.push_back(stats.render_seconds);
+  }
+  std::printf("{\"first\": %.9g, ", first);
+  PrintList("seconds", whole, ", ");
+  PrintList("render", render, "}\n");
+}
+
+// ---- Embree -------------------------------------------------------------------------------------
+
+struct ReleaseDevice {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct ReleaseScene {
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using DevicePointer = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
+using ScenePointer = std::unique_ptr<RTCSceneTy, ReleaseScene>;
+
+DevicePointer MakeDevice() { return DevicePointer(rtcNewDevice("verbose=0,set_affinity=0")); }
+
+ScenePointer Build(RTCGeometry geometry, RTCDevice device) {
+  ScenePointer tree(rtcNewScene(device));
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(tree.get(), geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(tree.get());
+  return tree;
+}
+
+void BuildTriangles(int triangles, int count) {
+  const auto side = static_cast<unsigned>(std::lround(std::sqrt(triangles / 2.0)));
+  const DevicePointer device = MakeDevice();
+  // The buffers are given to Embree with the tree, as whoever reads a file has to.
+  PrintSeconds(Time(count, [&] {
+    RTCGeometry mesh = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* position = static_cast<float*>(
+        rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                3 * sizeof(float), size_t{side + 1} * (side + 1)));
+    for (unsigned y = 0; y <= side; ++y) {
+      for (unsigned x = 0; x <= side; ++x) {
+        *position++ = static_cast<float>(x);
+        *position++ = static_cast<float>((x * 7 + y * 13) % 5) * 0.1f;
+        *position++ = static_cast<float>(y);
+      }
+    }
+    auto* index = static_cast<unsigned*>(
+        rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                3 * sizeof(unsigned), size_t{2} * side * side));
+    for (unsigned y = 0; y < side; ++y) {
+      for (unsigned x = 0; x < side; ++x) {
+        const unsigned a = y * (side + 1) + x, b = a + side + 1;
+        for (const unsigned corner : {a, b, a + 1, a + 1, b, b + 1}) *index++ = corner;
+      }
+    }
+    Build(mesh, device.get());
+  }));
+}
+
+#if RTC_VERSION_MAJOR == 3
+void IntersectOne(RTCScene tree, RTCRayHit* ray) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(tree, &context, ray);
+}
+void OccludedOne(RTCScene tree, RTCRay* ray) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(tree, &context, ray);
+}
+#else
+void IntersectOne(RTCScene tree, RTCRayHit* ray) { rtcIntersect1(tree, ray, nullptr); }
+void OccludedOne(RTCScene tree, RTCRay* ray) { rtcOccluded1(tree, ray, nullptr); }
+#endif
+
+// ---- Incoherent rays ----------------------------------------------------------------------------
+
+constexpr size_t kRays = 64 * nacre::kBatchCapacity;
+
+// Spheres all over a cube; a line through it meets about one of them, however many there are.
+nacre::Scene MakeSpheres(int count, std::minstd_rand* random) {
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  nacre::Scene scene;
+  scene.materials.emplace_back();
+  const double radius = std::sqrt(2.0 / (M_PI * count));
+  for (int i = 0; i < count; ++i) {
+    nacre::Sphere sphere;
+    sphere.center = {coordinate(*random), coordinate(*random), coordinate(*random)};
+    sphere.radius = radius;
+    sphere.material = {0};
+    scene.spheres.push_back(sphere);
+  }
+  return scene;
+}
+
+struct Rays {
+  std::vector<nacre::Vec3d> origins, directions;
+};
+
+Rays MakeRays(std::minstd_rand* random) {
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  std::normal_distribution<double> normal;
+  Rays rays;
+  for (size_t i = 0; i < kRays; ++i) {
+    rays.origins.emplace_back(coordinate(*random), coordinate(*random), coordinate(*random));
+    rays.directions.emplace_back(normal(*random), normal(*random), normal(*random));
+  }
+  return rays;
+}
+
+// Nanoseconds a ray: of trace(), which traces all of them.
+std::vector<double> TimeRays(int count, const std::function<void()>& trace) {
+  trace();
+  std::vector<double> times = Time(count, trace);
+  for (double& time : times) time *= 1e9 / static_cast<double>(kRays);
+  return times;
+}
+
+void TraceRays(int spheres, int count) {
+  const nacre::FlushDenormals flush;
+  std::minstd_rand random(1);
+  const nacre::Scene scene = MakeSpheres(spheres, &random);
+  const Rays rays = MakeRays(&random);
+
+  const nacre::Intersector intersector(scene, {0, 0, 0}, {});
+  std::vector<nacre::RayBatch> batches(kRays / nacre::kBatchCapacity);
+  std::vector<nacre::ShadowRayBatch> shadows(batches.size());
+  for (size_t i = 0; i < kRays; ++i) {
+    const size_t batch = i / nacre::kBatchCapacity, place = i % nacre::kBatchCapacity;
+    nacre::RayBatch& to = batches[batch];
+    nacre::ShadowRayBatch& shadow = shadows[batch];
+    to.count = shadow.count = place + 1;
+    nacre::SetVector(rays.origins[i], place, &to.origin);
+    nacre::SetVector(rays.directions[i], place, &to.direction);
+    nacre::SetVector(rays.origins[i], place, &shadow.origin);
+    nacre::SetVector(rays.directions[i], place, &shadow.direction);
+    shadow.t_max[place] = INFINITY;
+    shadow.primitive[place] = nacre::kNoPrimitive;
+    shadow.camera_extent = 2;
+  }
+  nacre::ClosestHits hits;
+  size_t found = 0, dark = 0;
+  const std::vector<double> closest = TimeRays(count, [&] {
+    found = 0;
+    for (const nacre::RayBatch& batch : batches) {
+      intersector.Closest(batch, &hits);
+      for (size_t i = 0; i < batch.count; ++i) found += hits.primitive[i] != nacre::kNoPrimitive;
+    }
+  });
+  const std::vector<double> occluded = TimeRays(count, [&] {
+    dark = 0;
+    for (nacre::ShadowRayBatch& batch : shadows) {
+      intersector.Occluded(&batch);
+      for (size_t i = 0; i < batch.count; ++i) dark += batch.occluded[i];
+    }
+  });
+
+  const DevicePointer device = MakeDevice();
+  RTCGeometry points = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_SPHERE_POINT);
+  auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(points, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                             RTC_FORMAT_FLOAT4, 4 * sizeof(float),
+                                                             scene.spheres.size()));
+  for (const nacre::Sphere& sphere : scene.spheres) {
+    for (const double value : {sphere.center.x, sphere.center.y, sphere.center.z, sphere.radius}) {
+      *vertex++ = static_cast<float>(value);
+    }
+  }
+  const ScenePointer tree = Build(points, device.get());
+  const auto make_ray = [&](size_t i) {
+    RTCRayHit ray = {};
+    ray.ray.org_x = static_cast<float>(rays.origins[i].x);
+    ray.ray.org_y = static_cast<float>(rays.origins[i].y);
+    ray.ray.org_z = static_cast<float>(rays.origins[i].z);
+    ray.ray.dir_x = static_cast<float>(rays.directions[i].x);
+    ray.ray.dir_y = static_cast<float>(rays.directions[i].y);
+    ray.ray.dir_z = static_cast<float>(rays.directions[i].z);
+    ray.ray.tfar = INFINITY;
+    ray.ray.mask = 0xffffffffu;
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    return ray;
+  };
+  std::vector<RTCRayHit> made(kRays);
+  for (size_t i = 0; i < kRays; ++i) made[i] = make_ray(i);
+  size_t embree_found = 0, embree_dark = 0;
+  const std::vector<double> intersect1 = TimeRays(count, [&] {
+    embree_found = 0;
+    for (RTCRayHit ray : made) {
+      IntersectOne(tree.get(), &ray);
+      embree_found += ray.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+    }
+  });
+  const std::vector<double> occluded1 = TimeRays(count, [&] {
+    embree_dark = 0;
+    for (const RTCRayHit& one : made) {
+      RTCRay ray = one.ray;
+      OccludedOne(tree.get(), &ray);
+      embree_dark += ray.tfar < 0;
+    }
+  });
+  std::printf("{\"hits\": [%zu, %zu, %zu, %zu], ", found, dark, embree_found, embree_dark);
+  PrintList("closest_ns", closest, ", ");
+  PrintList("occluded_ns", occluded, ", ");
+  PrintList("embree_intersect1_ns", intersect1, ", ");
+  PrintList("embree_occluded1_ns", occluded1, "}\n");
+}
+
+// ---- Images -------------------------------------------------------------------------------------
+
+void DecodePng(const char* path, int count) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  PrintSeconds(Time(count, [&] {
+    const std::unique_ptr<spng_ctx, decltype(&spng_ctx_free)> png(spng_ctx_new(0), &spng_ctx_free);
+    size_t size = 0;
+    spng_set_png_buffer(png.get(), bytes.data(), bytes.size());
+    if (spng_decoded_image_size(png.get(), SPNG_FMT_RGB8, &size) != 0) {
+      throw std::runtime_error("no PNG file");
+    }
+    std::vector<unsigned char> pixels(size);
+    if (spng_decode_image(png.get(), pixels.data(), size, SPNG_FMT_RGB8, 0) != 0) {
+      throw std::runtime_error("a PNG file that cannot be decoded");
+    }
+  }));
+}
+
+void WriteJpeg(const char* from, const char* to) {
+  api::ToneMapSettings settings;
+  settings.tonemap = "none";
+  const std::vector<uint8_t> bytes = api::EncodeJpeg(api::ToneMap(api::Read(from), settings), 90);
+  std::ofstream(to, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()),
+             static_cast<std::streamsize>(bytes.size()));
+}
+
+bool Run(int argc, char** argv) {
+  const std::string what = argc > 1 ? argv[1] : "";
+  if (what == "session" && argc >= 8) {
+    RunSession(argv + 2, argc - 2);
+  } else if (what == "embree" && argc == 4) {
+    BuildTriangles(std::atoi(argv[2]), std::atoi(argv[3]));
+  } else if (what == "rays" && argc == 4) {
+    TraceRays(std::atoi(argv[2]), std::atoi(argv[3]));
+  } else if (what == "spng" && argc == 4) {
+    DecodePng(argv[2], std::atoi(argv[3]));
+  } else if (what == "jpeg" && argc == 4) {
+    WriteJpeg(argv[2], argv[3]);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    if (Run(argc, argv)) return 0;
+    std::fputs("usage: the first lines of bench/waiting_bench.cc\n", stderr);
+    return 64;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "waiting_bench: %s\n", error.what());
+    return 70;
+  }
+}

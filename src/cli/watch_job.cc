@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/watch_job.h"
+
+#include <atomic>
+#include <chrono>
+#include <new>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/printable.h"
+#include "cli/print.h"
+#include "cli/progress.h"
+#include "cli/render_job.h"
+#include "render/prepared_scene.h"
+#include "render/settings.h"
+#include "scene_io/live_scene.h"
+
+namespace nacre {
+namespace {
+
+// Between two looks at the files and at the signals.
+constexpr std::chrono::milliseconds kLook(30);
+
+bool IsStop(const Error& error) {
+  return error.code() == ExitCode::kInterrupted || error.code() == ExitCode::kTerminated;
+}
+
+// All of an error in one line: whoever saves a file again and again does not want a page each time.
+void PrintInOneLine(const Error& error) {
+  const std::vector<Fault>& faults = error.faults();
+  if (faults.empty()) return;
+  const Fault& first = faults.front();
+  std::string line = "error: ";
+  if (!first.where.empty()) line += Printable(first.where) + ": ";
+  line += Printable(first.what);
+  if (!first.hint.empty()) line += " (" + Printable(first.hint) + ")";
+  if (faults.size() > 1) line += fmt::format(", and {} more", faults.size() - 1);
+  PrintError(line + "\n");
+}
+
+// Ends a render whose files have changed. While this lives, nobody else may ask the scene.
+class ChangeGuard {
+ public:
+  explicit ChangeGuard(LiveScene* live)
+      : thread_([this, live] {
+          while (!done_) {
+            std::this_thread::sleep_for(kLook);
+            if (!live->FilesChanged()) continue;
+            changed_ = true;
+            CancelFlag() = true;
+            return;
+          }
+        }) {}
+  ~ChangeGuard() { Stop(); }
+  ChangeGuard(const ChangeGuard&) = delete;
+  ChangeGuard& operator=(const ChangeGuard&) = delete;
+
+  // Whether files have changed since this was made.
+  bool Stop() {
+    done_ = true;
+    if (thread_.joinable()) thread_.join();
+    return changed_;
+  }
+
+ private:
+  std::atomic<bool> done_ = false;
+  std::atomic<bool> changed_ = false;
+  std::thread thread_;
+};
+
+// Returns whether files have changed meanwhile, which ends the render. Throws Error.
+bool RenderUnlessChanged(RenderJob* job, LiveScene* live, PreparedScene* prepared) {
+  ChangeGuard guard(live);
+  try {
+    job->Render(live->scene(), prepared);
+  } catch (const Cancelled&) {
+    ThrowIfStopped();
+    if (!guard.Stop()) throw;
+  }
+  if (!guard.Stop()) return false;
+  CancelFlag() = false;
+  ThrowIfStopped();  // a signal may have set the flag as well
+  return true;
+}
+
+void WaitForChange(LiveScene* live) {
+  while (!live->FilesChanged()) {
+    ThrowIfStopped();
+    std::this_thread::sleep_for(kLook);
+  }
+}
+
+}  // namespace
+
+int RunWatchJob(const RenderOptions& options, const std::filesystem::path& path,
+                const std::filesystem::path& environment) {
+  if (options.dry_run) {
+    throw Error(ExitCode::kUsage, "--watch", "cannot be used with --dry-run",
+                "leave one of them out");
+  }
+  RenderJob job(options, {path.string()});
+  std::optional<LiveScene> live;
+  PreparedScene prepared;
+  job.Load([&] {
+    LoadOptions load = job.load_options();
+    load.environment = environment;
+    live.emplace(path, std::move(load));
+  });
+  bool changed = RenderUnlessChanged(&job, &*live, &prepared);
+  if (!options.quiet) PrintError("watching the files of {}; Ctrl-C ends it\n", path.string());
+  while (true) {
+    FinishOutput();  // what --explain and --stats - have printed
+    try {
+      if (!changed) WaitForChange(&*live);
+      changed = false;
+      job.Load([&] { prepared.versions.Change(live->ReadChangedFiles()); });
+      changed = RenderUnlessChanged(&job, &*live, &prepared);
+    } catch (const Error& error) {
+      // A signal is how this ends, and no fault.
+      if (IsStop(error)) return static_cast<int>(error.code());
+      PrintInOneLine(error);
+    } catch (const std::bad_alloc&) {
+      PrintError("error: out of memory (a smaller picture or scene needs less)\n");
+    }
+  }
+}
+
+}  // namespace nacre
