@@ -154,6 +154,10 @@ class NACRE_API Scene {
   // Sets the value at a JSON pointer: Set("/materials/red/roughness", 0.2), Set("/image/spp", 64).
   // Missing objects on the way are created.
   void Set(const std::string& pointer, const Value& value);
+  // The value at a JSON pointer, as the file and what was set since say it; none where neither
+  // says anything and a default holds. "" is the whole scene, without what AddSphere and AddMesh
+  // have added. Of a model (glTF, OBJ, PLY) only what was set.
+  std::optional<Value> Get(const std::string& pointer) const;
   // The same for whole objects. One of the same name is replaced.
   void SetCamera(const Parameters& camera);
   void SetBackground(const Rgb& radiance);
@@ -303,6 +307,8 @@ class NACRE_API Session {
   // As Scene::Set, but checked at once: throws Error with what is wrong, and the scene is then the
   // one before.
   void Set(const std::string& pointer, const Value& value);
+  // As Scene::Get.
+  std::optional<Value> Get(const std::string& pointer) const;
 
   // Throws Error as Render does, and Cancelled.
   Image Render(const RenderSettings& settings = {}, RenderStats* stats = nullptr);
@@ -358,6 +364,19 @@ struct Comparison {
 
 NACRE_API Comparison Compare(const Image& image, const Image& reference,
                              const CompareSettings& settings = {});
+
+struct HeatMapSettings {
+  std::string layer;      // empty: the channels R, G and B
+  bool relative = false;  // errors relative to the reference's magnitude
+  // The errors at the dark and at the bright end of the colours, which go by the logarithm.
+  double low = 1e-6, high = 1;
+};
+
+// The largest error of each pixel over the layer's channels, as a colour from dark violet to
+// yellow, over the pixels that both images have. Equal pixels are black; magenta are those that are
+// not finite in one image only.
+NACRE_API Picture HeatMap(const Image& image, const Image& reference,
+                          const HeatMapSettings& settings = {});
 
 // ---- Reflection models --------------------------------------------------------------------------
 

@@ -55,6 +55,14 @@ void Scene::Set(const std::string& pointer, const Value& value) {
   impl_->Change();
 }
 
+std::optional<Value> Scene::Get(const std::string& pointer) const {
+  return AtBorder([&]() -> std::optional<Value> {
+    std::optional<std::string> text = impl_->ValueAt(pointer);
+    if (!text) return std::nullopt;
+    return Value::Json(*std::move(text));
+  });
+}
+
 void Scene::SetCamera(const Parameters& camera) { Set("/camera", camera); }
 
 void Scene::SetBackground(const Rgb& radiance) { Set("/background", radiance); }

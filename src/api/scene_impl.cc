@@ -8,6 +8,9 @@
 #include "scene/validate.h"
 #include "scene_io/json_text.h"
 #include "scene_io/load_scene.h"
+#include "scene_io/model_scene.h"
+#include "scene_io/overrides.h"
+#include "scene_io/read_scene.h"
 
 namespace nacre::v0 {
 namespace {
@@ -98,6 +101,17 @@ nacre::LiveScene Scene::Impl::MakeLive(const Source& source) {
   const std::string text = TextOf(source);
   if (!source.model_path.empty()) return {source.model_path, OptionsOf(source), append};
   return {text, source.file, source.folder, OptionsOf(source), append};
+}
+
+std::optional<std::string> Scene::Impl::ValueAt(const std::string& pointer) const {
+  const LoadOptions options = OptionsOf(source);
+  if (!source.model_path.empty()) return nacre::ValueAt(pointer, OverridesOf(options).root);
+  FaultList faults;
+  const std::string text = TextOf(source);
+  SceneTree tree = ParseScene({text, source.file, source.folder}, options, &faults);
+  ThrowFaults(faults, source.file);
+  CompleteTree(pointer, &tree);
+  return nacre::ValueAt(pointer, tree.root);
 }
 
 std::shared_ptr<const nacre::Scene> Scene::Impl::Made() const {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,6 +35,10 @@ struct Scene::Impl {
 
   // The scene as one that changes. Throws nacre::Error.
   static nacre::LiveScene MakeLive(const Source& source);
+
+  // What the text says at a JSON pointer, with what was set; nothing if that is nothing. Throws
+  // nacre::Error.
+  std::optional<std::string> ValueAt(const std::string& pointer) const;
 
   // The scene, checked; made when first asked for. Any thread. Throws nacre::Error.
   std::shared_ptr<const nacre::Scene> Made() const;

@@ -47,6 +47,14 @@ void Session::Set(const std::string& pointer, const Value& value) {
   AtBorder([&] { impl_->prepared.versions.Change(impl_->live.Set(pointer, value.json())); });
 }
 
+std::optional<Value> Session::Get(const std::string& pointer) const {
+  return AtBorder([&]() -> std::optional<Value> {
+    std::optional<std::string> text = impl_->live.Get(pointer);
+    if (!text) return std::nullopt;
+    return Value::Json(*std::move(text));
+  });
+}
+
 Image Session::Render(const RenderSettings& settings, RenderStats* stats) {
   return RenderProgressively(settings, {}, stats);
 }

@@ -44,6 +44,10 @@ class LiveScene {
   // scene is then the one before.
   SceneParts Set(const std::string& pointer, const std::string& json);
 
+  // The value where `pointer` points, as JSON text, of a model only what Set and the options have
+  // put there; nothing if there is none. Throws Error (kUsage) for what is no pointer.
+  std::optional<std::string> Get(const std::string& pointer) const;
+
   // Renders it with other settings than its own, until the next change of those. Nothing else
   // follows: a model's camera stays.
   void UseImage(const ImageSettings& image) { scene_.image = image; }

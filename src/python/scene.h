@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// python/scene.h: scenes, sessions and renders of the public API for Python.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include "nacre.h"
+#include "python/guard.h"
+
+namespace nacre_python {
+
+struct Scene {
+  nacre::Scene scene;
+  mutable Users users;
+};
+
+void BindScenes(pybind11::module_* module);
+
+}  // namespace nacre_python
