@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 
 #include "nacre.h"
+#include "python/brdf.h"
 #include "python/image.h"
 #include "python/scene.h"
 
@@ -43,4 +44,5 @@ PYBIND11_MODULE(_nacre, module) {
   module.def("scene_schema", &nacre::SceneSchema);
   BindImages(&module);
   BindScenes(&module);
+  BindBrdfs(&module);
 }

@@ -7,6 +7,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include "python/brdf.h"
 #include "python/image.h"
 
 namespace nacre_python {
@@ -29,17 +30,23 @@ std::vector<std::array<double, kColumns>> Rows(const Doubles& array, const char*
   return rows;
 }
 
-// What ends a render whose caller got a signal.
-struct Interrupted {};
+}  // namespace
+
+nacre::Parameters ParametersOf(const Members& members) {
+  nacre::Parameters parameters;
+  for (const auto& [name, json] : members) parameters.push_back({name, nacre::Value::Json(json)});
+  return parameters;
+}
+
+namespace {
 
 // on_progress of a render: takes the interpreter lock for `callback` no more often than eyes can
-// follow, and ends the render when `*stopped` is set.
-std::function<void(double)> Progress(const py::object& callback, std::atomic<bool>* stopped) {
+// follow.
+std::function<void(double)> Progress(const py::object& callback) {
+  if (callback.is_none()) return {};
   auto last = std::chrono::steady_clock::now();
-  PyObject* const function = callback.is_none() ? nullptr : callback.ptr();
+  PyObject* const function = callback.ptr();
   return [=](double share) mutable {
-    if (*stopped) throw Interrupted();
-    if (function == nullptr) return;
     const auto now = std::chrono::steady_clock::now();
     if (share < 1 && now - last < std::chrono::milliseconds(30)) return;
     last = now;
@@ -89,7 +96,8 @@ py::object Finish(Rendered&& rendered) {
 py::object Render(const Scene& scene, const py::dict& dict, const py::object& on_progress) {
   nacre::RenderSettings settings = SettingsOf(dict);
   std::atomic<bool> stopped = false;
-  settings.on_progress = Progress(on_progress, &stopped);
+  settings.on_progress = Progress(on_progress);
+  settings.cancel = &stopped;
   const Use use(&scene.users, Use::kShared, "Scene");
   return Finish(Interruptibly([&] { stopped = true; },
                               [&] {
@@ -127,28 +135,32 @@ class Session {
     nacre::RenderSettings settings = SettingsOf(dict);
     const Use use(&users_, Use::kAlone, "Session");
     Open();
-    std::atomic<bool> stopped = false;
-    settings.on_progress = Progress(on_progress, &stopped);
+    settings.on_progress = Progress(on_progress);
+    settings.cancel = &cancelled_;
     std::function<void(const nacre::Image&, int)> shown;
     if (!show.is_none()) {
       shown = [&](const nacre::Image& image, int samples) {
-        if (stopped) throw Interrupted();
         const py::gil_scoped_acquire acquire;
         show(ToPython(nacre::Image(image)), samples);
       };
     }
-    return Finish(Interruptibly([&] { stopped = true; },
-                                [&] {
-                                  Rendered rendered;
-                                  rendered.image = session_->RenderProgressively(settings, shown,
-                                                                                 &rendered.stats);
-                                  return rendered;
-                                }));
+    try {
+      return Finish(Interruptibly([&] { cancelled_ = true; },
+                                  [&] {
+                                    Rendered rendered;
+                                    rendered.image = session_->RenderProgressively(settings, shown,
+                                                                                   &rendered.stats);
+                                    return rendered;
+                                  }));
+    } catch (...) {
+      cancelled_ = false;  // it has been obeyed
+      throw;
+    }
   }
 
   void Cancel() {
     Open();
-    session_->Cancel();
+    cancelled_ = true;
   }
 
   void Close() {
@@ -162,6 +174,7 @@ class Session {
   }
 
   std::unique_ptr<nacre::Session> session_;
+  std::atomic<bool> cancelled_ = false;
   mutable Users users_;
 };
 
@@ -195,14 +208,16 @@ void BindScenes(py::module_* module) {
              if (!value) return std::nullopt;
              return value->json();
            })
-      .def("add_shape",
-           [](Scene& self, const std::vector<std::pair<std::string, std::string>>& members) {
+      .def("add_user_material",
+           [](Scene& self, const std::string& name, const py::object& evaluate,
+              const py::object& sample, const py::object& pdf, const Members& members) {
              const Use use(&self.users, Use::kAlone, "Scene");
-             nacre::Parameters shape;
-             for (const auto& [name, json] : members) {
-               shape.push_back({name, nacre::Value::Json(json)});
-             }
-             self.scene.AddShape(shape);
+             self.scene.AddMaterial(name, UserBrdfOf(evaluate, sample, pdf), ParametersOf(members));
+           })
+      .def("add_shape",
+           [](Scene& self, const Members& members) {
+             const Use use(&self.users, Use::kAlone, "Scene");
+             self.scene.AddShape(ParametersOf(members));
            })
       .def("add_spheres",
            [](Scene& self, const Doubles& centers, const Doubles& radii,

@@ -12,6 +12,8 @@
 What there is:
 
     Scene, Session      what is rendered, once or again and again
+    Brdf                a reflection model over arrays, nacre's or a function of your own
+    check               is a BRDF right? one page of verdicts, errors and curves
     Image, Picture      channels as numpy arrays, files, tone mapping
     read                an image file
     compare, heat_map   metrics between images, and where they differ
@@ -27,6 +29,8 @@ that an argument is of the wrong type or shape.
 from typing import List
 
 from . import _nacre
+from ._brdf import Brdf
+from ._check import Check, Verdict, check
 from ._errors import Cancelled, Error, Fault
 from ._image import (Comparison, Image, LayerMetrics, Picture, Window, compare, difference, heat_map,
                      read, show, side_by_side)
@@ -57,6 +61,6 @@ def scene_schema() -> str:
 
 
 __all__ = [
-    "Cancelled", "Comparison", "Error", "Fault", "Image", "LayerMetrics", "Picture", "Scene", "Session",
-    "Window", "active_target", "compare", "difference", "heat_map", "read", "render", "scene_schema",
+    "Brdf", "Cancelled", "Check", "Comparison", "Error", "Fault", "Image", "LayerMetrics", "Picture", "Scene", "Session",
+    "Verdict", "Window", "active_target", "check", "compare", "difference", "heat_map", "read", "render", "scene_schema",
     "set_target", "show", "side_by_side", "supported_targets"]

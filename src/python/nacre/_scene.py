@@ -8,6 +8,7 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
 import numpy as np
 
 from . import _nacre
+from ._brdf import Brdf, Function
 from ._image import Array, Image, PathLike
 from ._json import to_json
 
@@ -122,9 +123,28 @@ class Scene(_Values):
     def _add(self, part: str, name: str, value: Dict[str, Any]) -> None:
         self[f"/{part}/" + name.replace("~", "~0").replace("/", "~1")] = value
 
-    def add_material(self, name: str, model: str, **parameters: Any) -> None:
-        """add_material("gold", "conductor", preset="gold", roughness=0.2)"""
-        self._add("materials", name, {"model": model, **parameters})
+    def add_material(self, name: str, model: Union[str, Brdf, Function], **parameters: Any) -> None:
+        """add_material("gold", "conductor", preset="gold", roughness=0.2)
+
+        model: the name of one, or a function of one's own, bare or as a `nacre.Brdf`, which may have
+            a sampler. Its parameters are then those of a material of which all but the lobes holds:
+            emission, coat, sheen, normal maps, and the albedo that ambient light sees; of the model
+            "lambert" unless `rest` names another: add_material("mine", f, rest="metallic_roughness",
+            coat=1).
+
+        A function is called from the render's threads, one call at a time, with hundreds of points;
+        what it raises ends the render and comes out of it.
+        """
+        if isinstance(model, str):
+            self._add("materials", name, {"model": model, **parameters})
+            return
+        brdf = model if isinstance(model, Brdf) else Brdf(model)
+        if not brdf.is_own:
+            raise TypeError("nacre's own models are added by name: add_material(name, "
+                            f"{brdf.name!r}, ...)")
+        members = {"model": parameters.pop("rest", "lambert"), **parameters}
+        self._native.add_user_material(name, *brdf._functions(), [
+            (key, to_json(value, key)) for key, value in members.items()])
 
     def add_light(self, name: str, type: str, **parameters: Any) -> None:
         """add_light("key", "point", position=(3, 4, 5), intensity=100)"""
