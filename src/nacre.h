@@ -17,6 +17,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -136,6 +137,30 @@ struct Mesh {
   std::vector<uint32_t> triangles;  // three indices each, counter-clockwise from outside
 };
 
+// Unit vectors of `count` surface points, each as three arrays x, y, z.
+struct Directions {
+  size_t count = 0;
+  std::array<const double*, 3> normal{}, to_view{}, to_light{};
+};
+
+// A reflection model of your own: functions over arrays of directions, which renders call with
+// hundreds of points at a time. Light and viewer are above the surface of each. They may be called
+// from several threads at once; what they throw ends the render and is passed on. A result that is
+// not finite is an Error that names the point.
+struct UserBrdf {
+  // Writes the BRDF f(l, v) itself, in 1/sr, of point i to rgb[channel][i]. n.l is not part of it:
+  // nacre multiplies by it.
+  std::function<void(const Directions&, const std::array<double*, 3>& rgb)> evaluate;
+  // Both or neither. Without them, directions to environments are sampled by the cosine law as
+  // well as by the light; with them, by these in the cosine law's place. `sample` writes unit
+  // directions to light made of points (u, v) in [0, 1)^2, as often as `pdf` says per solid angle;
+  // those below the surface are light that is lost. Its Directions have no to_light.
+  std::function<void(const Directions&, const double* u, const double* v,
+                     const std::array<double*, 3>& to_light)>
+      sample;
+  std::function<void(const Directions&, double* pdf)> pdf;
+};
+
 // What is rendered: a scene file, a model (glTF, OBJ, PLY), or built in code, or both. Names and
 // values are those of scene files, and so are the checks. These run, on all of it at once, when the
 // scene is first rendered, or by Check().
@@ -154,11 +179,19 @@ class NACRE_API Scene {
   // Sets the value at a JSON pointer: Set("/materials/red/roughness", 0.2), Set("/image/spp", 64).
   // Missing objects on the way are created.
   void Set(const std::string& pointer, const Value& value);
+  // The value at a JSON pointer, as the file and what was set since say it; none where neither
+  // says anything and a default holds. "" is the whole scene, without what AddSphere and AddMesh
+  // have added. Of a model (glTF, OBJ, PLY) only what was set.
+  std::optional<Value> Get(const std::string& pointer) const;
   // The same for whole objects. One of the same name is replaced.
   void SetCamera(const Parameters& camera);
   void SetBackground(const Rgb& radiance);
   void AddTexture(const std::string& name, const Parameters& texture);
   void AddMaterial(const std::string& name, const Parameters& material);
+  // A material that reflects light by `brdf`. `rest` is a material of which all but the lobes
+  // holds: what it reflects of ambient light, emission, coat, sheen, normal maps; of the model
+  // lambert unless it names another.
+  void AddMaterial(const std::string& name, const UserBrdf& brdf, const Parameters& rest = {});
   void AddLight(const std::string& name, const Parameters& light);
   // Any of the schema's: sphere, mesh, icosphere, uv_sphere, grid, pair, cloud.
   void AddShape(const Parameters& shape);
@@ -267,6 +300,9 @@ struct RenderSettings {
   std::string intersector = "auto";  // or embree, tiles, shells; the same bits
   // Told the share done in (0, 1], from any thread, one call at a time. Throwing ends the render.
   std::function<void(double)> on_progress;
+  // Set to true by any thread, it ends the render by Cancelled within some milliseconds. May be
+  // null.
+  const std::atomic<bool>* cancel = nullptr;
 };
 
 struct RenderStats {
@@ -276,18 +312,18 @@ struct RenderStats {
   std::vector<std::string> notes;  // what the picture cannot show, and why
 };
 
-// All channels in float. `stats` may be null.
-NACRE_API Image Render(const Scene& scene, const RenderSettings& settings = {},
-                       RenderStats* stats = nullptr);
-
-// ---- Sessions -----------------------------------------------------------------------------------
-
-// Thrown by what Session::Cancel has ended.
+// Thrown by a render that was ended by RenderSettings::cancel or Session::Cancel.
 class NACRE_API Cancelled : public std::exception {
  public:
   ~Cancelled() override;
   const char* what() const noexcept override;
 };
+
+// All channels in float. `stats` may be null.
+NACRE_API Image Render(const Scene& scene, const RenderSettings& settings = {},
+                       RenderStats* stats = nullptr);
+
+// ---- Sessions -----------------------------------------------------------------------------------
 
 // A scene that is rendered again and again while it changes. What a change does not touch is not
 // read or made again: files, trees, tables of lights. Pictures have the bits that Render would give
@@ -303,6 +339,8 @@ class NACRE_API Session {
   // As Scene::Set, but checked at once: throws Error with what is wrong, and the scene is then the
   // one before.
   void Set(const std::string& pointer, const Value& value);
+  // As Scene::Get.
+  std::optional<Value> Get(const std::string& pointer) const;
 
   // Throws Error as Render does, and Cancelled.
   Image Render(const RenderSettings& settings = {}, RenderStats* stats = nullptr);
@@ -314,7 +352,8 @@ class NACRE_API Session {
                             const std::function<void(const Image&, int samples)>& show,
                             RenderStats* stats = nullptr);
 
-  // Ends a render that runs, within some milliseconds, or else the next one as it begins.
+  // Ends a render that runs, within some milliseconds, or else the next one as it begins; not one
+  // whose settings have a `cancel` of their own.
   void Cancel();
 
  private:
@@ -359,6 +398,19 @@ struct Comparison {
 NACRE_API Comparison Compare(const Image& image, const Image& reference,
                              const CompareSettings& settings = {});
 
+struct HeatMapSettings {
+  std::string layer;      // empty: the channels R, G and B
+  bool relative = false;  // errors relative to the reference's magnitude
+  // The errors at the dark and at the bright end of the colours, which go by the logarithm.
+  double low = 1e-6, high = 1;
+};
+
+// The largest error of each pixel over the layer's channels, as a colour from dark violet to
+// yellow, over the pixels that both images have. Equal pixels are black; magenta are those that are
+// not finite in one image only.
+NACRE_API Picture HeatMap(const Image& image, const Image& reference,
+                          const HeatMapSettings& settings = {});
+
 // ---- Reflection models --------------------------------------------------------------------------
 
 // The BRDF times n.l: radiance towards the viewer per irradiance of a surface that faces the light.
@@ -367,15 +419,21 @@ struct Reflection {
   Rgb diffuse{}, specular{};
 };
 
-// Unit vectors of `count` surface points, each as three arrays x, y, z.
-struct Directions {
-  size_t count = 0;
-  std::array<const double*, 3> normal{}, to_view{}, to_light{};
-};
-
-// Likewise, by channel.
+// What `count` points reflect, by channel.
 struct Reflections {
   std::array<std::vector<float>, 3> diffuse, specular;
+};
+
+// The same in double.
+struct ExactReflections {
+  std::array<std::vector<double>, 3> diffuse, specular;
+};
+
+// The terms of a microfacet lobe at `count` points: D(h), G(l, v), F(v.h) by channel, and Smith's
+// Lambda of both directions, so that the lobe is D G F / (4 n.l n.v), without compensation.
+struct MicrofacetTerms {
+  std::vector<double> d, g, lambda_view, lambda_light;
+  std::array<std::vector<double>, 3> f;
 };
 
 // A material without maps, emission and ambient light, for measurements and for other renderers.
@@ -385,6 +443,7 @@ class NACRE_API Brdf {
   // As in scene files: Brdf("conductor", {{"preset", "gold"}, {"roughness", 0.2}}).
   explicit Brdf(const std::string& model, const Parameters& parameters = {});
   Brdf(const Scene& scene, const std::string& material);
+  explicit Brdf(const UserBrdf& brdf);
 
   // In double, by the formulas of the papers in their stable form. Black where light or viewer is
   // not above the surface. Throws Error for a vector that is not finite, or whose |v|^2 differs
@@ -394,6 +453,23 @@ class NACRE_API Brdf {
   // The same in float through the SIMD kernels of the renderer, in this thread. Throws likewise,
   // and names the first such vector.
   Reflections Shade(const Directions& directions) const;
+
+  // Evaluate for arrays, and likewise of those below.
+  ExactReflections Evaluate(const Directions& directions) const;
+
+  // Unit directions to light by points (u, v) in [0, 1)^2, chosen about as often as light is
+  // reflected from there, as x, y and z; and the pdf of that per solid angle. `to_light` is not
+  // read by Sample. Directions below the surface are light that is lost.
+  std::array<std::vector<double>, 3> Sample(const Directions& directions, const double* u,
+                                            const double* v) const;
+  std::vector<double> Pdf(const Directions& directions) const;
+
+  // What is seen at n.v, in (0, 1], of light of radiance 1 from everywhere, by quadrature: the
+  // directional albedo. Perfect mirrors are part of it.
+  Rgb Albedo(double n_dot_v) const;
+
+  // Throws Error for models that have no microfacet lobe. Below the surface all terms are 0.
+  MicrofacetTerms Terms(const Directions& directions) const;
 
  private:
   struct Impl;

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # What `cmake --install` puts where, and the packages that CPack makes of it.
 #
-# Components: runtime (the program, scenes, what to read), library (libnacre.so.0 and what it and the
+# Components: python (the package nacre), runtime (the program, scenes, what to read), library (libnacre.so.0 and what it and the
 # program load) and development. Everything finds everything else by relative paths, so a prefix can
 # be moved.
 include(CMakePackageConfigHelpers)
@@ -67,6 +67,10 @@ install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT license)
 string(TIMESTAMP package_date "%a, %d %b %Y %H:%M:%S +0000" UTC)
 set(package_parts runtime library development)
 set(package_names nacre libnacre0 libnacre-dev)
+if(TARGET nacre_python)
+  list(APPEND package_parts python)
+  list(APPEND package_names python3-nacre)
+endif()
 foreach(part name IN ZIP_LISTS package_parts package_names)
   set(folder ${CMAKE_BINARY_DIR}/package/${name})
   configure_file(${CMAKE_CURRENT_LIST_DIR}/copyright.in ${folder}/copyright @ONLY)
@@ -109,4 +113,19 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libnacre-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Header, CMake package and pkg-config file of the library.")
+set(CPACK_COMPONENT_PYTHON_DEPENDS library)
+# Where dpkg-shlibdeps finds the library that the module is linked with.
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR})
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-nacre)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+# The module is for the Python that it was built with.
+if(TARGET nacre_python)
+  get_property(python_version GLOBAL PROPERTY NACRE_PYTHON_VERSION)
+  string(REGEX MATCH "^([0-9]+)\\.([0-9]+)" python_version "${python_version}")
+  math(EXPR next_minor "${CMAKE_MATCH_2} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "python3 (>= ${python_version}), python3 (<< ${CMAKE_MATCH_1}.${next_minor}), python3-numpy")
+endif()
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DESCRIPTION "The library in Python: scenes, renders, images as numpy arrays, reflection
+models over arrays, and renders of one's own.")
 include(CPack)

@@ -7,8 +7,12 @@
 
 #include "api/scene_impl.h"
 #include "base/parallel.h"
+#include "brdf/fresnel.h"
+#include "brdf/ggx.h"
 #include "shading/scalar_material.h"
+#include "shading/scalar_sample.h"
 #include "shading/shade.h"
+#include "shading/share.h"
 
 namespace nacre::v0 {
 
@@ -61,22 +65,31 @@ void CheckUnit(const Vec3& v, const char* function, const char* name, std::ptrdi
                      "directions are unit vectors: divide them by their lengths in double");
 }
 
-void CheckUnits(const Directions& d) {
+void CheckUnits(const Directions& d, const char* function, bool lights = true) {
   const auto check = [&](const std::array<const double*, 3>& vectors, const char* name) {
     for (const double* component : vectors) {
       if (component != nullptr) continue;
-      throw nacre::Error(ExitCode::kUsage, "Brdf::Shade",
+      throw nacre::Error(ExitCode::kUsage, std::string("Brdf::") + function,
                          std::string("a component of ") + name + " is a null pointer",
                          "Directions has three arrays of `count` numbers for each");
     }
     for (size_t i = 0; i < d.count; ++i) {
-      CheckUnit({vectors[0][i], vectors[1][i], vectors[2][i]}, "Shade", name,
+      CheckUnit({vectors[0][i], vectors[1][i], vectors[2][i]}, function, name,
                 static_cast<std::ptrdiff_t>(i));
     }
   };
   check(d.normal, "normal");
   check(d.to_view, "to_view");
-  check(d.to_light, "to_light");
+  if (lights) check(d.to_light, "to_light");
+}
+
+Vec3d At(const std::array<const double*, 3>& vectors, size_t i) {
+  return {vectors[0][i], vectors[1][i], vectors[2][i]};
+}
+
+template <class Values>
+void Resize(size_t count, Values* values) {
+  for (auto& plane : *values) plane.resize(count);
 }
 
 double Dot(const Directions& d, const std::array<const double*, 3>& a, size_t i) {
@@ -100,6 +113,15 @@ void CopyFrom(const Soa3<float>& from, size_t begin, size_t count,
   }
 }
 
+// below = below * left + over.
+void Cover(const Soa3<float>& left, const Soa3<float>& over, size_t count, Soa3<float>* below) {
+  for (size_t i = 0; i < count; ++i) {
+    below->x[i] = below->x[i] * left.x[i] + over.x[i];
+    below->y[i] = below->y[i] * left.y[i] + over.y[i];
+    below->z[i] = below->z[i] * left.z[i] + over.z[i];
+  }
+}
+
 // A batch under a light of irradiance 1, and what it takes to shade it.
 class Batch {
  public:
@@ -120,6 +142,12 @@ class Batch {
     PrepareSurface(hits_, &surface_);
     PrepareRun(material, 0, count, &surface_);
     ShadeRun(material, {hits_, surface_, light_, &lit_}, 0, count, &scratch_, &radiance_);
+    if (!material.coat) return;
+    // What the coat leaves of what is below it, and what it reflects itself.
+    PrepareRun(*material.coat, 0, count, &surface_);
+    ShadeRun(*material.coat, {hits_, surface_, light_, &lit_}, 0, count, &scratch_, &of_coat_);
+    Cover(surface_.base, of_coat_.diffuse, count, &radiance_.diffuse);
+    Cover(surface_.base, of_coat_.specular, count, &radiance_.specular);
   }
 
   const ReflectedRadiance& radiance() const { return radiance_; }
@@ -130,7 +158,7 @@ class Batch {
   ShadingLight light_;
   LightBatch lit_;
   ShadeScratch scratch_;
-  ReflectedRadiance radiance_;
+  ReflectedRadiance radiance_, of_coat_;
 };
 
 }  // namespace
@@ -147,6 +175,14 @@ Brdf::Brdf(const std::string& model, const Parameters& parameters) {
 
 Brdf::Brdf(const Scene& scene, const std::string& material) {
   impl_ = AtBorder([&] { return std::make_shared<const Impl>(Impl{Prepare(scene, material)}); });
+}
+
+Brdf::Brdf(const UserBrdf& brdf) {
+  impl_ = AtBorder([&] {
+    nacre::Material material;
+    material.user = ToOwn(brdf, "Brdf");
+    return std::make_shared<const Impl>(Impl{PrepareMaterial(material, nacre::Rgb(0))});
+  });
 }
 
 Reflection Brdf::Evaluate(const Vec3& normal, const Vec3& to_view, const Vec3& to_light) const {
@@ -167,7 +203,7 @@ Reflections Brdf::Shade(const Directions& directions) const {
       for (std::vector<float>& plane : *layer) plane.resize(directions.count);
     }
     if (directions.count == 0) return result;
-    CheckUnits(directions);
+    CheckUnits(directions, "Shade");
     const FlushDenormals flush;  // as in renders
     Batch batch;
     for (size_t begin = 0; begin < directions.count; begin += kBatchCapacity) {
@@ -177,6 +213,98 @@ Reflections Brdf::Shade(const Directions& directions) const {
       CopyFrom(batch.radiance().specular, begin, count, &result.specular);
     }
     return result;
+  });
+}
+
+ExactReflections Brdf::Evaluate(const Directions& d) const {
+  return AtBorder([&] {
+    CheckUnits(d, "Evaluate");
+    ExactReflections result;
+    Resize(d.count, &result.diffuse);
+    Resize(d.count, &result.specular);
+    for (size_t i = 0; i < d.count; ++i) {
+      const nacre::Reflection own =
+          Reflect(impl_->material, At(d.normal, i), At(d.to_light, i), At(d.to_view, i));
+      for (size_t c = 0; c < 3; ++c) {
+        result.diffuse[c][i] = own.diffuse[static_cast<int>(c)];
+        result.specular[c][i] = own.specular[static_cast<int>(c)];
+      }
+    }
+    return result;
+  });
+}
+
+std::array<std::vector<double>, 3> Brdf::Sample(const Directions& d, const double* u,
+                                                const double* v) const {
+  return AtBorder([&] {
+    CheckUnits(d, "Sample", false);
+    std::array<std::vector<double>, 3> to_light;
+    Resize(d.count, &to_light);
+    for (size_t i = 0; i < d.count; ++i) {
+      if (!(u[i] >= 0 && u[i] < 1 && v[i] >= 0 && v[i] < 1)) {
+        throw nacre::Error(ExitCode::kUsage, "Brdf::Sample",
+                           fmt::format("point {} is ({}, {})", i, u[i], v[i]),
+                           "points lie in [0, 1)^2");
+      }
+      const Vec3d sampled =
+          SampleReflection(impl_->material, At(d.normal, i), At(d.to_view, i), u[i], v[i]);
+      to_light[0][i] = sampled.x;
+      to_light[1][i] = sampled.y;
+      to_light[2][i] = sampled.z;
+    }
+    return to_light;
+  });
+}
+
+std::vector<double> Brdf::Pdf(const Directions& d) const {
+  return AtBorder([&] {
+    CheckUnits(d, "Pdf");
+    std::vector<double> pdf(d.count);
+    for (size_t i = 0; i < d.count; ++i) {
+      pdf[i] = ReflectionPdf(impl_->material, At(d.normal, i), At(d.to_view, i), At(d.to_light, i));
+    }
+    return pdf;
+  });
+}
+
+Rgb Brdf::Albedo(double n_dot_v) const {
+  return AtBorder([&] {
+    if (!(n_dot_v > 0 && n_dot_v <= 1)) {
+      throw nacre::Error(ExitCode::kUsage, "Brdf::Albedo", fmt::format("n.v is {}", n_dot_v),
+                         "it is above 0, up to 1");
+    }
+    return ToPublic(ReflectedShare(impl_->material, ShareOf::kFurnace, n_dot_v));
+  });
+}
+
+MicrofacetTerms Brdf::Terms(const Directions& d) const {
+  return AtBorder([&] {
+    CheckUnits(d, "Terms");
+    const auto* model = std::get_if<MicrofacetModel>(&impl_->material.model);
+    if (model == nullptr || model->delta) {
+      throw nacre::Error(ExitCode::kUsage, "Brdf::Terms", "the model has no microfacet lobe",
+                         "metallic_roughness, conductor and dielectric have, above roughness 0");
+    }
+    MicrofacetTerms terms;
+    for (auto* values : {&terms.d, &terms.g, &terms.lambda_view, &terms.lambda_light}) {
+      values->resize(d.count);
+    }
+    Resize(d.count, &terms.f);
+    for (size_t i = 0; i < d.count; ++i) {
+      const Angles<double> a = ComputeAngles(At(d.normal, i), At(d.to_light, i), At(d.to_view, i));
+      if (!(a.n_dot_l > 0) || !(a.n_dot_v > 0)) continue;
+      // Lambda = (sqrt(1 + alpha^2 tan^2) - 1) / 2.
+      const auto lambda = [&](double cosine) {
+        return (SmithRoot(cosine, model->alpha) / cosine - 1) / 2;
+      };
+      terms.d[i] = GgxDistribution(a, model->alpha);
+      terms.g[i] = 4 * a.n_dot_l * a.n_dot_v * VisibilityOf(*model, a.n_dot_l, a.n_dot_v);
+      terms.lambda_view[i] = lambda(a.n_dot_v);
+      terms.lambda_light[i] = lambda(a.n_dot_l);
+      const nacre::Rgb fresnel = FresnelOf(*model, VDotH(a), OneMinusVDotH(a));
+      for (size_t c = 0; c < 3; ++c) terms.f[c][i] = fresnel[static_cast<int>(c)];
+    }
+    return terms;
   });
 }
 

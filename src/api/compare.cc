@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // api/compare.cc: comparisons of the public API.
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
 
 #include "api/border.h"
+#include "compare/heat_map.h"
 #include "compare/perceptual.h"
 #include "compare/verdict.h"
 
@@ -52,6 +55,27 @@ void CheckSettings(const CompareSettings& settings) {
 }
 
 }  // namespace
+
+Picture HeatMap(const Image& image, const Image& reference, const HeatMapSettings& settings) {
+  return AtBorder([&] {
+    if (!(settings.low > 0 && settings.low < settings.high && std::isfinite(settings.high))) {
+      throw nacre::Error(
+          ExitCode::kUsage, "HeatMapSettings",
+          fmt::format("the scale from {} to {} is out of range", settings.low, settings.high),
+          "0 < low < high");
+    }
+    const Rgb8Picture map =
+        nacre::HeatMap(ToOwn(image), ToOwn(reference), settings.layer,
+                       settings.relative ? HeatQuantity::kRelative : HeatQuantity::kAbsolute,
+                       {settings.low, settings.high});
+    Picture picture{map.width, map.height, {}};
+    picture.rgba.resize(map.rgb8.size() / 3 * 4, 255);
+    for (size_t i = 0; i < map.rgb8.size() / 3; ++i) {
+      std::copy_n(map.rgb8.data() + 3 * i, 3, picture.rgba.data() + 4 * i);
+    }
+    return picture;
+  });
+}
 
 Comparison Compare(const Image& image, const Image& reference, const CompareSettings& settings) {
   return AtBorder([&] {

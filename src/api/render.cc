@@ -39,6 +39,7 @@ nacre::RenderSettings ToOwn(const RenderSettings& settings) {
   if (settings.samples > 0) own.max_samples = settings.samples;
   own.intersector = ParseIntersector(settings.intersector);
   own.on_progress = settings.on_progress;
+  own.cancel = settings.cancel;
   return own;
 }
 
@@ -79,8 +80,11 @@ Image Finish(const FramePlan& plan, nacre::Image rendered, const nacre::RenderSt
   return ToPublic(std::move(rendered));
 }
 
+Cancelled::~Cancelled() = default;
+const char* Cancelled::what() const noexcept { return "cancelled"; }
+
 Image Render(const Scene& scene, const RenderSettings& settings, RenderStats* stats) {
-  return AtBorder([&] {
+  return Cancellable([&] {
     const nacre::RenderSettings own = ToOwn(settings);
     const std::shared_ptr<const nacre::Scene> made = Adjusted(scene.impl().Made(), settings);
     const auto start = std::chrono::steady_clock::now();

@@ -7,6 +7,18 @@
 
 namespace nacre::v0 {
 
+// AtBorder of what may be cancelled, which comes out as the public exception.
+template <class Body>
+auto Cancellable(const Body& body) -> decltype(body()) {
+  return AtBorder([&] {
+    try {
+      return body();
+    } catch (const nacre::Cancelled&) {
+      throw Cancelled();
+    }
+  });
+}
+
 // Throws nacre::Error for settings that are out of range.
 nacre::RenderSettings ToOwn(const RenderSettings& settings);
 

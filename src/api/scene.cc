@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // api/scene.cc: scenes of the public API.
+#include <algorithm>
+
 #include "api/scene_impl.h"
 #include "scene/fault_list.h"
 #include "scene_io/load_scene.h"
@@ -55,6 +57,14 @@ void Scene::Set(const std::string& pointer, const Value& value) {
   impl_->Change();
 }
 
+std::optional<Value> Scene::Get(const std::string& pointer) const {
+  return AtBorder([&]() -> std::optional<Value> {
+    std::optional<std::string> text = impl_->ValueAt(pointer);
+    if (!text) return std::nullopt;
+    return Value::Json(*std::move(text));
+  });
+}
+
 void Scene::SetCamera(const Parameters& camera) { Set("/camera", camera); }
 
 void Scene::SetBackground(const Rgb& radiance) { Set("/background", radiance); }
@@ -64,7 +74,19 @@ void Scene::AddTexture(const std::string& name, const Parameters& texture) {
 }
 
 void Scene::AddMaterial(const std::string& name, const Parameters& material) {
+  impl_->source.user_brdfs.erase(name);
   Set("/materials/" + PointerToken(name), material);
+}
+
+void Scene::AddMaterial(const std::string& name, const UserBrdf& brdf, const Parameters& rest) {
+  const auto own = AtBorder([&] { return ToOwn(brdf, name); });
+  const bool has_model = std::any_of(rest.begin(), rest.end(), [](const Parameter& parameter) {
+    return parameter.name == "model";
+  });
+  Parameters material = rest;
+  if (!has_model) material.push_back({"model", "lambert"});
+  AddMaterial(name, material);
+  impl_->source.user_brdfs[name] = own;
 }
 
 void Scene::AddLight(const std::string& name, const Parameters& light) {

@@ -8,6 +8,9 @@
 #include "scene/validate.h"
 #include "scene_io/json_text.h"
 #include "scene_io/load_scene.h"
+#include "scene_io/model_scene.h"
+#include "scene_io/overrides.h"
+#include "scene_io/read_scene.h"
 
 namespace nacre::v0 {
 namespace {
@@ -32,6 +35,7 @@ std::string WithShapes(const Scene::Impl::Source& source) {
 LoadOptions OptionsOf(const Scene::Impl::Source& source) {
   LoadOptions options;
   options.overrides = source.overrides;
+  options.user_brdfs = source.user_brdfs;
   options.allow_paths = source.allow_paths;
   // A program may ask for what a stranger's file may not.
   if (source.allow_paths) options.max_primitives = limits::kMaxPrimitivesMade;
@@ -90,6 +94,29 @@ void Append(const Scene::Impl::Source& source, nacre::Scene* scene) {
 
 }  // namespace
 
+std::shared_ptr<const nacre::UserBrdf> ToOwn(const UserBrdf& brdf, const std::string& name) {
+  if (!brdf.evaluate || bool{brdf.sample} != bool{brdf.pdf}) {
+    throw nacre::Error(ExitCode::kUsage, "UserBrdf",
+                       brdf.evaluate ? "has only one of `sample` and `pdf`" : "has no `evaluate`",
+                       "a model evaluates; if it samples, it tells the pdf of that");
+  }
+  const auto directions = [](const nacre::UserBrdf::Batch& batch) {
+    return Directions{batch.count, batch.normal, batch.to_view, batch.to_light};
+  };
+  auto own = std::make_shared<nacre::UserBrdf>();
+  own->name = name;
+  own->evaluate = [=, evaluate = brdf.evaluate](const auto& batch, const auto& rgb) {
+    evaluate(directions(batch), rgb);
+  };
+  if (!brdf.sample) return own;
+  own->sample = [=, sample = brdf.sample](const auto& batch, const double* u, const double* v,
+                                          const auto& to_light) {
+    sample(directions(batch), u, v, to_light);
+  };
+  own->pdf = [=, pdf = brdf.pdf](const auto& batch, double* out) { pdf(directions(batch), out); };
+  return own;
+}
+
 nacre::LiveScene Scene::Impl::MakeLive(const Source& source) {
   std::function<void(nacre::Scene*)> append;
   if (!source.spheres.empty() || !source.meshes.empty()) {
@@ -98,6 +125,17 @@ nacre::LiveScene Scene::Impl::MakeLive(const Source& source) {
   const std::string text = TextOf(source);
   if (!source.model_path.empty()) return {source.model_path, OptionsOf(source), append};
   return {text, source.file, source.folder, OptionsOf(source), append};
+}
+
+std::optional<std::string> Scene::Impl::ValueAt(const std::string& pointer) const {
+  const LoadOptions options = OptionsOf(source);
+  if (!source.model_path.empty()) return nacre::ValueAt(pointer, OverridesOf(options).root);
+  FaultList faults;
+  const std::string text = TextOf(source);
+  SceneTree tree = ParseScene({text, source.file, source.folder}, options, &faults);
+  ThrowFaults(faults, source.file);
+  CompleteTree(pointer, &tree);
+  return nacre::ValueAt(pointer, tree.root);
 }
 
 std::shared_ptr<const nacre::Scene> Scene::Impl::Made() const {

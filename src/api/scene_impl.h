@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,6 +26,7 @@ struct Scene::Impl {
     bool allow_paths = true;  // a program may name any file; a file, those of its folder
     std::vector<std::pair<std::string, std::string>> overrides;  // pointer and JSON
     std::vector<std::string> shapes;                             // objects in JSON
+    nacre::UserBrdfs user_brdfs;
     // What is added without text, with its materials by name.
     std::vector<std::string> names;
     std::vector<nacre::Sphere> spheres;  // material: index into `names`
@@ -34,6 +36,10 @@ struct Scene::Impl {
 
   // The scene as one that changes. Throws nacre::Error.
   static nacre::LiveScene MakeLive(const Source& source);
+
+  // What the text says at a JSON pointer, with what was set; nothing if that is nothing. Throws
+  // nacre::Error.
+  std::optional<std::string> ValueAt(const std::string& pointer) const;
 
   // The scene, checked; made when first asked for. Any thread. Throws nacre::Error.
   std::shared_ptr<const nacre::Scene> Made() const;
@@ -56,5 +62,8 @@ struct Scene::Impl {
   mutable std::mutex mutex_;
   mutable std::shared_ptr<const nacre::Scene> made_;
 };
+
+// Its functions in the library's own form. Throws nacre::Error (kUsage) where some are missing.
+std::shared_ptr<const nacre::UserBrdf> ToOwn(const UserBrdf& brdf, const std::string& name);
 
 }  // namespace nacre::v0

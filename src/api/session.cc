@@ -16,26 +16,6 @@ struct Session::Impl {
   std::atomic<bool> cancelled = false;
 };
 
-namespace {
-
-// What a public call does; a cancelled one comes out as the public exception.
-template <class Body>
-auto Cancellable(std::atomic<bool>* cancelled, const Body& body) -> decltype(body()) {
-  return AtBorder([&] {
-    try {
-      return body();
-    } catch (const nacre::Cancelled&) {
-      *cancelled = false;
-      throw Cancelled();
-    }
-  });
-}
-
-}  // namespace
-
-Cancelled::~Cancelled() = default;
-const char* Cancelled::what() const noexcept { return "cancelled"; }
-
 Session::Session(const Scene& scene)
     : impl_(AtBorder(
           [&] { return std::make_unique<Impl>(Scene::Impl::MakeLive(scene.impl().source)); })) {}
@@ -47,6 +27,14 @@ void Session::Set(const std::string& pointer, const Value& value) {
   AtBorder([&] { impl_->prepared.versions.Change(impl_->live.Set(pointer, value.json())); });
 }
 
+std::optional<Value> Session::Get(const std::string& pointer) const {
+  return AtBorder([&]() -> std::optional<Value> {
+    std::optional<std::string> text = impl_->live.Get(pointer);
+    if (!text) return std::nullopt;
+    return Value::Json(*std::move(text));
+  });
+}
+
 Image Session::Render(const RenderSettings& settings, RenderStats* stats) {
   return RenderProgressively(settings, {}, stats);
 }
@@ -54,10 +42,10 @@ Image Session::Render(const RenderSettings& settings, RenderStats* stats) {
 Image Session::RenderProgressively(const RenderSettings& settings,
                                    const std::function<void(const Image&, int samples)>& show,
                                    RenderStats* stats) {
-  return Cancellable(&impl_->cancelled, [&] {
-    Impl& s = *impl_;
+  Impl& s = *impl_;
+  const auto render = [&] {
     nacre::RenderSettings own = ToOwn(settings);
-    own.cancel = &s.cancelled;
+    if (own.cancel == nullptr) own.cancel = &s.cancelled;
     const nacre::ImageSettings image = Adjusted(s.live.own_image(), settings);
     if (!(image == s.live.scene().image)) {
       s.live.UseImage(image);
@@ -89,7 +77,13 @@ Image Session::RenderProgressively(const RenderSettings& settings,
     Image whole = finish(std::move(so_far));
     show(whole, image.spp);
     return whole;
-  });
+  };
+  try {
+    return Cancellable(render);
+  } catch (const Cancelled&) {
+    s.cancelled = false;
+    throw;
+  }
 }
 
 void Session::Cancel() { impl_->cancelled = true; }

@@ -97,7 +97,7 @@ double BurleyGain(const ShadingMaterial& material) {
                                        model.coupling == DiffuseCoupling::kNone;
                    return burley ? gain(model.diffuse, model.base_roughness) : 0.0;
                  },
-                 [](const PhongFamilyModel&) { return 0.0; }, [](std::monostate) { return 0.0; }},
+                 [](const PhongFamilyModel&) { return 0.0; }, [](const auto&) { return 0.0; }},
       material.model);
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -161,6 +162,8 @@ struct SplitMaterial {
   std::vector<MaterialId> materials;
 };
 
+struct UserBrdf;  // scene/user_brdf.h
+
 struct Material {
   std::string name;
   Rgb emission{0, 0, 0};  // radiance, >= 0
@@ -170,6 +173,9 @@ struct Material {
   std::variant<LambertMaterial, PhongMaterial, MetallicRoughnessMaterial, ConductorMaterial,
                DielectricMaterial, SplitMaterial, OrenNayarMaterial, BurleyMaterial>
       model;
+  // A reflection model of the caller's own, in the place of the model's lobes; or null. All else
+  // that the model says holds: coat, sheen, albedo, what it reflects of ambient light.
+  std::shared_ptr<const UserBrdf> user;
   // Maps multiply the numbers beside them.
   TextureId emission_map{};
   NormalMap normal_map{};

@@ -192,6 +192,14 @@ SceneParts LiveScene::Set(const std::string& pointer, const std::string& json) {
   }
 }
 
+std::optional<std::string> LiveScene::Get(const std::string& pointer) const {
+  const bool of_spheres = pointer.empty() || pointer.starts_with("/shapes");
+  if (!of_spheres || tree_.spheres.runs.empty()) return ValueAt(pointer, tree_.root);
+  SceneTree whole = tree_;
+  CompleteTree(pointer, &whole);
+  return ValueAt(pointer, whole.root);
+}
+
 SceneParts LiveScene::ReadAgain(SceneParts touched) {
   CheckVersion(tree_.root, file_);
   SceneParts parts = touched;

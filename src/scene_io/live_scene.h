@@ -62,6 +62,10 @@ class LiveScene {
   // is then the one before. Only of a scene that was read from a file.
   SceneParts ReadChangedFiles();
 
+  // The value where `pointer` points, as JSON text, of a model only what Set and the options have
+  // put there; nothing if there is none. Throws Error (kUsage) for what is no pointer.
+  std::optional<std::string> Get(const std::string& pointer) const;
+
   // Renders it with other settings than its own, until the next change of those. Nothing else
   // follows: a model's camera stays.
   void UseImage(const ImageSettings& image) { scene_.image = image; }

@@ -14,6 +14,7 @@
 
 #include "scene/limits.h"
 #include "scene/scene.h"
+#include "scene/user_brdf.h"
 
 namespace nacre {
 
@@ -30,6 +31,9 @@ struct LoadOptions {
   // ("--environment"): the light "environment", of which overrides may change the rest. It is the
   // caller's choice, and may lie anywhere. Empty: none.
   std::filesystem::path environment = {};
+
+  // Reflection models of the caller's own, for the materials of these names.
+  UserBrdfs user_brdfs = {};
 
   // Let the scene refer to files outside its own folder.
   bool allow_paths = false;

@@ -288,6 +288,7 @@ bool CompleteModelScene(const ModelCompletion& how, SceneParts parts, Scene* sce
   SceneContext context;
   context.folder = std::filesystem::path(how.file).parent_path();
   context.references = RulesOf(*how.options);
+  context.user_brdfs = &how.options->user_brdfs;
   context.scene = scene;
   context.on_warning = how.options->on_warning;
   context.kept = how.kept;

@@ -116,6 +116,22 @@ void ApplyOverride(const std::string& pointer, const std::string& text, Json* ro
   ReplaceValue(pointer, text, root);
 }
 
+std::optional<std::string> ValueAt(const std::string& pointer, const Json& root) {
+  const Json* place = &root;
+  for (const std::string& token : Split(pointer)) {
+    if (place->is_object() && place->contains(token)) {
+      place = &place->at(token);
+    } else if (place->is_array() && token.size() < 10 && !token.empty() &&
+               token.find_first_not_of("0123456789") == std::string::npos &&
+               std::stoul(token) < place->size()) {
+      place = &place->at(std::stoul(token));
+    } else {
+      return std::nullopt;
+    }
+  }
+  return JsonText(*place);
+}
+
 Replaced ReplaceValue(const std::string& pointer, const std::string& text, Json* root) {
   Json value = ParseValue(pointer, text);
   Replaced replaced;

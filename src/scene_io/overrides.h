@@ -17,6 +17,10 @@ namespace nacre {
 // missing are made; places in arrays must exist. Throws Error (kUsage) if that cannot be done.
 void ApplyOverride(const std::string& pointer, const std::string& text, Json* root);
 
+// The value where `pointer` points as JSON text; nothing if there is none. Throws Error (kUsage)
+// for what is no pointer.
+std::optional<std::string> ValueAt(const std::string& pointer, const Json& root);
+
 // What an override has replaced.
 struct Replaced {
   std::vector<std::string> path;  // names and indices from the root on

@@ -78,6 +78,12 @@ void ReadMaterial(const JsonValue& value, SceneContext* context, Material* mater
   object.RefuseOthers();
 }
 
+// The caller's own reflection model of a material, or null.
+std::shared_ptr<const UserBrdf> UserBrdfOf(const SceneContext& context, const std::string& name) {
+  const auto found = context.user_brdfs->find(name);
+  return found != context.user_brdfs->end() ? found->second : nullptr;
+}
+
 // The material called `value`; its absence is a fault.
 MaterialId FindMaterial(const JsonValue& value, const SceneContext& context) {
   const auto name = value.json.get<std::string>();
@@ -112,6 +118,7 @@ void ReadMaterials(const JsonValue& value, SceneContext* context) {
     const size_t before = value.faults->count();
     Material material;
     material.name = name;
+    material.user = UserBrdfOf(*context, name);
     ReadMaterial({json, object.path().Member(name), object.faults()}, context, &material);
     if (value.faults->count() != before) context->unreadable_materials.insert(index);
     materials[index++] = std::move(material);  // not through a reference: inline ones are added
@@ -122,6 +129,7 @@ void ChangeMaterial(const JsonValue& value, SceneContext* context, Material* mat
   if (value.json.is_object() && value.json.contains("model")) {
     Material whole;
     whole.name = material->name;
+    whole.user = UserBrdfOf(*context, whole.name);
     ReadMaterial(value, context, &whole);
     *material = std::move(whole);
     return;

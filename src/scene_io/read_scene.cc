@@ -167,6 +167,7 @@ ReadMembers ReadScene(const SceneTree& tree, SceneParts parts, const SceneReadin
   context.folder = reading.folder;
   context.references = RulesOf(options);
   context.threads = options.threads;
+  context.user_brdfs = &options.user_brdfs;
   context.scene = scene;
   context.on_warning = options.on_warning;
   context.kept = reading.kept;

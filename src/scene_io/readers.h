@@ -17,6 +17,7 @@
 #include "scene/generators.h"
 #include "scene/material_parameters.h"
 #include "scene/scene.h"
+#include "scene/user_brdf.h"
 #include "scene_io/json_reader.h"
 #include "scene_io/kept_files.h"
 #include "scene_io/plain_spheres.h"
@@ -34,6 +35,7 @@ struct SceneContext {
   std::filesystem::path folder;  // of the scene file
   ReferenceRules references;     // of its file names
   int threads = 0;
+  const UserBrdfs* user_brdfs = nullptr;
   Scene* scene = nullptr;
   SceneBudget* budget = nullptr;
   TexelBudget* texels = nullptr;

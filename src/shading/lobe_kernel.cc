@@ -8,6 +8,7 @@
 #include "shading/lobe_sample.h"
 #include "shading/mapped.h"
 #include "shading/scalar_material.h"
+#include "shading/user_model.h"
 
 #ifndef NACRE_SHADING_LOBE_KERNEL_ONCE_
 #define NACRE_SHADING_LOBE_KERNEL_ONCE_
@@ -359,6 +360,7 @@ Rgb MirrorAt(const MicrofacetModel& model, double cosine) {
 bool HasSampledLobe(const ShadingMaterial& material) {
   return std::visit(Overloaded{[](const PhongFamilyModel& phong) { return HasLobe(phong); },
                                [](const MicrofacetModel& model) { return HasLobe(model); },
+                               [](const UserModel& model) { return bool{model.brdf->sample}; },
                                [](const auto&) { return false; }},
                     material.model);
 }
@@ -369,6 +371,8 @@ bool DiffuseIsFlat(const ShadingMaterial& material) {
   if (const auto* matte = std::get_if<MatteModel>(&material.model)) {
     return matte->form == DiffuseForm::kLambert;
   }
+  // One with a sampler has no diffuse component.
+  if (std::holds_alternative<UserModel>(material.model)) return HasSampledLobe(material);
   const auto* model = std::get_if<MicrofacetModel>(&material.model);
   if (model == nullptr) return true;
   if (model->base_form != DiffuseForm::kLambert) return false;
@@ -385,6 +389,9 @@ void SampleCosine(const Surface& surface, size_t count, const float* u, const fl
 void SampleLobe(const ShadingMaterial& material, const LobeRange& range, const float* u,
                 const float* v, Soa3<float>* to_light) {
   if (!HasSampledLobe(material)) return;
+  if (const auto* user = std::get_if<UserModel>(&material.model)) {
+    return SampleUser(*user, range, u, v, to_light);
+  }
   const HitTextures* const maps = MapsOf(material, range);
   if (const auto* phong = std::get_if<PhongFamilyModel>(&material.model)) {
     return HWY_DYNAMIC_DISPATCH(SamplePhongT)(phong->model, ExponentOf(*phong, maps), range, u, v,
@@ -403,6 +410,9 @@ void LobePdf(const ShadingMaterial& material, const LobeRange& hits, const Light
   if (!HasSampledLobe(material)) {
     std::fill(pdf + hits.begin, pdf + hits.end, 0.0f);
     return;
+  }
+  if (const auto* user = std::get_if<UserModel>(&material.model)) {
+    return UserPdf(*user, hits, light, scratch, pdf);
   }
   const ShadeRange range{hits.hits,  hits.surface, GivenLight(), &light,
                          hits.begin, hits.end,     nullptr,      false};

@@ -255,6 +255,7 @@ void Finish(const TexturedRun& run, const MicrofacetModel& model, HitTextures* t
 }
 
 void Finish(const TexturedRun&, const std::monostate&, HitTextures*) {}
+void Finish(const TexturedRun&, const UserModel&, HitTextures*) {}
 
 void FinishNumbersT(const TexturedRun& run, HitTextures* t) {
   PutShown(run, t);
@@ -327,6 +328,7 @@ void Multiply(const MappedProducts& products, const MicrofacetModel& model, int 
 }
 
 void Multiply(const MappedProducts&, const std::monostate&, int, HitTextures*) {}
+void Multiply(const MappedProducts&, const UserModel&, int, HitTextures*) {}
 
 void MakeProductsT(const MappedProducts& products, HitTextures* t) {
   for (int c = 0; c < 3; ++c) {

@@ -269,6 +269,7 @@ ShadingMaterial PrepareSurface(const Material& material, const Rgb& ambient_radi
           },
           [](const SplitMaterial&) {}},
       material.model);
+  if (material.user) prepared.model = UserModel{material.user};
   prepared.ambient = of_ambient * ambient_radiance;
   prepared.ambient_radiance = ambient_radiance;
   prepared.layers = MakeLayers(material);
@@ -350,7 +351,7 @@ bool HasDoubleTerms(const ShadingMaterial& material) {
   return std::visit(
       Overloaded{[](const PhongFamilyModel& phong) { return phong.double_terms; },
                  [](const MicrofacetModel& microfacet) { return microfacet.double_terms; },
-                 [](const auto&) { return false; }},
+                 [](const UserModel&) { return true; }, [](const auto&) { return false; }},
       material.model);
 }
 

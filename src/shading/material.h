@@ -9,6 +9,7 @@
 
 #include "brdf/albedo.h"
 #include "scene/material.h"
+#include "scene/user_brdf.h"
 #include "shading/constants.h"
 #include "shading/layer.h"
 
@@ -91,6 +92,11 @@ struct MicrofacetModel : MicrofacetForm {
   MicrofacetConstants<float> constants;  // the numbers above, as kernels read them
 };
 
+// A model of the caller's own (user_model.h); it is not null.
+struct UserModel {
+  std::shared_ptr<const UserBrdf> brdf;
+};
+
 // A material prepared for shading; a split has no model of its own.
 struct ShadingMaterial {
   Rgb ambient{0, 0, 0};  // radiance reflected of the scene's ambient light
@@ -109,7 +115,7 @@ struct ShadingMaterial {
   // Its `textured` is `own`.
   std::shared_ptr<const ShadingMaterial> coat;
   std::shared_ptr<const Material> own;
-  std::variant<std::monostate, MatteModel, PhongFamilyModel, MicrofacetModel> model;
+  std::variant<std::monostate, MatteModel, PhongFamilyModel, MicrofacetModel, UserModel> model;
   std::vector<LayerModel> layers;  // over the model, bottom to top, under the coat
 };
 

@@ -10,6 +10,7 @@
 #include "brdf/ggx.h"
 #include "brdf/multi_scatter.h"
 #include "brdf/phong.h"
+#include "shading/user_model.h"
 
 namespace nacre {
 namespace {
@@ -106,6 +107,10 @@ Reflection ReflectModel(const MicrofacetModel& model, const Vec3d& n, const Vec3
     out.diffuse[c] = BaseShare(model, a, fresnel[c], c) * model.diffuse[c] * spread * a.n_dot_l;
   }
   return out;
+}
+
+Reflection ReflectModel(const UserModel& model, const Vec3d& n, const Vec3d& l, const Vec3d& v) {
+  return ReflectUser(model, n, l, v);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "shading/hit_parameters.h"
 #include "shading/kernels.h"
 #include "shading/mapped.h"
+#include "shading/user_model.h"
 
 namespace nacre {
 namespace {
@@ -194,13 +195,15 @@ namespace {
 void ShadeModel(const ShadingMaterial& material, const ShadeRange& range, ShadeScratch* scratch,
                 HitTextures* maps) {
   if (!material.mapped_model) {
-    std::visit(
-        Overloaded{[](std::monostate) {}, [&](const auto& model) { Shade(model, range, scratch); }},
-        material.model);
+    std::visit(Overloaded{[](std::monostate) {},
+                          [&](const UserModel& model) { ShadeUser(model, range, scratch); },
+                          [&](const auto& model) { Shade(model, range, scratch); }},
+               material.model);
     return;
   }
   std::visit(
       Overloaded{[](std::monostate) {},
+                 [&](const UserModel& model) { ShadeUser(model, range, scratch); },
                  [&](const MatteModel& model) {
                    ShadeMapped<MatteConstants, MatteLight>(material, model, range, scratch, maps);
                  },

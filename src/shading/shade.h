@@ -10,6 +10,8 @@
 // Each is one call of a Highway kernel (2.4 ns of dispatch), so batches, never packets.
 #pragma once
 
+#include <memory>
+
 #include "hit/batch.h"
 #include "shading/light.h"
 #include "shading/material.h"
@@ -57,10 +59,19 @@ struct BaseSpread {
   AlignedArray<float> single{kBatchCapacity}, multiple{kBatchCapacity};
 };
 
+// The hits that a model of the caller's own is asked for, without gaps, and what it answers.
+struct UserRoom {
+  LightBatch light;
+  Soa3<double> normal, to_view, to_light, value;
+  AlignedArray<double> n_dot_l{kBatchCapacity}, u{kBatchCapacity}, v{kBatchCapacity};
+  AlignedArray<uint32_t> hit{kBatchCapacity};
+};
+
 // What ShadeRun and LobePdf keep between the kernels of a run.
 struct ShadeScratch {
   SharpLobeTerms sharp;
   BaseSpread base;
+  std::unique_ptr<UserRoom> user;  // made for the first hit with a model of the caller's own
 };
 
 struct HitTextures;

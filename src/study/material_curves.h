@@ -7,7 +7,7 @@
 
 #include "report/plot.h"
 #include "study/reflection.h"
-#include "study/share.h"
+#include "shading/share.h"
 
 namespace nacre {
 

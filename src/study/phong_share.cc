@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "brdf/phong.h"
-#include "study/share.h"
+#include "shading/share.h"
 
 namespace nacre {
 

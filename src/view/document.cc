@@ -7,7 +7,6 @@
 
 #include "base/path.h"
 #include "scene/material_parameters.h"
-#include "scene_io/kept_files.h"
 #include "scene_io/material_json.h"
 #include "view/page_parts.h"
 
@@ -44,22 +43,14 @@ bool IsImageFile(const std::filesystem::path& path) {
                      [&](const char* extension) { return HasExtension(path.string(), extension); });
 }
 
-LoadOptions Watching(LoadOptions options, std::map<std::filesystem::path, std::string>* files) {
-  options.on_file = [files](const std::filesystem::path& file) {
-    files->try_emplace(file, KeyOfFile(file));
-  };
-  return options;
-}
-
 }  // namespace
 
 ViewDocument::ViewDocument(const std::filesystem::path& path, const LoadOptions& options)
     : name_(path.filename().string()),
       path_(path),
       folder_(path.parent_path()),
-      live_(path, Watching(options, &files_)),
+      live_(path, options),
       original_(live_.root()) {
-  files_.try_emplace(path, KeyOfFile(path));
   if (scene().spheres.size() <= kMaxTreeSpheres) ListShapes();
 }
 
@@ -192,14 +183,12 @@ std::vector<std::string> ViewDocument::ImageFiles() const {
   return files;
 }
 
-bool ViewDocument::FilesChanged() {
-  bool changed = false;
-  for (auto& [file, key] : files_) {
-    std::string now = KeyOfFile(file);
-    changed |= now != key;
-    key = std::move(now);
-  }
-  return changed;
+void ViewDocument::ReadChangedFiles() {
+  prepared_.versions.Change(live_.ReadChangedFiles());
+  original_ = live_.root();
+  past_.clear();
+  future_.clear();
+  if (scene().spheres.size() <= kMaxTreeSpheres) ListShapes();
 }
 
 }  // namespace nacre

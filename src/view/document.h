@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -57,9 +56,10 @@ class ViewDocument {
   // many.
   std::vector<std::string> ImageFiles() const;
 
-  // Whether a file that the scene was read from has changed since it was read, or since the last
-  // call.
-  bool FilesChanged();
+  // As LiveScene::FilesChanged; and reads what has changed, without the edits and their history.
+  // Throws Error: the document is then the one before.
+  bool FilesChanged() { return live_.FilesChanged(); }
+  void ReadChangedFiles();
 
  private:
   struct Change {
@@ -77,7 +77,6 @@ class ViewDocument {
   std::string name_;
   std::filesystem::path path_;  // empty: the built-in scene
   std::filesystem::path folder_;
-  std::map<std::filesystem::path, std::string> files_;  // with KeyOfFile of each
   LiveScene live_;
   PreparedScene prepared_;
   Json original_;

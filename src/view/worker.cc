@@ -30,7 +30,7 @@ constexpr double kMovingMs = 24;
 constexpr std::chrono::milliseconds kRest(90);
 // A page that takes no picture for so long does not hold up the others.
 constexpr std::chrono::milliseconds kPatience(250);
-constexpr std::chrono::milliseconds kFilesEvery(300);
+constexpr std::chrono::milliseconds kFilesEvery(100);
 // Between pictures that are refined, but for the first and the last: one that is on its way, all of
 // its pixels, holds up the next that moves.
 constexpr double kRefinedEveryMs = 250;
@@ -437,9 +437,8 @@ void Worker::SayFault(ClientId client, const std::string& pointer, const Error& 
 void Worker::CheckFiles() {
   if (!document_->FilesChanged()) return;
   try {
-    std::unique_ptr<ViewDocument> read = open_();
-    plan_.reset();
-    document_ = std::move(read);
+    plan_.reset();  // it refers to the scene
+    document_->ReadChangedFiles();
     banner_.clear();
     Changed();
     SayScene(0);

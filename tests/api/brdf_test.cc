@@ -2,6 +2,9 @@
 // tests/api/brdf_test.cc: reflection models of the public API: the kernels beside the formulas.
 #include <cmath>
 #include <random>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "catch.h"
 #include "nacre.h"
@@ -92,6 +95,20 @@ TEST_CASE("kernels agree with the formulas, for every model and target") {
   nacre::SetTarget(before);
 }
 
+TEST_CASE("kernels agree with the formulas under coats and layers") {
+  const Samples samples;
+  const nacre::Brdf brdf(
+      "metallic_roughness",
+      {{"coat", 0.8}, {"coat_roughness", 0.3}, {"sheen_color", 0.5}, {"sheen_roughness", 0.4}});
+  const nacre::Reflections fast = brdf.Shade(samples.directions);
+  const nacre::ExactReflections exact = brdf.Evaluate(samples.directions);
+  for (size_t i = 0; i < Samples::kCount; ++i) {
+    // Some tens of roundings in float.
+    const double sum = exact.diffuse[1][i] + exact.specular[1][i];
+    REQUIRE(std::abs(double{fast.diffuse[1][i]} + fast.specular[1][i] - sum) <= 1e-5 * sum + 1e-7);
+  }
+}
+
 TEST_CASE("a material of a scene is that material, and splits and unknown names are refused") {
   nacre::Scene scene;
   scene.AddMaterial("gold", {{"model", "conductor"}, {"preset", "gold"}, {"roughness", 0.4}});
@@ -167,6 +184,86 @@ TEST_CASE("directions made unit in float arithmetic are unit") {
     const nacre::Vec3 v{x * inverse, y * inverse, z * inverse};
     REQUIRE(ErrorOf([&] { brdf.Evaluate(v, v, v); }).empty());
   }
+}
+
+// The terms of the models, in all the ways in which directions are chosen.
+const std::vector<std::pair<std::string, nacre::Parameters>> kSampledModels = {
+    {"lambert", {}},
+    {"oren_nayar", {{"roughness", 1}}},
+    {"phong", {{"shininess", 40}}},
+    {"blinn_phong", {{"shininess", 40}}},
+    {"metallic_roughness", {{"metallic", 0.3}, {"roughness", 0.3}}},
+    {"metallic_roughness", {{"metallic", 1}, {"roughness", 0.8}, {"compensation", "kulla_conty"}}},
+    {"metallic_roughness",
+     {{"coat", 0.8}, {"coat_roughness", 0.3}, {"sheen_color", 0.7}, {"sheen_roughness", 0.5}}},
+    {"conductor", {{"preset", "gold"}, {"roughness", 0.2}}},
+    {"dielectric", {{"roughness", 0.4}}}};
+
+TEST_CASE("samples weighted by their pdf reflect the albedo") {
+  constexpr size_t kCount = 40000;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (const auto& [model, parameters] : kSampledModels) {
+    const nacre::Brdf brdf(model, parameters);
+    for (const double cosine : {1.0, 0.6, 0.15}) {
+      INFO(model << " at n.v " << cosine);
+      std::vector<double> planes[6], u(kCount), v(kCount);
+      const double view[6] = {0, 0, 1, std::sqrt(1 - cosine * cosine), 0, cosine};
+      for (size_t c = 0; c < 6; ++c) planes[c].assign(kCount, view[c]);
+      for (size_t i = 0; i < kCount; ++i) {
+        u[i] = uniform(random);
+        v[i] = uniform(random);
+      }
+      nacre::Directions d;
+      d.count = kCount;
+      for (size_t c = 0; c < 3; ++c) {
+        d.normal[c] = planes[c].data();
+        d.to_view[c] = planes[3 + c].data();
+      }
+      const auto sampled = brdf.Sample(d, u.data(), v.data());
+      for (size_t c = 0; c < 3; ++c) d.to_light[c] = sampled[c].data();
+      const std::vector<double> pdf = brdf.Pdf(d);
+      const nacre::ExactReflections f = brdf.Evaluate(d);
+      double sum = 0, squares = 0;
+      for (size_t i = 0; i < kCount; ++i) {
+        const double value = f.diffuse[1][i] + f.specular[1][i];
+        if (value == 0) continue;
+        REQUIRE(pdf[i] > 0);
+        sum += value / pdf[i];
+        squares += value / pdf[i] * (value / pdf[i]);
+      }
+      const double mean = sum / kCount;
+      const double deviation = std::sqrt(std::max(squares / kCount - mean * mean, 0.0) / kCount);
+      // Five standard deviations, and what albedos that are fits may be off by.
+      CHECK(std::abs(mean - brdf.Albedo(cosine)[1]) < 5 * deviation + 1e-3);
+    }
+  }
+}
+
+TEST_CASE("arrays are evaluated as single points are, and a lobe is the product of its terms") {
+  const Samples samples;
+  const nacre::Parameters parameters = {{"roughness", 0.3}, {"compensation", "none"}};
+  for (const char* model : {"metallic_roughness", "conductor", "dielectric"}) {
+    const nacre::Brdf brdf(model, parameters);
+    const nacre::ExactReflections all = brdf.Evaluate(samples.directions);
+    const nacre::MicrofacetTerms terms = brdf.Terms(samples.directions);
+    for (size_t i = 0; i < Samples::kCount; ++i) {
+      const nacre::Vec3 n = samples.At(0, i), v = samples.At(3, i), l = samples.At(6, i);
+      const nacre::Reflection one = brdf.Evaluate(n, v, l);
+      for (size_t c = 0; c < 3; ++c) {
+        REQUIRE(all.diffuse[c][i] == one.diffuse[c]);
+        REQUIRE(all.specular[c][i] == one.specular[c]);
+        const double lobe = terms.d[i] * terms.g[i] * terms.f[c][i] / (4 * v[2]);
+        REQUIRE(std::abs(lobe - one.specular[c]) <= 1e-14 * one.specular[c]);
+      }
+      if (l[2] <= 0) continue;
+      // Heitz 2014, eq. 99: height-correlated.
+      const double g = 1 / (1 + terms.lambda_view[i] + terms.lambda_light[i]);
+      REQUIRE(std::abs(terms.g[i] - g) <= 1e-14 * g);
+    }
+  }
+  CHECK_THROWS_AS(nacre::Brdf("lambert").Terms(samples.directions), nacre::Error);
+  CHECK_THROWS_AS(nacre::Brdf("lambert").Albedo(0), nacre::Error);
 }
 
 }  // namespace

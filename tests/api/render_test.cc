@@ -221,6 +221,24 @@ TEST_CASE("what cannot be written is refused") {
   REQUIRE(code_of(grey, PathOf("a.png")) == 64);
 }
 
+TEST_CASE("a heat map shows where images differ") {
+  nacre::Image image;
+  image.frame = image.data = {0, 0, 2, 1};
+  for (const char* name : {"R", "G", "B"}) {
+    image.channels.push_back({name, nacre::SampleType::kFloat, {0.5f, 0.5f}});
+  }
+  nacre::Image other = image;
+  other.channels[1].samples[1] = 0.75f;
+  const nacre::Picture map = nacre::HeatMap(other, image);
+  REQUIRE(map.width == 2);
+  REQUIRE(map.rgba.size() == 8);
+  CHECK((map.rgba[0] == 0 && map.rgba[1] == 0 && map.rgba[2] == 0 && map.rgba[3] == 255));
+  CHECK(map.rgba[5] > 100);
+  nacre::HeatMapSettings settings;
+  settings.low = 2;
+  CHECK_THROWS_AS(nacre::HeatMap(other, image, settings), nacre::Error);
+}
+
 TEST_CASE("comparisons count and measure") {
   const nacre::Image reference = nacre::Render(FirstScene(), Small());
   nacre::Image image = reference;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/api/scene_test.cc: scenes of the public API, which includes nothing but nacre.h.
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "catch.h"
@@ -80,6 +81,28 @@ TEST_CASE("what is set is seen, and copies are independent") {
   REQUIRE((red(before) != red(after)));
   REQUIRE(before.material_names() == std::vector<std::string>{"red", "floor"});
   REQUIRE(before.light_names() == std::vector<std::string>{"key", "sky"});
+}
+
+TEST_CASE("values are read where they were set, and where the file has them") {
+  nacre::Scene scene = nacre::Scene::FromFile(NACRE_SOURCE_DIR "/scenes/first_scene.json");
+  const auto at = [&](const auto& of, const char* pointer) {
+    const std::optional<nacre::Value> value = of.Get(pointer);
+    return value ? value->json() : std::string("nothing");
+  };
+  CHECK(at(scene, "/materials/red/roughness") == "0.3");
+  CHECK(at(scene, "/shapes/1/center") == "[0,-1000,0]");
+  CHECK(at(scene, "/materials/red/metallic") == "nothing");
+  CHECK(at(scene, "/shapes/2") == "nothing");
+  CHECK(at(scene, "").find("\"lambert\"") != std::string::npos);
+  scene.Set("/materials/red/metallic", 0.5);
+  CHECK(at(scene, "/materials/red/metallic") == "0.5");
+  nacre::Session session(scene);
+  CHECK(at(session, "/materials/red/metallic") == "0.5");
+  session.Set("/materials/red/metallic", 0.25);
+  CHECK(at(session, "/materials/red/metallic") == "0.25");
+  CHECK(at(session, "/shapes/0/radius") == "1");
+  CHECK_THROWS_AS(scene.Get("materials"), nacre::Error);
+  CHECK_THROWS_AS(session.Get("materials"), nacre::Error);
 }
 
 TEST_CASE("meshes are added, and a model is a scene") {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/api/session_test.cc: sessions of the public API against renders of scenes.
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <string>
 #include <thread>
@@ -132,6 +133,18 @@ TEST_CASE("a render is cancelled from another thread, and the session lives on")
   CHECK_THROWS_AS(session.Render(large), nacre::Cancelled);
   other.join();
   CheckEqual(session.Render(Small()), nacre::Render(FirstScene(), Small()));
+}
+
+TEST_CASE("a render ends when its settings say so") {
+  std::atomic<bool> cancel = true;
+  nacre::RenderSettings settings = Small();
+  settings.cancel = &cancel;
+  const nacre::Scene scene = FirstScene();
+  REQUIRE_THROWS_AS(nacre::Render(scene, settings), nacre::Cancelled);
+  nacre::Session session(scene);
+  REQUIRE_THROWS_AS(session.Render(settings), nacre::Cancelled);
+  cancel = false;
+  CheckEqual(session.Render(settings), nacre::Render(scene, settings));
 }
 
 TEST_CASE("passes tell how far all of them have come, and end where that throws") {

@@ -42,11 +42,12 @@ BRANCHES = {
     "api": TRUNK_FOLDERS | {"image_io", "scene_io", "compare", "output"},
     # The live view: its scene and render thread, its page and the server of it.
     "view": TRUNK_FOLDERS | {"image_io", "scene_io", "compare", "report", "study", "output"},
+    "python": set(),  # the Python package, on nacre.h alone
     "textbook": {"base"},  # shares nothing with the renderer; only lesson/ and cli/ may use it
     "lesson": TRUNK_FOLDERS | {"textbook", "scene_io", "image_io", "compare"},
 }
-# In src/ itself, and the folder whose header it is.
-PUBLIC_HEADER, PUBLIC_FOLDER = "nacre.h", "api"
+# In src/ itself, and the folders that have it: that whose header it is, and one of users.
+PUBLIC_HEADER, PUBLIC_FOLDERS = "nacre.h", ("api", "python")
 # Depends on whatever it likes; nothing depends on it.
 TOP = "cli"
 
@@ -85,6 +86,7 @@ HEADER_RULES = (
     (r"nlohmann/", rf"(?!({'|'.join(sorted(TRUNK_FOLDERS))})/)", "JSON in no folder up to render/"),
     (r"CLI/", r"cli/", "CLI11 only in cli/"),
     (r"boost/", r"view/server\.cc", "Boost only in view/server.cc"),
+    (r"pybind11/", r"python/", "pybind11 only in python/"),
 )
 
 INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)[>"]')
@@ -151,7 +153,7 @@ def check_quoted(file, path, depends):
     included, slash, _ = path.partition("/")
     folder = file.partition("/")[0]
     if path == PUBLIC_HEADER:
-        return None if folder == PUBLIC_FOLDER else f'"{path}" is for others: only api/ has it'
+        return None if folder in PUBLIC_FOLDERS else f'"{path}" is for others: only api/ has it'
     if not slash:
         return f'"{path}": write "folder/file.h"'
     if not path.endswith(".h"):

@@ -9,7 +9,7 @@
 #include "study/light_curves.h"
 #include "study/material_curves.h"
 #include "study/rounding.h"
-#include "study/share.h"
+#include "shading/share.h"
 #include "tables.h"
 #include "targets.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// study/share.h: how much light a material reflects in all, in double and by quadrature: what a
+// shading/share.h: how much light a material reflects in all, in double and by quadrature: what a
 // furnace shows, and what becomes of the light from one direction. 1 is all of it; more is made
 // from nothing.
 //

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/share.h"
+#include "shading/share.h"
 
 #include <cmath>
 
@@ -157,6 +157,25 @@ Rgb ShareOfModel(const MicrofacetModel& model, ShareOf what, double cosine) {
     } else if (model.diffuse[c] > 0) {
       share[c] += M_PI * model.diffuse[c] * BaseShareOf(model, what, cosine, c);
     }
+  }
+  return share;
+}
+
+// As if it were isotropic: it is asked for both halves of the hemisphere, though.
+Rgb ShareOfModel(const UserModel& model, ShareOf what, double cosine) {
+  ShadingMaterial material;
+  material.model = model;
+  const Vec3d normal(0, 0, 1), fixed = InPlane(cosine, -1);
+  const auto reflected = [&](const Vec3d& other) {
+    return what == ShareOf::kFurnace
+               ? Reflect(material, normal, other, fixed).Sum()
+               : Reflect(material, normal, fixed, other).Sum() * (other.z / fixed.z);
+  };
+  Rgb share;
+  for (int c = 0; c < 3; ++c) {
+    share[c] = IntegrateAround(InPlane(cosine, 1), [&](const Vec3d& other) {
+      return (reflected(other)[c] + reflected({other.x, -other.y, other.z})[c]) / 2;
+    });
   }
   return share;
 }

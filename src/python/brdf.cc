@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "python/brdf.h"
+
+#include <cstring>
+#include <memory>
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include "python/guard.h"
+#include "python/scene.h"
+
+namespace nacre_python {
+namespace {
+
+// x, y and z of each vector: an array of shape (3, count).
+using Planes = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+std::array<const double*, 3> VectorsOf(const Planes& planes) {
+  const auto count = static_cast<size_t>(planes.shape(1));
+  return {planes.data(), planes.data() + count, planes.data() + 2 * count};
+}
+
+nacre::Directions DirectionsOf(const Planes& normal, const Planes& to_view,
+                               const Planes& to_light) {
+  return {static_cast<size_t>(normal.shape(1)), VectorsOf(normal), VectorsOf(to_view),
+          VectorsOf(to_light)};
+}
+
+template <class Number>
+py::array_t<Number> ArrayOf(const std::vector<Number>& values) {
+  return py::array_t<Number>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+template <class Number>
+py::array_t<Number> ArrayOf(const std::array<std::vector<Number>, 3>& planes) {
+  const size_t count = planes[0].size();
+  py::array_t<Number> array({size_t{3}, count});
+  for (size_t c = 0; c < 3; ++c) {
+    std::copy(planes[c].begin(), planes[c].end(), array.mutable_data() + c * count);
+  }
+  return array;
+}
+
+// A Python function that C++ threads may copy, drop and, under the interpreter lock, call.
+class Function {
+ public:
+  explicit Function(const py::object& function)
+      : function_(new py::object(function), [](py::object* object) {
+          const py::gil_scoped_acquire acquire;
+          delete object;
+        }) {}
+
+  template <class... Arguments>
+  py::object operator()(Arguments&&... arguments) const {
+    return (*function_)(std::forward<Arguments>(arguments)...);
+  }
+
+ private:
+  std::shared_ptr<py::object> function_;
+};
+
+// A copy, for the function may keep it: an array of shape (count, columns) whose columns are each
+// in one piece.
+template <size_t kColumns>
+py::object Columns(size_t count, const std::array<const double*, kColumns>& from) {
+  py::array_t<double> planes({kColumns, count});
+  for (size_t c = 0; c < kColumns; ++c) {
+    std::memcpy(planes.mutable_data() + c * count, from[c], count * sizeof(double));
+  }
+  return planes.attr("T");
+}
+
+void CopyPlanes(const py::object& result, size_t count, const std::array<double*, 3>& to) {
+  const Planes planes = result;
+  for (size_t c = 0; c < 3; ++c) {
+    std::memcpy(to[c], planes.data() + c * count, count * sizeof(double));
+  }
+}
+
+}  // namespace
+
+nacre::UserBrdf UserBrdfOf(const py::object& evaluate, const py::object& sample,
+                           const py::object& pdf) {
+  nacre::UserBrdf brdf;
+  brdf.evaluate = [function = Function(evaluate)](const nacre::Directions& d, const auto& rgb) {
+    const py::gil_scoped_acquire acquire;
+    CopyPlanes(function(Columns<3>(d.count, d.normal), Columns<3>(d.count, d.to_view),
+                        Columns<3>(d.count, d.to_light)),
+               d.count, rgb);
+  };
+  if (!sample.is_none()) {
+    brdf.sample = [function = Function(sample)](const nacre::Directions& d, const double* u,
+                                                const double* v, const auto& to_light) {
+      const py::gil_scoped_acquire acquire;
+      CopyPlanes(function(Columns<3>(d.count, d.normal), Columns<3>(d.count, d.to_view),
+                          Columns<2>(d.count, {u, v})),
+                 d.count, to_light);
+    };
+  }
+  if (!pdf.is_none()) {
+    brdf.pdf = [function = Function(pdf)](const nacre::Directions& d, double* out) {
+      const py::gil_scoped_acquire acquire;
+      const Planes values = function(Columns<3>(d.count, d.normal), Columns<3>(d.count, d.to_view),
+                                     Columns<3>(d.count, d.to_light));
+      std::memcpy(out, values.data(), d.count * sizeof(double));
+    };
+  }
+  return brdf;
+}
+
+void BindBrdfs(py::module_* module) {
+  py::class_<nacre::Brdf>(*module, "Brdf")
+      .def(py::init([](const std::string& model, const Members& members) {
+        return nacre::Brdf(model, ParametersOf(members));
+      }))
+      .def(py::init([](const Scene& scene, const std::string& material) {
+        const Use use(&scene.users, Use::kShared, "Scene");
+        return nacre::Brdf(scene.scene, material);
+      }))
+      .def("evaluate",
+           [](const nacre::Brdf& brdf, const Planes& n, const Planes& v, const Planes& l) {
+             nacre::ExactReflections result;
+             {
+               const py::gil_scoped_release release;
+               result = brdf.Evaluate(DirectionsOf(n, v, l));
+             }
+             return py::make_tuple(ArrayOf(result.diffuse), ArrayOf(result.specular));
+           })
+      .def("shade",
+           [](const nacre::Brdf& brdf, const Planes& n, const Planes& v, const Planes& l) {
+             nacre::Reflections result;
+             {
+               const py::gil_scoped_release release;
+               result = brdf.Shade(DirectionsOf(n, v, l));
+             }
+             return py::make_tuple(ArrayOf(result.diffuse), ArrayOf(result.specular));
+           })
+      .def("sample",
+           [](const nacre::Brdf& brdf, const Planes& n, const Planes& v, const Planes& points) {
+             std::array<std::vector<double>, 3> result;
+             {
+               const py::gil_scoped_release release;
+               const double* const u = points.data();
+               result = brdf.Sample(DirectionsOf(n, v, v), u, u + points.shape(1));
+             }
+             return ArrayOf(result);
+           })
+      .def("pdf",
+           [](const nacre::Brdf& brdf, const Planes& n, const Planes& v, const Planes& l) {
+             std::vector<double> result;
+             {
+               const py::gil_scoped_release release;
+               result = brdf.Pdf(DirectionsOf(n, v, l));
+             }
+             return ArrayOf(result);
+           })
+      .def("albedo",
+           [](const nacre::Brdf& brdf, const std::vector<double>& n_dot_v) {
+             std::array<std::vector<double>, 3> result;
+             {
+               const py::gil_scoped_release release;
+               for (const double cosine : n_dot_v) {
+                 const nacre::Rgb albedo = brdf.Albedo(cosine);
+                 for (size_t c = 0; c < 3; ++c) result[c].push_back(albedo[c]);
+               }
+             }
+             return ArrayOf(result);
+           })
+      .def("terms", [](const nacre::Brdf& brdf, const Planes& n, const Planes& v, const Planes& l) {
+        nacre::MicrofacetTerms terms;
+        {
+          const py::gil_scoped_release release;
+          terms = brdf.Terms(DirectionsOf(n, v, l));
+        }
+        return py::make_tuple(ArrayOf(terms.d), ArrayOf(terms.g), ArrayOf(terms.f),
+                              ArrayOf(terms.lambda_view), ArrayOf(terms.lambda_light));
+      });
+}
+
+}  // namespace nacre_python

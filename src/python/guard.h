@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// python/guard.h: objects that C++ works on while other Python threads run, and signals meanwhile.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include <pybind11/pybind11.h>
+
+#include "nacre.h"
+
+namespace nacre_python {
+
+namespace py = pybind11;
+
+// Throws nacre::Error for what is used wrongly.
+[[noreturn]] inline void Refuse(const std::string& where, const std::string& what,
+                                const std::string& hint) {
+  throw nacre::Error(64, {{where, what, hint}},
+                     "error: " + where + ": " + what + "\n  hint: " + hint);
+}
+
+// How many calls are at work on an object. The interpreter lock protects it: it is held wherever a
+// guard is made or goes. A thread that finds the object taken gets an error, never a wait that may
+// have no end.
+class Users {
+ public:
+  int count = 0;
+};
+
+class Use {
+ public:
+  enum Kind { kShared, kAlone };
+  Use(Users* users, Kind kind, const char* what) : users_(users), kind_(kind) {
+    const bool taken = kind == kAlone ? users->count != 0 : users->count < 0;
+    if (taken) {
+      Refuse(what, "is in use by another call",
+             "one call at a time; threads take a copy each, or a lock");
+    }
+    users->count = kind == kAlone ? -1 : users->count + 1;
+  }
+  ~Use() { users_->count = kind_ == kAlone ? 0 : users_->count - 1; }
+  Use(const Use&) = delete;
+  Use& operator=(const Use&) = delete;
+
+ private:
+  Users* users_;
+  Kind kind_;
+};
+
+// Calls body() on a thread of its own, without the interpreter lock, while this thread looks for
+// signals: the first whose handler throws (Ctrl-C) calls stop(), and its exception is thrown when
+// body() has returned. `body` may take the lock.
+template <class Body>
+auto Interruptibly(const std::function<void()>& stop, const Body& body) {
+  using Result = decltype(body());
+  std::optional<Result> result;
+  std::exception_ptr error;
+  std::optional<py::error_already_set> signal;
+  {
+    const py::gil_scoped_release release;
+    std::mutex mutex;
+    std::condition_variable ended;
+    bool done = false;
+    std::thread worker([&] {
+      try {
+        result = body();
+      } catch (...) {
+        error = std::current_exception();
+      }
+      const std::lock_guard lock(mutex);
+      done = true;
+      ended.notify_one();
+    });
+    std::unique_lock lock(mutex);
+    while (!ended.wait_for(lock, std::chrono::milliseconds(20), [&] { return done; })) {
+      if (signal) continue;
+      lock.unlock();
+      {
+        const py::gil_scoped_acquire acquire;
+        if (PyErr_CheckSignals() != 0) signal.emplace();
+      }
+      if (signal) stop();
+      lock.lock();
+    }
+    lock.unlock();
+    worker.join();
+  }
+  if (signal) throw *std::move(signal);
+  if (error) std::rethrow_exception(error);
+  return *std::move(result);
+}
+
+}  // namespace nacre_python

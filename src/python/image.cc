@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "python/image.h"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include "python/guard.h"
+
+namespace nacre_python {
+namespace {
+
+constexpr const char* kTypes[] = {"half", "float", "uint"};
+
+py::tuple ToTuple(const nacre::Window& w) { return py::make_tuple(w.x0, w.y0, w.x1, w.y1); }
+
+nacre::Window WindowOf(const py::handle& tuple) {
+  const auto [x0, y0, x1, y1] = tuple.cast<std::tuple<int, int, int, int>>();
+  return {x0, y0, x1, y1};
+}
+
+py::array_t<uint8_t> PixelsOf(const nacre::Picture& picture) {
+  py::array_t<uint8_t> pixels({picture.height, picture.width, 4});
+  std::copy(picture.rgba.begin(), picture.rgba.end(), pixels.mutable_data());
+  return pixels;
+}
+
+using Bytes = py::array_t<uint8_t, py::array::c_style>;
+
+nacre::Picture PictureOf(const Bytes& pixels) {
+  const auto channels = pixels.ndim() == 3 ? pixels.shape(2) : 0;
+  if (channels != 3 && channels != 4) {
+    throw py::value_error("a picture has the shape (height, width, 3 or 4) and type uint8");
+  }
+  nacre::Picture picture{static_cast<int>(pixels.shape(1)), static_cast<int>(pixels.shape(0)), {}};
+  const auto count = static_cast<size_t>(pixels.shape(0) * pixels.shape(1));
+  picture.rgba.resize(4 * count, 255);
+  for (size_t i = 0; i < count; ++i) {
+    std::memcpy(picture.rgba.data() + 4 * i, pixels.data() + static_cast<size_t>(channels) * i, 3);
+  }
+  return picture;
+}
+
+py::bytes BytesOf(const std::vector<uint8_t>& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+py::object OrNone(const std::optional<double>& number) {
+  return number ? py::object(py::float_(*number)) : py::object(py::none());
+}
+
+py::dict ToDict(const nacre::LayerMetrics& m) {
+  py::dict dict;
+  dict["layer"] = m.layer.empty() ? "beauty" : m.layer;
+  dict["samples"] = m.samples;
+  dict["rmse"] = m.rmse;
+  dict["rel_mse"] = m.rel_mse;
+  dict["psnr_db"] = m.psnr_db;
+  dict["max_abs"] = m.max_abs;
+  dict["max_rel"] = m.max_rel;
+  dict["zero_mismatches"] = m.zero_mismatches;
+  dict["mean"] = m.mean;
+  dict["mean_reference"] = m.mean_reference;
+  dict["ssim"] = OrNone(m.ssim);
+  dict["flip"] = OrNone(m.flip);
+  dict["hdr_flip"] = OrNone(m.hdr_flip);
+  return dict;
+}
+
+// Where a channel stands among those of its layer: R, G, B and A, or X, Y and Z.
+size_t RankOf(const std::string& channel) {
+  const std::string component = channel.substr(channel.rfind('.') + 1);
+  const size_t rank = component.size() == 1 ? std::string("RGBAXYZ").find(component[0]) : 0;
+  return rank == std::string::npos ? 0 : rank;
+}
+
+std::string LayerOf(const std::string& channel) {
+  const size_t dot = channel.rfind('.');
+  return dot == std::string::npos ? std::string() : channel.substr(0, dot);
+}
+
+// So that the channels of a layer are neighbours in the order in which people think of them: files
+// have them in the alphabet's.
+void SortChannels(std::vector<nacre::Channel>* channels) {
+  std::map<std::string, size_t> layers;
+  for (const nacre::Channel& channel : *channels) {
+    layers.try_emplace(LayerOf(channel.name), layers.size());
+  }
+  const auto place = [&](const nacre::Channel& channel) {
+    return std::pair(layers.at(LayerOf(channel.name)), RankOf(channel.name));
+  };
+  std::stable_sort(
+      channels->begin(), channels->end(),
+      [&](const nacre::Channel& a, const nacre::Channel& b) { return place(a) < place(b); });
+}
+
+}  // namespace
+
+py::object ToPython(nacre::Image&& image) {
+  SortChannels(&image.channels);
+  const auto width = static_cast<size_t>(image.width());
+  const auto height = static_cast<size_t>(image.height());
+  py::array_t<float> block({image.channels.size(), height, width});
+  py::list names, types;
+  float* to = block.mutable_data();
+  for (nacre::Channel& channel : image.channels) {
+    names.append(channel.name);
+    types.append(kTypes[static_cast<size_t>(channel.type)]);
+    const std::vector<float> samples = std::move(channel.samples);
+    if (channel.type == nacre::SampleType::kUint) {
+      auto* const ids = reinterpret_cast<uint32_t*>(to);
+      for (size_t i = 0; i < samples.size(); ++i) ids[i] = static_cast<uint32_t>(samples[i]);
+    } else {
+      std::copy(samples.begin(), samples.end(), to);
+    }
+    to += width * height;
+  }
+  return py::module_::import("nacre._image")
+      .attr("Image")
+      .attr("_of")(block, names, types, ToTuple(image.frame), ToTuple(image.data), image.metadata);
+}
+
+nacre::Image FromPython(const py::object& image) {
+  nacre::Image result;
+  result.frame = WindowOf(image.attr("frame"));
+  result.data = WindowOf(image.attr("data"));
+  result.metadata = image.attr("metadata").cast<std::map<std::string, std::string>>();
+  const auto block = image.attr("_block").cast<py::array_t<float, py::array::c_style>>();
+  const auto names = image.attr("_names").cast<std::vector<std::string>>();
+  const auto types = image.attr("_types").cast<std::vector<std::string>>();
+  const size_t count = static_cast<size_t>(block.shape(1) * block.shape(2));
+  const float* from = block.data();
+  for (size_t i = 0; i < names.size(); ++i, from += count) {
+    nacre::Channel channel{names[i], nacre::SampleType::kHalf, std::vector<float>(count)};
+    while (types[i] != kTypes[static_cast<size_t>(channel.type)]) {
+      channel.type = static_cast<nacre::SampleType>(static_cast<size_t>(channel.type) + 1);
+      if (channel.type > nacre::SampleType::kUint) throw py::value_error("unknown channel type");
+    }
+    if (channel.type == nacre::SampleType::kUint) {
+      const auto* const ids = reinterpret_cast<const uint32_t*>(from);
+      for (size_t k = 0; k < count; ++k) channel.samples[k] = static_cast<float>(ids[k]);
+    } else {
+      std::copy(from, from + count, channel.samples.begin());
+    }
+    result.channels.push_back(std::move(channel));
+  }
+  return result;
+}
+
+void BindImages(py::module_* module) {
+  module->def("read", [](const std::string& path) {
+    nacre::Image image;
+    {
+      const py::gil_scoped_release release;
+      image = nacre::Read(path);
+    }
+    return ToPython(std::move(image));
+  });
+  module->def("write", [](const py::object& image, const std::string& path, bool half_floats,
+                          const std::string& compression, bool small, const std::string& tonemap,
+                          double exposure) {
+    const nacre::Image own = FromPython(image);
+    const py::gil_scoped_release release;
+    nacre::Write(own, path, {half_floats, compression, small, tonemap, exposure});
+  });
+  module->def("tone_map", [](const py::object& image, const std::string& layer,
+                             const std::string& tonemap, double exposure) {
+    const nacre::Image own = FromPython(image);
+    nacre::Picture picture;
+    {
+      const py::gil_scoped_release release;
+      picture = nacre::ToneMap(own, {layer, tonemap, exposure});
+    }
+    return PixelsOf(picture);
+  });
+  module->def("encode_png",
+              [](const Bytes& pixels) { return BytesOf(nacre::EncodePng(PictureOf(pixels))); });
+  module->def("encode_jpeg", [](const Bytes& pixels, int quality) {
+    return BytesOf(nacre::EncodeJpeg(PictureOf(pixels), quality));
+  });
+  module->def("heat_map", [](const py::object& image, const py::object& reference,
+                             const std::string& layer, bool relative, double low, double high) {
+    const nacre::Image got = FromPython(image), expected = FromPython(reference);
+    nacre::Picture picture;
+    {
+      const py::gil_scoped_release release;
+      picture = nacre::HeatMap(got, expected, {layer, relative, low, high});
+    }
+    return PixelsOf(picture);
+  });
+  module->def("compare",
+              [](const py::object& image, const py::object& reference,
+                 const std::vector<std::string>& layers, double max_abs, double max_rel,
+                 double exceeding_fraction, double max_rmse, bool perceptual, bool crop) {
+                const nacre::Image got = FromPython(image), expected = FromPython(reference);
+                nacre::Comparison comparison;
+                {
+                  const py::gil_scoped_release release;
+                  comparison = nacre::Compare(
+                      got, expected,
+                      {layers, max_abs, max_rel, exceeding_fraction, max_rmse, perceptual, crop});
+                }
+                py::list measured;
+                for (const nacre::LayerMetrics& layer : comparison.layers)
+                  measured.append(ToDict(layer));
+                return py::make_tuple(comparison.match, comparison.reason, comparison.pixels,
+                                      comparison.exceeding_pixels, measured);
+              });
+}
+
+}  // namespace nacre_python

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// python/module.cc: the module _nacre, on which the package nacre stands: nothing here is for
+// users.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "nacre.h"
+#include "python/brdf.h"
+#include "python/image.h"
+#include "python/scene.h"
+
+namespace nacre_python {
+namespace {
+
+void Throw(const char* name, const py::tuple& arguments) {
+  const py::object type = py::module_::import("nacre._errors").attr(name);
+  PyErr_SetObject(type.ptr(), type(*arguments).ptr());
+}
+
+void Translate(std::exception_ptr thrown) {
+  try {
+    if (thrown) std::rethrow_exception(thrown);
+  } catch (const nacre::Error& error) {
+    py::list faults;
+    for (const nacre::Fault& fault : error.faults()) {
+      faults.append(py::make_tuple(fault.where, fault.what, fault.hint));
+    }
+    Throw("Error", py::make_tuple(error.what(), faults, error.exit_code()));
+  } catch (const nacre::Cancelled&) {
+    Throw("Cancelled", py::make_tuple("the render was cancelled"));
+  }
+}
+
+}  // namespace
+}  // namespace nacre_python
+
+PYBIND11_MODULE(_nacre, module) {
+  using namespace nacre_python;
+  py::register_exception_translator(&Translate);
+  module.def("version", &nacre::Version);
+  module.def("supported_targets", &nacre::SupportedTargets);
+  module.def("active_target", &nacre::ActiveTarget);
+  module.def("set_target", &nacre::SetTarget);
+  module.def("scene_schema", &nacre::SceneSchema);
+  BindImages(&module);
+  BindScenes(&module);
+  BindBrdfs(&module);
+}

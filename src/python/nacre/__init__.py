@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: Apache-2.0
+"""nacre renders, measures and compares reflection models on spheres and meshes.
+
+    import nacre
+
+    scene = nacre.Scene.from_file("scenes/first_scene.json")
+    scene["/materials/red/roughness"] = 0.2
+    image = scene.render(width=640, height=360, layers="all")
+    image["beauty"]                    # float32 of shape (360, 640, 3), a view
+    image.write("red.exr")
+
+What there is:
+
+    Scene, Session      what is rendered, once or again and again
+    Brdf                a reflection model over arrays, nacre's or a function of your own
+    check               is a BRDF right? one page of verdicts, errors and curves
+    Image, Picture      channels as numpy arrays, files, tone mapping
+    read                an image file
+    compare, heat_map   metrics between images, and where they differ
+    show, side_by_side, difference      pictures in notebooks
+    Error               what is raised, with `.faults`
+
+Conventions are those of scene files (scenes/README.md): right-handed, +y up, linear Rec. 709 colours,
+angles in degrees, unit directions that point away from the surface, BRDFs with their 1/pi. Arrays may
+have any numeric type and strides; they are converted to float64 where directions are meant, and to
+float32 in images. `nacre.Error` says what of a scene or file is wrong; TypeError and ValueError say
+that an argument is of the wrong type or shape.
+"""
+from typing import List
+
+from . import _nacre
+from ._brdf import Brdf
+from ._check import Check, Verdict, check
+from ._errors import Cancelled, Error, Fault
+from ._image import (Comparison, Image, LayerMetrics, Picture, Window, compare, difference, heat_map,
+                     read, show, side_by_side)
+from ._scene import Scene, Session, render
+
+__version__: str = _nacre.version()
+
+
+def supported_targets() -> List[str]:
+    """The SIMD targets that this machine can run, slowest first."""
+    return _nacre.supported_targets()
+
+
+def active_target() -> str:
+    """The one that is used: the fastest, unless `set_target` chose another."""
+    return _nacre.active_target()
+
+
+def set_target(target: str) -> None:
+    """Chooses a SIMD target for the whole process, before anything runs. Pictures differ in their
+    last digits."""
+    _nacre.set_target(target)
+
+
+def scene_schema() -> str:
+    """The JSON Schema of scene files: every name that parameters may have."""
+    return _nacre.scene_schema()
+
+
+__all__ = [
+    "Brdf", "Cancelled", "Check", "Comparison", "Error", "Fault", "Image", "LayerMetrics", "Picture", "Scene", "Session",
+    "Verdict", "Window", "active_target", "check", "compare", "difference", "heat_map", "read", "render", "scene_schema",
+    "set_target", "show", "side_by_side", "supported_targets"]

@@ -1,0 +1,282 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Is my BRDF right? Its reciprocity, energy, sampler and cost, and its difference from another."""
+import dataclasses
+import time
+from typing import Any, Dict, List, NamedTuple, Optional, Tuple, Union
+
+import numpy as np
+
+from ._brdf import Brdf, Function
+from ._image import Array, Comparison, Image, Picture, difference
+from ._scene import Scene
+
+# Angles in degrees; of phi, 0 is where the viewer is and 180 where mirrors look.
+_THETA = (0.5, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 88.0)
+_PHI = (0.0, 30.0, 60.0, 90.0, 120.0, 150.0, 165.0, 175.0, 180.0)
+# Reciprocity and isotropy hold to the rounding of a formula that is not written for precision: sharp
+# lobes turn 1e-16 of a cosine into more. Somebody's mistake is larger.
+_ROUNDING = 1e-6
+# What `Brdf.albedo` of a function is right to, and a margin for what other quadratures call 1.
+_ENERGY = 1e-3
+
+
+class Verdict(NamedTuple):
+    """Whether a property holds, and how it was found, in words."""
+
+    ok: bool
+    text: str
+
+
+@dataclasses.dataclass
+class Check:
+    """What `check` has found. True where all verdicts are; str(check) is its page.
+
+    theta_light, theta_view, phi: the angles of the grid, in degrees; phi 180 is the mirror's side.
+    values, reference: the BRDF without n.l, of shape (theta_light, theta_view, phi, 3).
+    error: |values - reference| / reference, of the channel where it is largest, of shape
+        (theta_light, theta_view, phi); None without a reference.
+    cosines, furnace, furnace_reference: n.v, and the albedos there, of shape (count, 3).
+    image, image_reference, comparison: a ball rendered with either, and their difference.
+    verdicts: by name.
+    seconds: per sample, of the function alone, in arrays of 65536.
+    """
+
+    name: str
+    against: str
+    theta_light: Array
+    theta_view: Array
+    phi: Array
+    values: Array
+    reference: Optional[Array]
+    error: Optional[Array]
+    cosines: Array
+    furnace: Array
+    furnace_reference: Optional[Array]
+    image: Image
+    image_reference: Optional[Image]
+    comparison: Optional[Comparison]
+    verdicts: Dict[str, Verdict]
+    seconds: float
+    hints: List[str]
+
+    def __bool__(self) -> bool:
+        return all(verdict.ok for verdict in self.verdicts.values())
+
+    def __str__(self) -> str:
+        lines = [f"{self.name}" + (f", against {self.against}" if self.against else "")]
+        for name, verdict in self.verdicts.items():
+            lines.append(f"  {'ok  ' if verdict.ok else 'FAIL'}  {name:12} {verdict.text}")
+        lines += [f"  hint: {hint}" for hint in self.hints]
+        lines += ["", "  furnace: what is seen of light of radiance 1 from everywhere",
+                  "    angle    " + "".join(f"{np.degrees(np.arccos(c)):7.1f}" for c in self.cosines),
+                  "    albedo   " + "".join(f"{a:7.3f}" for a in self.furnace.max(axis=1))]
+        if self.furnace_reference is not None:
+            lines.append("    against  " + "".join(
+                f"{a:7.3f}" for a in self.furnace_reference.max(axis=1)))
+        if self.error is not None:
+            lines += ["", "  relative error, the largest over phi; light down, viewer across, degrees",
+                      "           " + "".join(f"{t:9.3g}" for t in self.theta_view)]
+            for theta, row in zip(self.theta_light, self.error.max(axis=2)):
+                lines.append(f"    {theta:7.3g}" + "".join(f"{e:9.1e}" for e in row))
+        if self.comparison is not None:
+            m = self.comparison.layers["beauty"]
+            lines += ["", f"  picture of a ball: RMSE {m.rmse:.3g}, relMSE {m.rel_mse:.3g}, largest "
+                      f"difference {m.max_abs:.3g} of a mean of {m.mean_reference:.3g}"]
+        lines.append(f"  cost: {1e9 * self.seconds:.0f} ns a sample")
+        return "\n".join(lines)
+
+    def picture(self) -> Picture:
+        """The ball with the model, with the reference, and where their radiance differs."""
+        if self.image_reference is None:
+            return self.image.picture()
+        return difference(self.image, self.image_reference, low=1e-4)
+
+
+def _direction(theta: Array, phi: Array) -> Array:
+    """Angles from the normal and about it, in degrees, as (..., 3) about +z."""
+    t, p = np.broadcast_arrays(np.radians(theta), np.radians(phi))
+    return np.stack([np.sin(t) * np.cos(p), np.sin(t) * np.sin(p), np.cos(t)], axis=-1)
+
+
+_UP = np.array([0.0, 0, 1])
+
+
+def _turned(v: Array) -> Array:
+    """Turned by a rotation that maps no axis to another."""
+    a, b, c = 0.7, 1.1, 0.4
+    x = np.array([[1, 0, 0], [0, np.cos(a), -np.sin(a)], [0, np.sin(a), np.cos(a)]])
+    y = np.array([[np.cos(b), 0, np.sin(b)], [0, 1, 0], [-np.sin(b), 0, np.cos(b)]])
+    z = np.array([[np.cos(c), -np.sin(c), 0], [np.sin(c), np.cos(c), 0], [0, 0, 1]])
+    turned: Array = v @ (x @ y @ z).T
+    return turned / np.linalg.norm(turned, axis=-1, keepdims=True)
+
+
+def _relative(a: Array, b: Array) -> Array:
+    """|a - b| / max(|a|, |b|); of values below a billionth of the largest one, relative to that."""
+    scale = np.maximum(np.abs(a), np.abs(b))
+    least = 1e-9 * float(scale.max())
+    return np.abs(a - b) / np.maximum(scale, least if least > 0 else 1)
+
+
+def _ball(brdf: Brdf, size: int) -> Image:
+    scene = Scene()
+    scene.set_camera(position=(0, 0, 8), look_at=(0, 0, 0), fov_y_deg=16)
+    _add(scene, brdf)
+    scene.add_light("key", "point", position=(6, 7, 8), intensity=500)
+    scene.add_light("rim", "directional", direction_of_travel=(1, -0.2, 1), irradiance=1.5)
+    scene.add_sphere((0, 0, 0), 1, "ball")
+    return scene.render(width=size, height=size, samples=4)
+
+
+def _worst(grid: Array, light: Array, view: Array, phi: Array) -> str:
+    i, j, k = (int(n) for n in np.unravel_index(int(np.argmax(grid)), grid.shape))
+    return f"light {light[i]:g}, viewer {view[j]:g}, phi {phi[k]:g} degrees"
+
+
+def _sampler(brdf: Brdf, cosines: Array, furnace: Array) -> Verdict:
+    """The mean of f n.l / pdf over the model's own samples is its albedo."""
+    rng = np.random.default_rng(7)
+    worst, text = 0.0, ""
+    for cosine, albedo in zip(cosines, furnace.max(axis=1)):
+        view = [float(np.sqrt((1 - cosine) * (1 + cosine))), 0.0, float(cosine)]
+        light = brdf.sample(_UP, view, rng.random((16384, 2)))
+        f = brdf.evaluate(_UP, view, light).max(axis=-1)
+        pdf = brdf.pdf(_UP, view, light)
+        lost = (f > 0) & ~(pdf > 0)
+        weight = np.where(pdf > 0, f / np.where(pdf > 0, pdf, 1), 0)
+        error = abs(weight.mean() - albedo)
+        sigmas = error / (weight.std() / 128 + 1e-3 * albedo + 1e-12)
+        if lost.any() or sigmas > worst:
+            worst = np.inf if lost.any() else sigmas
+            text = ("samples have pdf 0" if lost.any() else
+                    f"at {np.degrees(np.arccos(cosine)):.0f} degrees samples mean "
+                    f"{weight.mean():.4f}, the albedo is {albedo:.4f}")
+    return Verdict(worst < 6, text or "unbiased")
+
+
+def _cost(brdf: Brdf) -> float:
+    rng = np.random.default_rng(3)
+    light, view = (_direction(80 * rng.random(65536), 360 * rng.random(65536)) for _ in range(2))
+    normal = np.broadcast_to(_UP, light.shape)
+    function: Any = brdf._evaluate.function if brdf._evaluate is not None else brdf.evaluate
+    seconds = []
+    for _ in range(3):
+        start = time.perf_counter()
+        function(normal, view, light)
+        seconds.append(time.perf_counter() - start)
+    return min(seconds) / 65536
+
+
+def _hints(values: Array, reference: Array, theta_light: Array) -> List[str]:
+    """What a wrong factor may be."""
+    good = (reference > 0) & (values > 0)
+    if not good.any():
+        return ["it is black wherever the other is not"]
+    ratio = np.where(good, values / np.where(good, reference, 1), np.nan)
+    n_dot_l = np.cos(np.radians(theta_light))[:, None, None, None]
+    known: Tuple[Tuple[float, str], ...] = (
+        (np.pi, "pi: the 1/pi is missing"), (1 / np.pi, "1/pi: divided by pi once too often"),
+        (4, "4: the 1/4 of the microfacet lobe is missing"), (1 / 4, "1/4"), (2, "2"), (1 / 2, "1/2"))
+    for by, what in ((1.0, ""), (n_dot_l, "n.l: the function returns the BRDF without it"),
+                     (1 / n_dot_l, "1/n.l")):
+        left = ratio / by
+        median = float(np.nanmedian(left))
+        if not np.nanquantile(np.abs(left / median - 1), 0.98) < 1e-3:
+            continue
+        factors = [what] if what else []
+        if abs(median - 1) > 1e-3:
+            named = [text for factor, text in known if abs(median / factor - 1) < 1e-3]
+            factors.append(named[0] if named else f"{median:.6g}")
+        if factors:
+            return ["it is the other times " + ", and times ".join(factors)]
+    return []
+
+
+def check(model: Union[Function, Brdf], against: Union[str, Brdf, None] = None, *,
+          tolerance: float = 1e-3, size: int = 192, quiet: bool = False, **parameters: Any) -> Check:
+    """Checks a BRDF, prints one page, and returns its numbers.
+
+        nacre.check(my_ggx, against="metallic_roughness", base_color=1, metallic=1, roughness=0.4,
+                    shadowing="separable", compensation="none")
+
+    model: a function, as of `nacre.Brdf`, or a Brdf.
+    against: a Brdf, or the name of one of nacre's models, with its parameters; None: nothing.
+    tolerance: the relative difference from it that is right.
+    size: of the pictures of a ball, in pixels.
+    quiet: prints nothing.
+
+    Verdicts: `finite`, `positive`; `reciprocal`: f(l, v) = f(v, l); `isotropic`: turning light,
+    viewer and normal changes nothing; `energy`: no albedo is above 1; `sampler`, of models with one:
+    the mean of f n.l / pdf is the albedo; `agrees`, with `against`: within the tolerance at all
+    angles. An error of the function itself comes out of it.
+    """
+    brdf = model if isinstance(model, Brdf) else Brdf(model)
+    other = Brdf(against, **parameters) if isinstance(against, str) else against
+    if parameters and not isinstance(against, str):
+        raise TypeError("parameters are those of the model that `against` names")
+    theta, phi = np.array(_THETA), np.array(_PHI)
+    light = _direction(theta[:, None, None], phi)
+    view = _direction(theta[:, None], np.array(0.0))
+    cos_light, cos_view = light[..., 2:], view[..., 2:]
+
+    def values_of(of: Brdf) -> Array:
+        result: Array = of.evaluate(_UP, view, light) / cos_light
+        return result
+
+    values = values_of(brdf)
+    verdicts = {"finite": Verdict(True, "at all angles")}
+    least = float(values.min())
+    verdicts["positive"] = Verdict(least >= 0, f"the least value is {least:.4g}")
+    swapped = brdf.evaluate(_UP, light, view) / cos_view
+    asymmetry = _relative(values, swapped).max(axis=-1)
+    verdicts["reciprocal"] = Verdict(
+        bool(asymmetry.max() < _ROUNDING), f"f(l, v) and f(v, l) differ by {asymmetry.max():.1e} at "
+        f"most, at {_worst(asymmetry, theta, theta, phi)}")
+    turned = brdf.evaluate(_turned(_UP), _turned(view), _turned(light)) / cos_light
+    turning = _relative(values, turned).max(axis=-1)
+    verdicts["isotropic"] = Verdict(
+        bool(turning.max() < _ROUNDING),
+        f"turned with its surface it differs by {turning.max():.1e} at most")
+    cosines = np.cos(np.radians(np.array([0.5, 15, 30, 45, 60, 70, 80, 85, 88])))
+    furnace = brdf.albedo(cosines)
+    most = float(furnace.max())
+    verdicts["energy"] = Verdict(most <= 1 + _ENERGY, f"reflects up to {most:.4f} of the light")
+    if brdf._sample is not None:
+        verdicts["sampler"] = _sampler(brdf, cosines, furnace)
+    reference = error = furnace_reference = image_reference = comparison = None
+    hints: List[str] = []
+    image = _ball(brdf, size)
+    if other is not None:
+        reference = values_of(other)
+        error = (np.abs(values - reference) /
+                 np.where(reference > 0, reference, np.inf)).max(axis=-1)
+        error = np.where((reference <= 0).any(axis=-1) & (values > 0).any(axis=-1), np.inf, error)
+        furnace_reference = other.albedo(cosines)
+        verdicts["agrees"] = Verdict(
+            bool(error.max() <= tolerance),
+            f"differs by {error.max():.1e} at most, at {_worst(error, theta, theta, phi)}; half of "
+            f"the angles by less than {np.median(error):.1e}")
+        if not verdicts["agrees"].ok:
+            hints = _hints(values, reference, theta)
+        image_reference = _ball(other, size)
+        comparison = image.compare(image_reference, layers=["beauty"])
+    found = Check(brdf.name, "" if other is None else other.name, theta, theta, phi, values, reference,
+                  error, cosines, furnace, furnace_reference, image, image_reference, comparison,
+                  verdicts, _cost(brdf), hints)
+    if not quiet:
+        print(found)
+    return found
+
+
+def _add(scene: Scene, brdf: Brdf) -> None:
+    """The model as the material "ball", whichever it is. nacre's own are rendered by the function
+    that evaluates them, in double."""
+    if brdf.is_own:
+        scene.add_material("ball", brdf)
+        return
+
+    def reflect(normal: Array, to_view: Array, to_light: Array) -> Array:
+        n_dot_l = (normal * to_light).sum(axis=1, keepdims=True)
+        result: Array = brdf.evaluate(normal, to_view, to_light) / n_dot_l
+        return result
+    scene.add_material("ball", reflect)

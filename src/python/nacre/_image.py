@@ -1,0 +1,360 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Images: channels as numpy arrays, files, metrics, and pictures of them for a display."""
+import dataclasses
+import math
+import os
+from typing import Any, Dict, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _nacre
+from ._errors import fault
+
+Array = np.ndarray
+PathLike = Union[str, "os.PathLike[str]"]
+
+
+class Window(NamedTuple):
+    """Pixels x0 <= x < x1, y0 <= y < y1, y downwards from the top."""
+
+    x0: int
+    y0: int
+    x1: int
+    y1: int
+
+
+class Picture:
+    """What a display shows: an array of sRGB codes, which notebooks show as a picture.
+
+    pixels: uint8 of shape (height, width, 3).
+    """
+
+    def __init__(self, pixels: Array) -> None:
+        array = np.asarray(pixels)
+        if array.ndim != 3 or array.shape[2] not in (3, 4) or array.dtype != np.uint8:
+            raise ValueError("a picture is an array of shape (height, width, 3) and type uint8, not "
+                             f"{array.shape} and {array.dtype}")
+        self.pixels = array[:, :, :3]
+
+    def _repr_png_(self) -> bytes:
+        return _nacre.encode_png(self.pixels)
+
+    def png(self) -> bytes:
+        """The bytes of a PNG file."""
+        return _nacre.encode_png(self.pixels)
+
+    def jpeg(self, quality: int = 90) -> bytes:
+        """The bytes of a JPEG file, quality 1 to 100, colours at full resolution."""
+        return _nacre.encode_jpeg(self.pixels, quality)
+
+    def write(self, path: PathLike) -> None:
+        """Writes a .png or .jpg file."""
+        name = os.fspath(path)
+        if not name.lower().endswith((".png", ".jpg", ".jpeg")):
+            raise fault(name, "unknown output extension", "pictures are written to .png and .jpg")
+        data = self.png() if name.lower().endswith(".png") else self.jpeg()
+        with open(name, "wb") as file:
+            file.write(data)
+
+    def __repr__(self) -> str:
+        return f"<nacre.Picture of {self.pixels.shape[1]} x {self.pixels.shape[0]} pixels>"
+
+
+@dataclasses.dataclass
+class LayerMetrics:
+    """How far a layer is from the reference's."""
+
+    layer: str
+    samples: int
+    rmse: float
+    rel_mse: float  #: the mean of difference^2 / (reference^2 + 1e-4)
+    psnr_db: float  #: relative to the reference's largest magnitude
+    max_abs: float
+    max_rel: float  #: of |difference| / |reference|, where the reference is not 0
+    zero_mismatches: int  #: samples that differ where the reference is 0
+    mean: float
+    mean_reference: float
+    ssim: Optional[float] = None  #: with perceptual=True, of layers that are colours
+    flip: Optional[float] = None
+    hdr_flip: Optional[float] = None
+
+
+@dataclasses.dataclass
+class Comparison:
+    """What `compare` finds. True where the images match."""
+
+    match: bool
+    reason: str  #: in words
+    pixels: int
+    exceeding_pixels: int
+    layers: Dict[str, LayerMetrics]
+
+    def __bool__(self) -> bool:
+        return self.match
+
+    def __str__(self) -> str:
+        lines = ["match" if self.match else f"no match: {self.reason}"]
+        for m in self.layers.values():
+            numbers = [("rmse", m.rmse), ("relMSE", m.rel_mse), ("PSNR", m.psnr_db),
+                       ("max", m.max_abs), ("SSIM", m.ssim), ("FLIP", m.flip),
+                       ("HDR-FLIP", m.hdr_flip)]
+            lines.append(f"{m.layer:12} " + "  ".join(
+                f"{name} {number:.4g}" for name, number in numbers if number is not None))
+        return "\n".join(lines)
+
+
+_COLORS, _VECTORS = ("R", "G", "B"), ("X", "Y", "Z")
+
+
+class Image:
+    """A picture of any number of channels, linear.
+
+    `image["R"]` is a channel, an array of shape (height, width); `image["beauty"]` the channels R, G
+    and B, and `image["diffuse"]` or `image["N"]` another layer, of shape (height, width, 3). The type
+    is float32; that of ids ("id.object") is uint32. All of them are views, not copies: what is
+    written to one is written to the image, and they outlive it.
+
+    `layers` and `channels` list the names. `data` is the window that the channels cover, `frame` the
+    whole picture. `metadata` holds text by name, `stats` of renders what was counted and timed.
+    """
+
+    frame: Window
+    data: Window
+    metadata: Dict[str, str]
+    stats: Optional[Dict[str, Any]]
+
+    def __init__(self, channels: Union[Array, Mapping[str, Array]],
+                 metadata: Optional[Mapping[str, str]] = None) -> None:
+        """Of arrays, which are copied and converted to float32 (integers of ids: to uint32): one of
+        shape (height, width, 3 or 4), the beauty and A; or several by the names of channels, of
+        shape (height, width), and of layers, of shape (height, width, 3)."""
+        if not isinstance(channels, Mapping):
+            array = np.asarray(channels)
+            if array.ndim != 3 or array.shape[2] not in (3, 4):
+                raise ValueError("an image is an array of shape (height, width, 3 or 4), or several "
+                                 f"by name; this one has the shape {array.shape}")
+            channels = dict(zip("RGBA", np.moveaxis(array, 2, 0)))
+        planes: Dict[str, Array] = {}
+        for name, values in channels.items():
+            array = np.asarray(values)
+            if array.dtype.kind not in "fiub":
+                raise TypeError(f"image: {name} is an array of {array.dtype}, not of real numbers")
+            if array.ndim == 3 and array.shape[2] == 3:
+                prefix = "" if name == "beauty" else name + "."
+                parts = _VECTORS if name in ("N", "P") else _COLORS
+                planes.update({prefix + part: array[:, :, i] for i, part in enumerate(parts)})
+            elif array.ndim == 2:
+                planes[name] = array
+            else:
+                raise ValueError(f"image: {name} has the shape {array.shape}, not (height, width) or "
+                                 "(height, width, 3)")
+        shapes = {plane.shape for plane in planes.values()}
+        if len(shapes) != 1 or 0 in next(iter(shapes)):
+            raise ValueError("image: there are no pixels" if len(shapes) < 2 else
+                             f"image: channels differ in shape: {sorted(shapes)}")
+        height, width = shapes.pop()
+        # The channels of a layer are neighbours, so that it is a view.
+        prefixes = [name.rpartition(".")[0] for name in planes]
+        planes = dict(sorted(planes.items(), key=lambda item: (
+            prefixes.index(item[0].rpartition(".")[0]), "RGBAXYZ".find(item[0][-1]))))
+        types = ["uint" if name.startswith("id.") else "float" for name in planes]
+        block = np.empty((len(planes), height, width), np.float32)
+        for i, plane in enumerate(planes.values()):
+            view = block[i].view(np.uint32) if types[i] == "uint" else block[i]
+            view[...] = plane
+        window = (0, 0, width, height)
+        self._init(block, list(planes), types, window, window, dict(metadata or {}))
+
+    def _init(self, block: Array, names: List[str], types: List[str],
+              frame: Sequence[int], data: Sequence[int], metadata: Dict[str, str]) -> None:
+        self._block, self._names, self._types = block, names, types
+        self.frame, self.data = Window(*frame), Window(*data)
+        self.metadata = metadata
+        self.stats = None
+
+    @classmethod
+    def _of(cls, *parts: Any) -> "Image":
+        image = cls.__new__(cls)
+        image._init(*parts)
+        return image
+
+    @property
+    def width(self) -> int:
+        return self.data.x1 - self.data.x0
+
+    @property
+    def height(self) -> int:
+        return self.data.y1 - self.data.y0
+
+    @property
+    def channels(self) -> Tuple[str, ...]:
+        """The names of all channels: "R", "diffuse.G", "N.X", "Z", "id.object"."""
+        return tuple(self._names)
+
+    @property
+    def layers(self) -> Tuple[str, ...]:
+        """The names of what `image[name]` gives as a whole: "beauty", "diffuse", "N", "Z"."""
+        names: Dict[str, None] = {}
+        for name in self._names:
+            names[self._layer_of(name)] = None
+        return tuple(names)
+
+    def _layer_of(self, channel: str) -> str:
+        layer, dot, part = channel.rpartition(".")
+        prefix = layer + dot
+        for parts in (_COLORS, _VECTORS):
+            if part in parts and all(prefix + p in self._names for p in parts):
+                return layer or "beauty"
+        return channel
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._names or name in self.layers
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.layers)
+
+    def __getitem__(self, name: str) -> Array:
+        if name in self._names:
+            i = self._names.index(name)
+            return self._block[i].view(np.uint32) if self._types[i] == "uint" else self._block[i]
+        prefix = "" if name == "beauty" else f"{name}."
+        for parts in (_COLORS, _VECTORS):
+            if all(prefix + part in self._names for part in parts):
+                first = self._names.index(prefix + parts[0])
+                return np.moveaxis(self._block[first:first + 3], 0, 2)
+        raise KeyError(f"the image has no channel or layer {name!r}; it has {', '.join(self)}")
+
+    def __setitem__(self, name: str, values: Any) -> None:
+        view = self[name]
+        if view is not values:
+            view[...] = values
+
+    def copy(self) -> "Image":
+        """One that shares no memory with this one."""
+        image = Image._of(self._block.copy(), list(self._names), list(self._types), self.frame,
+                          self.data, dict(self.metadata))
+        image.stats = self.stats
+        return image
+
+    def write(self, path: PathLike, *, half_floats: bool = True, compression: str = "zip",
+              small: bool = False, tonemap: str = "neutral", exposure: float = 0) -> None:
+        """Writes .exr (linear, all channels) or .png (tone-mapped). The file appears whole or not at
+        all.
+
+        half_floats: EXR colours and normals in half precision; all else always in full.
+        compression: of EXR: "none", "zip", "zips", "piz" or "dwaa".
+        small: smaller files, several times slower to write.
+        tonemap, exposure: of PNG; see `tone_map`.
+        """
+        _nacre.write(self, os.fspath(path), half_floats, compression, small, tonemap, exposure)
+
+    def tone_map(self, layer: str = "beauty", *, tonemap: str = "neutral",
+                 exposure: float = 0) -> Array:
+        """What a display shows of a layer: sRGB codes, uint8 of shape (height, width, 3).
+
+        tonemap: "neutral", "reinhard", "reinhard_extended", "aces", "agx" or "none".
+        exposure: in stops, -60 to 60.
+        Pixels that hold a NaN are magenta.
+        """
+        of_layer = "" if layer == "beauty" else layer
+        return _nacre.tone_map(self, of_layer, tonemap, exposure)[:, :, :3]
+
+    def picture(self, layer: str = "beauty", *, tonemap: str = "neutral",
+                exposure: float = 0) -> Picture:
+        """`tone_map`, as something that notebooks show."""
+        return Picture(self.tone_map(layer, tonemap=tonemap, exposure=exposure))
+
+    def show(self, layer: str = "beauty", *, tonemap: str = "neutral", exposure: float = 0) -> None:
+        """Shows the picture in a notebook."""
+        show(self.picture(layer, tonemap=tonemap, exposure=exposure))
+
+    def compare(self, reference: "Image", **settings: Any) -> Comparison:
+        """`nacre.compare(self, reference, ...)`."""
+        return compare(self, reference, **settings)
+
+    def _repr_png_(self) -> Optional[bytes]:
+        return self.picture().png() if "beauty" in self.layers else None
+
+    def __repr__(self) -> str:
+        return f"<nacre.Image of {self.width} x {self.height} pixels: {', '.join(self.layers)}>"
+
+
+def read(path: PathLike) -> Image:
+    """Reads an image file: EXR, PNG, JPEG, TIFF, Radiance HDR, PNM, TGA, as the program does."""
+    return _nacre.read(os.fspath(path))
+
+
+def compare(image: Image, reference: Image, *, layers: Sequence[str] = (), max_abs: float = 0,
+            max_rel: float = 0, exceeding_fraction: float = 0, max_rmse: float = math.inf,
+            perceptual: bool = False, crop: bool = False) -> Comparison:
+    """How far an image is from a reference, layer by layer, and whether they match.
+
+    layers: what to compare; all by default, and then both must have the same channels.
+    max_abs, max_rel: samples may differ by max_abs + max_rel |reference|, in all but
+        exceeding_fraction of the pixels.
+    max_rmse: of any layer. If it is the only tolerance, single samples may differ by any amount.
+    perceptual: measures SSIM, FLIP and HDR-FLIP, too, which takes longer.
+    crop: compares only the pixels that both have; else windows that differ are a difference.
+    """
+    for value in (image, reference):
+        if not isinstance(value, Image):
+            raise TypeError(f"compare: a nacre.Image is wanted, not {type(value).__name__}")
+    names = ["" if name == "beauty" else name for name in layers]
+    match, reason, pixels, exceeding, measured = _nacre.compare(
+        image, reference, names, max_abs, max_rel, exceeding_fraction, max_rmse, perceptual, crop)
+    return Comparison(match, reason, pixels, exceeding,
+                      {m["layer"]: LayerMetrics(**m) for m in measured})
+
+
+def heat_map(image: Image, reference: Image, layer: str = "beauty", *, relative: bool = False,
+             low: float = 1e-6, high: float = 1) -> Array:
+    """Where two images differ: uint8 of shape (height, width, 3).
+
+    The largest error of each pixel over the layer's channels, from dark violet (`low`) to yellow
+    (`high`) by its logarithm. Equal pixels are black; magenta are those that are not finite in one
+    image only. relative: errors relative to the reference's magnitude.
+    """
+    of_layer = "" if layer == "beauty" else layer
+    return _nacre.heat_map(image, reference, of_layer, relative, low, high)[:, :, :3]
+
+
+Showable = Union[Image, Picture, Array]
+
+
+def _pixels(picture: Showable) -> Array:
+    if isinstance(picture, Image):
+        return picture.tone_map()
+    return (picture if isinstance(picture, Picture) else Picture(picture)).pixels
+
+
+def side_by_side(*pictures: Showable, gap: int = 4) -> Picture:
+    """Pictures beside one another, from the left, with `gap` white pixels between them. Images are
+    tone-mapped; arrays are uint8 of shape (height, width, 3)."""
+    if not pictures:
+        raise ValueError("side_by_side: there is no picture")
+    parts = [_pixels(picture) for picture in pictures]
+    height = max(part.shape[0] for part in parts)
+    width = sum(part.shape[1] for part in parts) + gap * (len(parts) - 1)
+    pixels = np.full((height, width, 3), 255, np.uint8)
+    x = 0
+    for part in parts:
+        pixels[:part.shape[0], x:x + part.shape[1]] = part
+        x += part.shape[1] + gap
+    return Picture(pixels)
+
+
+def difference(image: Image, reference: Image, layer: str = "beauty", *, relative: bool = False,
+               low: float = 1e-6, high: float = 1) -> Picture:
+    """Both images and the map of their differences (`heat_map`), side by side."""
+    return side_by_side(image.tone_map(layer), reference.tone_map(layer),
+                        heat_map(image, reference, layer, relative=relative, low=low, high=high))
+
+
+def show(*pictures: Showable) -> None:
+    """Shows pictures in a notebook, side by side. Elsewhere there is no display: write them to
+    files."""
+    try:
+        from IPython.display import display
+    except ImportError:
+        raise fault("show", "there is no notebook", "image.write(\"picture.png\") writes a file")
+    display(side_by_side(*pictures))

@@ -1,0 +1,305 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Scenes, sessions, and renders of them."""
+import json
+import os
+import sys
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _nacre
+from ._brdf import Brdf, Function
+from ._image import Array, Image, PathLike
+from ._json import to_json
+
+Progress = Union[bool, Callable[[float], object], None]
+Point = Union[Sequence[float], Array]
+
+
+def _report(progress: Progress) -> Tuple[Optional[Callable[[float], object]], Callable[[], None]]:
+    """What to call with the share done, and what when all is done."""
+    def nothing() -> None:
+        pass
+    if progress is None or progress is False:
+        return None, nothing
+    if callable(progress):
+        return progress, nothing
+    try:
+        from tqdm.auto import tqdm
+    except ImportError:
+        def write(share: float) -> None:
+            sys.stderr.write(f"\rrender: {100 * share:3.0f} %" + ("\n" if share >= 1 else ""))
+        return write, nothing
+    bar = tqdm(total=100, unit="%", bar_format="{l_bar}{bar}| {elapsed}<{remaining}")
+
+    def update(share: float) -> None:
+        bar.update(100 * share - bar.n)
+    return update, bar.close
+
+
+def _settings(width: Optional[int], height: Optional[int], samples: Optional[int],
+              max_error: Optional[float], seed: Optional[int], region: Optional[Sequence[int]],
+              layers: Union[str, Sequence[str]], threads: Optional[int],
+              intersector: str) -> Dict[str, Any]:
+    return {"width": width or 0, "height": height or 0, "samples": samples or 0,
+            "max_error": max_error or 0, "seed": seed, "region": tuple(region or (0, 0, 0, 0)),
+            "layers": [layers] if isinstance(layers, str) else list(layers),
+            "threads": threads or 0, "intersector": intersector}
+
+
+class _Values:
+    """What scenes and sessions share: values by JSON pointer."""
+
+    _native: Any
+
+    def __getitem__(self, pointer: str) -> Any:
+        """The value at a JSON pointer, as the file and what was set since say it."""
+        text = self._native.get(pointer)
+        if text is None:
+            raise KeyError(f"nothing is set at {pointer!r}: there a default holds, or nothing")
+        return json.loads(text)
+
+    def __setitem__(self, pointer: str, value: Any) -> None:
+        self._native.set(pointer, to_json(value, pointer))
+
+    def get(self, pointer: str, default: Any = None) -> Any:
+        """The value at a JSON pointer, or `default` where nothing is set."""
+        text = self._native.get(pointer)
+        return default if text is None else json.loads(text)
+
+    def __contains__(self, pointer: str) -> bool:
+        return self._native.get(pointer) is not None
+
+    def to_dict(self) -> Dict[str, Any]:
+        """The scene as a scene file has it, without the shapes of add_spheres and add_mesh."""
+        return json.loads(self._native.get("") or "{}")
+
+
+class Scene(_Values):
+    """What is rendered: a scene file, a model (glTF, OBJ, PLY), or built in code, or both.
+
+        scene = nacre.Scene.from_file("scenes/first_scene.json")
+        scene["/materials/red/roughness"] = 0.2
+        image = scene.render(width=640, height=360)
+
+    Names, values and units are those of scene files (scenes/README.md, `nacre.scene_schema()`), and
+    so are the checks. These run, on all of it at once, when the scene is first rendered, or by
+    `check`; they raise `nacre.Error`.
+    """
+
+    def __init__(self) -> None:
+        """An empty scene: black, with the default camera."""
+        self._native = _nacre.Scene()
+
+    @classmethod
+    def _of(cls, native: Any) -> "Scene":
+        scene = cls.__new__(cls)
+        scene._native = native
+        return scene
+
+    @classmethod
+    def from_file(cls, path: PathLike) -> "Scene":
+        """Reads a scene file (.json) or a model (.gltf, .glb, .obj, .ply)."""
+        return cls._of(_nacre.Scene.from_file(os.fspath(path)))
+
+    @classmethod
+    def from_dict(cls, scene: Mapping[str, Any], folder: PathLike = ".") -> "Scene":
+        """Of what a scene file would hold. `folder` is where files that it names are looked for."""
+        whole = {"nacre": 1, **scene}
+        return cls._of(_nacre.Scene.from_json(to_json(whole, "scene"), os.fspath(folder)))
+
+    def copy(self) -> "Scene":
+        """Another scene of the same values."""
+        return Scene._of(self._native.copy())
+
+    def set_camera(self, **camera: Any) -> None:
+        """set_camera(position=(0, 1, 5), look_at=(0, 1, 0), fov_y_deg=40)"""
+        self["/camera"] = camera
+
+    def set_background(self, radiance: Union[float, Point]) -> None:
+        """What rays see that hit nothing: linear Rec. 709, or a number for grey."""
+        self["/background"] = radiance
+
+    def _add(self, part: str, name: str, value: Dict[str, Any]) -> None:
+        self[f"/{part}/" + name.replace("~", "~0").replace("/", "~1")] = value
+
+    def add_material(self, name: str, model: Union[str, Brdf, Function], **parameters: Any) -> None:
+        """add_material("gold", "conductor", preset="gold", roughness=0.2)
+
+        model: the name of one, or a function of one's own, bare or as a `nacre.Brdf`, which may have
+            a sampler. Its parameters are then those of a material of which all but the lobes holds:
+            emission, coat, sheen, normal maps, and the albedo that ambient light sees; of the model
+            "lambert" unless `rest` names another: add_material("mine", f, rest="metallic_roughness",
+            coat=1).
+
+        A function is called from the render's threads, one call at a time, with hundreds of points;
+        what it raises ends the render and comes out of it.
+        """
+        if isinstance(model, str):
+            self._add("materials", name, {"model": model, **parameters})
+            return
+        brdf = model if isinstance(model, Brdf) else Brdf(model)
+        if not brdf.is_own:
+            raise TypeError("nacre's own models are added by name: add_material(name, "
+                            f"{brdf.name!r}, ...)")
+        members = {"model": parameters.pop("rest", "lambert"), **parameters}
+        self._native.add_user_material(name, *brdf._functions(), [
+            (key, to_json(value, key)) for key, value in members.items()])
+
+    def add_light(self, name: str, type: str, **parameters: Any) -> None:
+        """add_light("key", "point", position=(3, 4, 5), intensity=100)"""
+        self._add("lights", name, {"type": type, **parameters})
+
+    def add_texture(self, name: str, file: str, **parameters: Any) -> None:
+        """add_texture("wood", "wood.png")"""
+        self._add("textures", name, {"file": file, **parameters})
+
+    def add_shape(self, type: str, **parameters: Any) -> None:
+        """add_shape("sphere", center=(0, 0, 0), radius=1, material="gold"); also "mesh", "icosphere",
+        "uv_sphere", "grid", "pair", "cloud" and the others of the schema."""
+        members = [("type", to_json(type, "type"))]
+        members += [(name, to_json(value, name)) for name, value in parameters.items()]
+        self._native.add_shape(members)
+
+    def add_sphere(self, center: Point, radius: float, material: str) -> None:
+        """One sphere. Spheres and meshes of this form come after all other shapes."""
+        self.add_spheres([center], [radius], material)
+
+    def add_spheres(self, centers: Any, radii: Any, material: str) -> None:
+        """Many spheres as arrays: centers of shape (count, 3), radii of shape (count,) or a
+        number."""
+        where = np.asarray(centers, np.float64)
+        if where.ndim != 2 or where.shape[1] != 3:
+            raise ValueError(f"centers has the shape (count, 3), not {where.shape}")
+        sizes = np.asarray(radii, np.float64)
+        if sizes.shape not in ((), (len(where),)):
+            raise ValueError(f"radii has one number for each of {len(where)} centers, not the shape "
+                             f"{sizes.shape}")
+        self._native.add_spheres(where, np.broadcast_to(sizes, (len(where),)), material)
+
+    def add_mesh(self, positions: Any, triangles: Any, material: str, *, normals: Any = None,
+                 uvs: Any = None) -> None:
+        """Triangles in world space.
+
+        positions: (vertices, 3). triangles: (count, 3) indices, counter-clockwise from outside.
+        normals: (vertices, 3), or None for flat faces. uvs: (vertices, 2), or None.
+        """
+        indices = np.asarray(triangles)
+        if indices.dtype.kind not in "iu":
+            raise TypeError(f"triangles are indices, not {indices.dtype}")
+        if indices.size and (indices.min() < 0 or indices.max() >= 2**32):
+            raise ValueError("triangles: an index is negative or too large")
+        self._native.add_mesh(np.asarray(positions, np.float64), indices.astype(np.uint32), material,
+                              None if normals is None else np.asarray(normals, np.float64),
+                              None if uvs is None else np.asarray(uvs, np.float64))
+
+    def check(self) -> None:
+        """Raises `nacre.Error` with everything that is wrong."""
+        self._native.check()
+
+    @property
+    def sphere_count(self) -> int:
+        return self._native.sphere_count()
+
+    @property
+    def mesh_count(self) -> int:
+        return self._native.mesh_count()
+
+    @property
+    def material_names(self) -> List[str]:
+        return self._native.material_names()
+
+    @property
+    def light_names(self) -> List[str]:
+        return self._native.light_names()
+
+    def render(self, *, width: Optional[int] = None, height: Optional[int] = None,
+               samples: Optional[int] = None, max_error: Optional[float] = None,
+               seed: Optional[int] = None, region: Optional[Sequence[int]] = None,
+               layers: Union[str, Sequence[str]] = (), threads: Optional[int] = None,
+               intersector: str = "auto", progress: Progress = None) -> Image:
+        """Renders the scene. Other Python threads run meanwhile, and Ctrl-C ends it.
+
+        width, height: pixels; the scene's by default.
+        samples: a pixel; the scene's by default. With max_error the most, 4096 by default.
+        max_error: adaptive sampling, as the program's --max-error: 95 % of the pixels are within it.
+        seed: of the sample pattern; the scene's by default.
+        region: (x0, y0, x1, y1), pixels to render, with the bits of the full frame.
+        layers: besides R, G, B and A: "diffuse", "specular", "ambient", "emission", "albedo", "N",
+            "P", "Z", "id.object", "id.material", "light.NAME", or "all".
+        threads: as many as the machine has by default.
+        intersector: "auto", "embree", "tiles" or "shells": the same bits.
+        progress: a function of the share done, in (0, 1], which ends the render by raising; or True
+            for a bar (tqdm's, where that is installed).
+        """
+        report, close = _report(progress)
+        try:
+            return self._native.render(
+                _settings(width, height, samples, max_error, seed, region, layers, threads,
+                          intersector), report)
+        finally:
+            close()
+
+    def __repr__(self) -> str:
+        return "<nacre.Scene>"
+
+
+class Session(_Values):
+    """A scene that is rendered again and again while it changes.
+
+        with nacre.Session(scene) as session:
+            for roughness in np.linspace(0.1, 1, 10):
+                session["/materials/red/roughness"] = roughness
+                session.render().show()
+
+    It works on a copy of the scene. What a change does not touch is not read or made again, and
+    pictures have the bits that Scene.render would give them. Values are checked as they are set: one
+    that is wrong raises `nacre.Error` and changes nothing. One call at a time; `cancel` alone may
+    come from any thread.
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        if not isinstance(scene, Scene):
+            raise TypeError(f"a nacre.Scene is wanted, not {type(scene).__name__}")
+        self._native = _nacre.Session(scene._native)
+
+    def render(self, *, width: Optional[int] = None, height: Optional[int] = None,
+               samples: Optional[int] = None, max_error: Optional[float] = None,
+               seed: Optional[int] = None, region: Optional[Sequence[int]] = None,
+               layers: Union[str, Sequence[str]] = (), threads: Optional[int] = None,
+               intersector: str = "auto", progress: Progress = None,
+               show: Optional[Callable[[Image, int], object]] = None) -> Image:
+        """As Scene.render. Raises `nacre.Cancelled` where `cancel` has ended it.
+
+        show: called with the means of the first 1, 2, 4, ... samples and their number, and last with
+            the picture itself. Under max_error there is no other.
+        """
+        report, close = _report(progress)
+        try:
+            return self._native.render(
+                _settings(width, height, samples, max_error, seed, region, layers, threads,
+                          intersector), report, show)
+        finally:
+            close()
+
+    def cancel(self) -> None:
+        """Ends a render that runs, within some milliseconds, or else the next one as it begins."""
+        self._native.cancel()
+
+    def close(self) -> None:
+        """Frees what the session holds. Everything but `close` then raises `nacre.Error`."""
+        self._native.close()
+
+    def __enter__(self) -> "Session":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        return "<nacre.Session>"
+
+
+def render(scene: Scene, **settings: Any) -> Image:
+    """`scene.render(...)`."""
+    return scene.render(**settings)

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "python/scene.h"
+
+#include <chrono>
+#include <memory>
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include "python/brdf.h"
+#include "python/image.h"
+
+namespace nacre_python {
+namespace {
+
+using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using Indices = py::array_t<uint32_t, py::array::c_style | py::array::forcecast>;
+
+// An array of shape (count, columns) as C++ wants it.
+template <size_t kColumns>
+std::vector<std::array<double, kColumns>> Rows(const Doubles& array, const char* name) {
+  if (array.ndim() != 2 || array.shape(1) != static_cast<py::ssize_t>(kColumns)) {
+    throw py::value_error(std::string(name) + " has the shape (count, " + std::to_string(kColumns) +
+                          ")");
+  }
+  std::vector<std::array<double, kColumns>> rows(static_cast<size_t>(array.shape(0)));
+  for (size_t i = 0; i < rows.size(); ++i) {
+    for (size_t c = 0; c < kColumns; ++c) rows[i][c] = array.data()[kColumns * i + c];
+  }
+  return rows;
+}
+
+}  // namespace
+
+nacre::Parameters ParametersOf(const Members& members) {
+  nacre::Parameters parameters;
+  for (const auto& [name, json] : members) parameters.push_back({name, nacre::Value::Json(json)});
+  return parameters;
+}
+
+namespace {
+
+// on_progress of a render: takes the interpreter lock for `callback` no more often than eyes can
+// follow.
+std::function<void(double)> Progress(const py::object& callback) {
+  if (callback.is_none()) return {};
+  auto last = std::chrono::steady_clock::now();
+  PyObject* const function = callback.ptr();
+  return [=](double share) mutable {
+    const auto now = std::chrono::steady_clock::now();
+    if (share < 1 && now - last < std::chrono::milliseconds(30)) return;
+    last = now;
+    const py::gil_scoped_acquire acquire;
+    const py::handle callable(function);
+    callable(share);
+  };
+}
+
+nacre::RenderSettings SettingsOf(const py::dict& dict) {
+  nacre::RenderSettings settings;
+  settings.width = dict["width"].cast<int>();
+  settings.height = dict["height"].cast<int>();
+  settings.samples = dict["samples"].cast<int>();
+  settings.max_error = dict["max_error"].cast<double>();
+  settings.seed = dict["seed"].cast<std::optional<uint32_t>>();
+  const auto [x0, y0, x1, y1] = dict["region"].cast<std::tuple<int, int, int, int>>();
+  settings.region = {x0, y0, x1, y1};
+  settings.layers = dict["layers"].cast<std::vector<std::string>>();
+  settings.threads = dict["threads"].cast<int>();
+  settings.intersector = dict["intersector"].cast<std::string>();
+  return settings;
+}
+
+py::dict ToDict(const nacre::RenderStats& stats) {
+  py::dict dict;
+  dict["camera_rays"] = stats.camera_rays;
+  dict["shadow_rays"] = stats.shadow_rays;
+  dict["plan_seconds"] = stats.plan_seconds;
+  dict["render_seconds"] = stats.render_seconds;
+  dict["threads"] = stats.threads;
+  dict["notes"] = stats.notes;
+  return dict;
+}
+
+struct Rendered {
+  nacre::Image image;
+  nacre::RenderStats stats;
+};
+
+py::object Finish(Rendered&& rendered) {
+  py::object image = ToPython(std::move(rendered.image));
+  image.attr("stats") = ToDict(rendered.stats);
+  return image;
+}
+
+py::object Render(const Scene& scene, const py::dict& dict, const py::object& on_progress) {
+  nacre::RenderSettings settings = SettingsOf(dict);
+  std::atomic<bool> stopped = false;
+  settings.on_progress = Progress(on_progress);
+  settings.cancel = &stopped;
+  const Use use(&scene.users, Use::kShared, "Scene");
+  return Finish(Interruptibly([&] { stopped = true; },
+                              [&] {
+                                Rendered rendered;
+                                rendered.image =
+                                    nacre::Render(scene.scene, settings, &rendered.stats);
+                                return rendered;
+                              }));
+}
+
+class Session {
+ public:
+  explicit Session(const Scene& scene) {
+    const Use use(&scene.users, Use::kShared, "Scene");
+    const py::gil_scoped_release release;
+    session_ = std::make_unique<nacre::Session>(scene.scene);
+  }
+
+  void Set(const std::string& pointer, const std::string& json) {
+    const Use use(&users_, Use::kAlone, "Session");
+    Open();
+    const py::gil_scoped_release release;
+    session_->Set(pointer, nacre::Value::Json(json));
+  }
+
+  std::optional<std::string> Get(const std::string& pointer) const {
+    const Use use(&users_, Use::kShared, "Session");
+    Open();
+    const std::optional<nacre::Value> value = session_->Get(pointer);
+    if (!value) return std::nullopt;
+    return value->json();
+  }
+
+  py::object Render(const py::dict& dict, const py::object& on_progress, const py::object& show) {
+    nacre::RenderSettings settings = SettingsOf(dict);
+    const Use use(&users_, Use::kAlone, "Session");
+    Open();
+    settings.on_progress = Progress(on_progress);
+    settings.cancel = &cancelled_;
+    std::function<void(const nacre::Image&, int)> shown;
+    if (!show.is_none()) {
+      shown = [&](const nacre::Image& image, int samples) {
+        const py::gil_scoped_acquire acquire;
+        show(ToPython(nacre::Image(image)), samples);
+      };
+    }
+    try {
+      return Finish(Interruptibly([&] { cancelled_ = true; },
+                                  [&] {
+                                    Rendered rendered;
+                                    rendered.image = session_->RenderProgressively(settings, shown,
+                                                                                   &rendered.stats);
+                                    return rendered;
+                                  }));
+    } catch (...) {
+      cancelled_ = false;  // it has been obeyed
+      throw;
+    }
+  }
+
+  void Cancel() {
+    Open();
+    cancelled_ = true;
+  }
+
+  void Close() {
+    const Use use(&users_, Use::kAlone, "Session");
+    session_.reset();
+  }
+
+ private:
+  void Open() const {
+    if (!session_) Refuse("Session", "is closed", "open another of the scene");
+  }
+
+  std::unique_ptr<nacre::Session> session_;
+  std::atomic<bool> cancelled_ = false;
+  mutable Users users_;
+};
+
+}  // namespace
+
+void BindScenes(py::module_* module) {
+  py::class_<Scene>(*module, "Scene")
+      .def(py::init<>())
+      .def_static("from_file",
+                  [](const std::string& path) {
+                    const py::gil_scoped_release release;
+                    return Scene{nacre::Scene::FromFile(path), {}};
+                  })
+      .def_static("from_json",
+                  [](const std::string& text, const std::string& folder) {
+                    const py::gil_scoped_release release;
+                    return Scene{nacre::Scene::FromJson(text, folder), {}};
+                  })
+      .def("copy",
+           [](const Scene& self) {
+             return Scene{self.scene, {}};
+           })
+      .def("set",
+           [](Scene& self, const std::string& pointer, const std::string& json) {
+             const Use use(&self.users, Use::kAlone, "Scene");
+             self.scene.Set(pointer, nacre::Value::Json(json));
+           })
+      .def("get",
+           [](const Scene& self, const std::string& pointer) -> std::optional<std::string> {
+             const std::optional<nacre::Value> value = self.scene.Get(pointer);
+             if (!value) return std::nullopt;
+             return value->json();
+           })
+      .def("add_user_material",
+           [](Scene& self, const std::string& name, const py::object& evaluate,
+              const py::object& sample, const py::object& pdf, const Members& members) {
+             const Use use(&self.users, Use::kAlone, "Scene");
+             self.scene.AddMaterial(name, UserBrdfOf(evaluate, sample, pdf), ParametersOf(members));
+           })
+      .def("add_shape",
+           [](Scene& self, const Members& members) {
+             const Use use(&self.users, Use::kAlone, "Scene");
+             self.scene.AddShape(ParametersOf(members));
+           })
+      .def("add_spheres",
+           [](Scene& self, const Doubles& centers, const Doubles& radii,
+              const std::string& material) {
+             const auto rows = Rows<3>(centers, "centers");
+             if (radii.ndim() != 1 || static_cast<size_t>(radii.shape(0)) != rows.size()) {
+               throw py::value_error("radii has one number for each of centers");
+             }
+             const Use use(&self.users, Use::kAlone, "Scene");
+             for (size_t i = 0; i < rows.size(); ++i) {
+               self.scene.AddSphere(rows[i], radii.data()[i], material);
+             }
+           })
+      .def("add_mesh",
+           [](Scene& self, const Doubles& positions, const Indices& triangles,
+              const std::string& material, const std::optional<Doubles>& normals,
+              const std::optional<Doubles>& uvs) {
+             nacre::Mesh mesh;
+             mesh.positions = Rows<3>(positions, "positions");
+             if (normals) mesh.normals = Rows<3>(*normals, "normals");
+             if (uvs) mesh.uvs = Rows<2>(*uvs, "uvs");
+             if (triangles.ndim() != 2 || triangles.shape(1) != 3) {
+               throw py::value_error("triangles has the shape (count, 3)");
+             }
+             mesh.triangles.assign(triangles.data(), triangles.data() + triangles.size());
+             const Use use(&self.users, Use::kAlone, "Scene");
+             self.scene.AddMesh(mesh, material);
+           })
+      .def("check",
+           [](const Scene& self) {
+             const Use use(&self.users, Use::kShared, "Scene");
+             const py::gil_scoped_release release;
+             self.scene.Check();
+           })
+      .def("sphere_count", [](const Scene& self) { return self.scene.sphere_count(); })
+      .def("mesh_count", [](const Scene& self) { return self.scene.mesh_count(); })
+      .def("material_names", [](const Scene& self) { return self.scene.material_names(); })
+      .def("light_names", [](const Scene& self) { return self.scene.light_names(); })
+      .def("render", &Render);
+  py::class_<Session>(*module, "Session")
+      .def(py::init<const Scene&>())
+      .def("set", &Session::Set)
+      .def("get", &Session::Get)
+      .def("render", &Session::Render)
+      .def("cancel", &Session::Cancel)
+      .def("close", &Session::Close);
+}
+
+}  // namespace nacre_python

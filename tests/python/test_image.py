@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Images, files, metrics and pictures from Python."""
+import gc
+import io
+import math
+
+import numpy as np
+import pytest
+
+import nacre
+
+
+@pytest.fixture
+def image(scenes):
+    return nacre.Scene.from_file(scenes / "first_scene.json").render(
+        width=64, height=48, samples=2, layers="all")
+
+
+def test_channels_are_views(image):
+    beauty = image["beauty"]
+    assert beauty.shape == (48, 64, 3) and beauty.dtype == np.float32
+    assert np.shares_memory(beauty, image["G"]) and np.shares_memory(image["N"], image["N.Y"])
+    image["G"][3, 4] = 7
+    assert beauty[3, 4, 1] == 7
+    image["beauty"] *= 2
+    assert image["G"][3, 4] == 14
+    image["A"] = 0.5
+    assert (image["A"] == 0.5).all()
+    parts = image["diffuse"] + image["specular"] + image["ambient"] + image["emission"]
+    assert parts.shape == beauty.shape
+    assert {"beauty", "A", "diffuse", "N", "Z", "id.object", "light.key"} <= set(image.layers)
+    assert "diffuse" in image and "R" in image and "difuse" not in image
+
+
+def test_arrays_outlive_their_image(image):
+    expected, channel = image["beauty"].copy(), image["beauty"]
+    del image
+    gc.collect()
+    filler = [np.full((48, 64), 5.0, np.float32) for _ in range(100)]
+    assert np.array_equal(channel, expected) and filler
+
+
+@pytest.mark.parametrize("name", ["a.exr", "b.png"])
+def test_files_are_written_and_read(image, tmp_path, name):
+    image.write(tmp_path / name, half_floats=False)
+    again = nacre.read(tmp_path / name)
+    if name == "a.exr":
+        assert set(again.channels) == set(image.channels)
+        for channel in image.channels:
+            assert np.array_equal(again[channel], image[channel], equal_nan=True), channel
+        assert again["id.object"].dtype == np.uint32
+    else:
+        codes = np.rint(again["beauty"] * 255).astype(np.uint8)
+        assert np.array_equal(codes, image.tone_map())
+
+
+def test_an_image_of_arrays():
+    values = np.random.default_rng(1).random((5, 7, 3))
+    image = nacre.Image(values)
+    assert image.layers == ("beauty",) and np.array_equal(image["beauty"], values.astype(np.float32))
+    image = nacre.Image({"Z": np.ones((5, 7), int), "B": values[:, :, 2], "N": values[:, ::-1],
+                         "R": values[:, :, 0], "G": values[:, :, 1], "id.object": np.full((5, 7), 9)})
+    assert image.layers == ("beauty", "Z", "N", "id.object")
+    assert np.shares_memory(image["beauty"], image["B"]) and image["id.object"].dtype == np.uint32
+    assert image.copy()["id.object"][0, 0] == 9
+    assert (image.width, image.height) == (7, 5)
+
+
+@pytest.mark.parametrize("channels, error", [
+    (np.ones((4, 4)), ValueError), (np.ones((0, 4, 3)), ValueError), ({}, ValueError),
+    ({"R": np.ones((2, 2)), "G": np.ones((2, 3))}, ValueError),
+    ({"R": np.ones((2, 2), complex)}, TypeError), ("abc", ValueError),
+    ({"R": np.array([["a", "b"]])}, TypeError)])
+def test_arrays_that_are_no_image_are_refused(channels, error):
+    with pytest.raises(error):
+        nacre.Image(channels)
+
+
+def test_tone_mapping_is_that_of_png_files(image):
+    codes = image.tone_map("diffuse", tonemap="aces", exposure=1)
+    assert codes.shape == (48, 64, 3) and codes.dtype == np.uint8
+    assert nacre.Image(np.full((2, 2, 3), np.nan)).tone_map()[0, 0].tolist() == [255, 0, 255]
+    for wrong in {"tonemap": "acse"}, {"exposure": 99}, {"layer": "difuse"}:
+        with pytest.raises(nacre.Error):
+            image.tone_map(**wrong)
+
+
+def test_metrics(image):
+    other = image.copy()
+    assert nacre.compare(other, image)
+    other["G"][10:20] += 0.25
+    found = other.compare(image, layers=["beauty"], perceptual=True)
+    assert not found and "beauty" in str(found)
+    difference = other["beauty"].astype(float) - image["beauty"]
+    metrics = found.layers["beauty"]
+    assert math.isclose(metrics.rmse, np.sqrt((difference**2).mean()), rel_tol=1e-6)
+    assert math.isclose(metrics.max_abs, 0.25, rel_tol=1e-6) and metrics.flip > 0
+    assert 0 < metrics.ssim < 1 and found.exceeding_pixels == 10 * 64
+    assert nacre.compare(other, image, layers=["beauty"], max_abs=0.3)
+    heat = nacre.heat_map(other, image, low=1e-3)
+    assert heat.shape == (48, 64, 3) and (heat[0] == 0).all() and (heat[15] != 0).any()
+    with pytest.raises(nacre.Error, match="scale"):
+        nacre.heat_map(other, image, low=2)
+    with pytest.raises(nacre.Error) as caught:
+        nacre.compare(image, nacre.Image(np.ones((4, 4, 3))), layers=["beauty"])
+    assert caught.value.exit_code == 2
+    with pytest.raises(TypeError):
+        nacre.compare(image, image["beauty"])
+
+
+def test_notebooks_show_pictures(image):
+    png = image._repr_png_()
+    assert png.startswith(b"\x89PNG")
+    pair = nacre.side_by_side(image, image.tone_map("diffuse"), gap=2)
+    assert pair.pixels.shape == (48, 130, 3)
+    assert nacre.difference(image, image).pixels.shape[1] == 3 * 64 + 8
+    with pytest.raises(ValueError):
+        nacre.side_by_side(image["beauty"])
+    with pytest.raises(ValueError):
+        nacre.side_by_side()
+
+
+def test_pictures_are_written(image, tmp_path):
+    picture = image.picture()
+    picture.write(tmp_path / "a.png")
+    assert (tmp_path / "a.png").read_bytes() == picture.png()
+    picture.write(tmp_path / "a.jpg")
+    assert (tmp_path / "a.jpg").read_bytes().startswith(b"\xff\xd8")
+    with pytest.raises(nacre.Error, match="extension"):
+        picture.write(tmp_path / "a.gif")
+    with pytest.raises(nacre.Error, match="extension"):
+        image.write(tmp_path / "a.gif")
+    with pytest.raises(nacre.Error) as caught:
+        image.write(tmp_path / "no" / "a.exr")
+    assert caught.value.exit_code == 74
+
+
+def test_memory_is_flat():
+    def resident():
+        with open("/proc/self/statm", encoding="ascii") as file:
+            return int(file.read().split()[1]) * 4096
+    image = nacre.Image(np.ones((64, 64, 3)))
+    before = 0
+    for i in range(10_000):
+        image.tone_map()
+        nacre.Image({"R": image["R"]})["R"]
+        if i == 1000:
+            gc.collect()
+            before = resident()
+    gc.collect()
+    # A leak of one array a call would be 440 MB.
+    assert resident() - before < 8_000_000

@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Renders of the user's own reflection model."""
+import threading
+
+import numpy as np
+import pytest
+
+import nacre
+from models import WHITE_METAL, ggx, lambert
+
+LIGHTS = {
+    "point": {"type": "point", "position": [4, 4, 5], "intensity": 80},
+    "sun": {"type": "directional", "direction_of_travel": [-1, -1, -1], "irradiance": 3},
+    "disk": {"type": "disk", "center": [3, 3, 3], "facing": [-1, -1, -1], "radius": 1, "radiance": 10},
+    "sky": {"type": "environment", "gradient": {"zenith": 2, "horizon": 1, "ground": 0.1}}}
+
+
+def spheres(light):
+    scene = nacre.Scene()
+    scene.set_camera(position=(0, 1, 6), fov_y_deg=35)
+    scene.add_light("light", **LIGHTS[light])
+    scene.add_spheres([[-0.6, 0, 0], [1.2, 0.6, 0.8]], [1, 0.5], "ball")
+    return scene
+
+
+def render(light, model, samples=4, **parameters):
+    scene = spheres(light)
+    scene.add_material("ball", model, **parameters)
+    return scene.render(width=48, height=36, samples=samples)["beauty"]
+
+
+@pytest.mark.parametrize("light", LIGHTS)
+def test_a_function_is_rendered_as_the_model_that_it_is(light):
+    samples = 4 if light in ("point", "sun") else 64
+    mine = render(light, ggx(0.36), samples)
+    other = render(light, "metallic_roughness", samples, roughness=0.6, **WHITE_METAL)
+    if samples == 4:
+        assert np.abs(mine - other).max() < 2e-5 * other.mean()
+    else:  # different directions: noise
+        assert abs(mine.mean() / other.mean() - 1) < 0.02
+
+
+def test_layers_and_what_ambient_light_sees_are_the_rest():
+    scene = spheres("point")
+    scene.add_material("ball", lambert(0.5), rest="metallic_roughness", coat=1, coat_roughness=0.3,
+                       base_color=0.25)
+    image = scene.render(width=48, height=36, samples=1, layers="all")
+    assert image["specular"].max() > 0 and abs(image["albedo"].max() - 0.25) < 1e-6
+    assert scene["/materials/ball/coat"] == 1
+    with nacre.Session(scene) as session:
+        again = session.render(width=48, height=36, samples=1)
+        assert np.array_equal(again["beauty"], image["beauty"])
+
+
+def test_a_sampler_is_used():
+    brdf = nacre.Brdf("conductor", preset="gold", roughness=0.3)
+    asked = set()
+
+    def evaluate(n, v, l):
+        return brdf.evaluate(n, v, l) / (n * l).sum(axis=1, keepdims=True)
+
+    def sample(n, v, u):
+        asked.add(u.shape[1])
+        return brdf.sample(n, v, u)
+    mine = nacre.Brdf(evaluate, sample=sample, pdf=brdf.pdf)
+    got = render("sky", mine, 64)
+    expected = render("sky", "conductor", 64, preset="gold", roughness=0.3)
+    assert asked == {2} and abs(got.mean() / expected.mean() - 1) < 0.02
+    assert np.sqrt(((got - expected)**2).mean()) < 0.05 * expected.mean()
+
+
+def test_functions_are_called_one_at_a_time():
+    busy, clashes, sizes = threading.Lock(), [], []
+
+    def brdf(n, v, l):
+        if not busy.acquire(blocking=False):
+            clashes.append(1)
+        sizes.append(len(n))
+        assert n.shape == v.shape == l.shape == (len(n), 3) and n.dtype == np.float64
+        busy.release()
+        return np.full((len(n), 1), 0.3)
+    scene = spheres("point")
+    scene.add_material("ball", brdf)
+    scene.render(width=320, height=240, samples=4, threads=4)
+    assert not clashes and np.median(sizes) > 200
+
+
+def test_arrays_may_be_kept():
+    kept = []
+
+    def brdf(n, v, l):
+        kept.append((n, v, l))
+        return np.full((len(n), 3), 0.3)
+    render("point", brdf)
+    for vectors in kept:
+        for array in vectors:
+            assert np.allclose((array * array).sum(axis=1), 1, atol=1e-6)
+
+
+@pytest.mark.parametrize("result, text", [
+    (lambda n: np.full((n, 3), np.nan), "material \"ball\": its function returned nan for sample 0 of"),
+    (lambda n: np.full((n, 3), np.inf), "returned inf"),
+    (lambda n: np.ones(n), "returned the shape"), (lambda n: np.ones((n, 2)), "value[:, None]"),
+    (lambda n: np.ones((3, n)), "returned the shape"), (lambda n: None, "not of real numbers"),
+    (lambda n: np.ones((n, 3), complex), "complex"), (lambda n: "abc", "not of real numbers")])
+def test_wrong_results_are_told(result, text):
+    with pytest.raises(nacre.Error) as caught:
+        render("point", lambda n, v, l: result(len(n)))
+    assert text in str(caught.value)
+
+
+def test_what_a_function_raises_comes_out():
+    def brdf(n, v, l):
+        raise ZeroDivisionError("mine")
+    with pytest.raises(ZeroDivisionError, match="mine"):
+        render("sky", brdf)
+    with pytest.raises(TypeError):
+        render("point", lambda n: n)
+
+
+def test_wrong_samplers_are_told():
+    brdf = nacre.Brdf(lambert(0.5), sample=lambda n, v, u: 2 * n, pdf=lambda n, v, l: np.ones(len(n)))
+    with pytest.raises(nacre.Error, match="sampler returned"):
+        render("sky", brdf)
+    brdf = nacre.Brdf(lambert(0.5), sample=lambda n, v, u: n, pdf=lambda n, v, l: -np.ones(len(n)))
+    with pytest.raises(nacre.Error, match="its pdf is -1"):
+        render("sky", brdf)
+    with pytest.raises(TypeError, match="by name"):
+        nacre.Scene().add_material("ball", nacre.Brdf("lambert"))
+
+
+def test_a_scene_lives_as_long_as_its_functions_are_needed():
+    scene = spheres("point")
+    scene.add_material("ball", lambert(0.5))
+    session = nacre.Session(scene.copy())
+    del scene
+    assert session.render(width=16, height=12)["beauty"].max() > 0
+    session.close()

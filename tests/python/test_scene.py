@@ -1,0 +1,244 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Scenes, renders and sessions from Python."""
+import os
+import signal
+import subprocess
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import nacre
+
+SMALL = {"width": 64, "height": 48, "samples": 4}
+
+
+def ball():
+    return nacre.Scene.from_dict({
+        "camera": {"position": [0, 0, 5]},
+        "materials": {"red": {"model": "metallic_roughness", "base_color": [0.8, 0.1, 0.1]}},
+        "lights": {"key": {"type": "point", "position": [3, 4, 5], "intensity": 100}},
+        "shapes": [{"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "red"}]})
+
+
+def same(a, b):
+    return set(a.channels) == set(b.channels) and all(np.array_equal(a[n], b[n]) for n in a.channels)
+
+
+def test_a_render_has_the_bits_of_the_program(scenes, program, tmp_path):
+    picture = tmp_path / "a.exr"
+    subprocess.run([program, "render", scenes / "first_scene.json", "-o", picture, "--depth", "float",
+                    "--target", nacre.active_target(), "--size", "64x48", "--layers", "all", "--set", "/materials/red/roughness=0.2"],
+                   check=True, capture_output=True)
+    scene = nacre.Scene.from_file(scenes / "first_scene.json")
+    scene["/materials/red/roughness"] = 0.2
+    image = scene.render(width=64, height=48, layers="all")
+    assert same(image, nacre.read(picture))
+    assert image["id.object"].dtype == np.uint32 and image["id.object"].max() == 2
+
+
+def test_a_scene_built_in_code_is_that_of_a_file():
+    scene = nacre.Scene()
+    scene.set_camera(position=(0, 0, 5))
+    scene.add_material("red", "metallic_roughness", base_color=np.array([0.8, 0.1, 0.1]))
+    scene.add_light("key", "point", position=np.array([3, 4, 5]), intensity=np.float32(100))
+    scene.add_sphere((0, 0, 0), 1, "red")
+    assert same(scene.render(**SMALL), ball().render(**SMALL))
+    assert (scene.sphere_count, scene.mesh_count) == (1, 0)
+    assert (scene.material_names, scene.light_names) == (["red"], ["key"])
+
+
+def test_shapes_come_as_arrays():
+    scene = ball()
+    scene.add_spheres(np.arange(6, dtype=np.float32).reshape(2, 3), 0.5, "red")
+    scene.add_mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.array([[0, 1, 2]]), "red")
+    scene.add_shape("sphere", center=[2, 0, 0], radius=0.5, material="red")
+    assert (scene.sphere_count, scene.mesh_count) == (4, 1)
+
+
+def test_values_are_read_as_they_were_set(scenes):
+    scene = nacre.Scene.from_file(scenes / "first_scene.json")
+    assert scene["/materials/red/roughness"] == 0.3
+    scene["/materials/red/roughness"] = np.float64(0.25)
+    assert scene["/materials/red"]["roughness"] == 0.25
+    assert scene["/shapes/1/center"] == [0, -1000, 0]
+    assert scene.get("/materials/red/metallic", 0) == 0 and "/materials/red/metallic" not in scene
+    assert scene.to_dict()["materials"]["red"]["roughness"] == 0.25
+    with pytest.raises(KeyError, match="/materials/blue"):
+        scene["/materials/blue"]
+    with pytest.raises(nacre.Error, match="JSON pointer"):
+        scene["materials"]
+    other = scene.copy()
+    other["/materials/red/roughness"] = 1
+    assert scene["/materials/red/roughness"] == 0.25
+    with nacre.Session(scene) as session:
+        assert session["/materials/red/roughness"] == 0.25
+        assert session["/shapes/0/radius"] == 1
+
+
+def test_errors_are_those_of_the_program():
+    scene = ball()
+    scene["/materials/red/roughnes"] = 0.2
+    scene["/materials/red/metallic"] = 2
+    with pytest.raises(nacre.Error) as caught:
+        scene.check()
+    error = caught.value
+    assert len(error.faults) == 2 and error.exit_code == 65
+    fault = next(f for f in error.faults if "roughnes" in f.what)
+    assert fault.where.endswith("/materials/red") and fault.hint == 'did you mean "roughness"?'
+    assert 'unknown key "roughnes"' in str(error)
+    with pytest.raises(nacre.Error, match="no such file|there is no file|No such file"):
+        nacre.Scene.from_file("nowhere.json")
+
+
+@pytest.mark.parametrize("value", [float("nan"), float("inf"), {"a": float("nan")}])
+def test_numbers_of_scenes_are_finite(value):
+    with pytest.raises(nacre.Error, match="finite"):
+        ball()["/materials/red/roughness"] = value
+
+
+@pytest.mark.parametrize("settings, error", [
+    ({"width": -1}, nacre.Error), ({"samples": 10**7}, nacre.Error), ({"max_error": 2}, nacre.Error),
+    ({"layers": ["difuse"]}, nacre.Error), ({"intersector": "magic"}, nacre.Error),
+    ({"region": (5, 5, 1, 1)}, nacre.Error), ({"region": (1, 2)}, (TypeError, RuntimeError)),
+    ({"threads": -1}, nacre.Error), ({"width": "wide"}, (TypeError, RuntimeError)),
+    ({"widht": 4}, TypeError), ({"seed": -1}, (TypeError, RuntimeError))])
+def test_settings_out_of_range_are_refused(settings, error):
+    with pytest.raises(error):
+        ball().render(**settings)
+
+
+@pytest.mark.parametrize("call, error", [
+    (lambda s: s.add_spheres([[0, 0]], 1, "red"), ValueError),
+    (lambda s: s.add_spheres([[0, 0, 0]], [1, 2], "red"), ValueError),
+    (lambda s: s.add_spheres([["a", 0, 0]], 1, "red"), ValueError),
+    (lambda s: s.add_mesh([[0, 0, 0]], [[0.5, 0, 0]], "red"), TypeError),
+    (lambda s: s.add_mesh([[0, 0, 0]], [[-1, 0, 0]], "red"), ValueError),
+    (lambda s: s.add_mesh([[0, 0, 0]], [0, 0, 0], "red"), ValueError),
+    (lambda s: s.add_shape("sphere", center=object()), TypeError),
+    (lambda s: nacre.Session("scene.json"), TypeError),
+    (lambda s: nacre.Scene.from_file(7), TypeError)])
+def test_arguments_of_other_types_are_refused(call, error):
+    with pytest.raises(error):
+        call(ball())
+
+
+def test_a_shape_out_of_range_is_found_when_checked():
+    scene = ball()
+    scene.add_spheres([[0, 0, np.nan]], -1, "red")
+    scene.add_mesh([[0, 0, 0]], [[0, 0, 7]], "blue")
+    with pytest.raises(nacre.Error, match="blue"):
+        scene.check()
+
+
+def test_a_session_gives_the_bits_of_a_render():
+    scene = ball()
+    with nacre.Session(scene) as session:
+        for roughness in 0.1, 0.6:
+            session["/materials/red/roughness"] = scene["/materials/red/roughness"] = roughness
+            assert same(session.render(**SMALL), scene.render(**SMALL))
+        with pytest.raises(nacre.Error, match="roughness"):
+            session["/materials/red/roughness"] = 2
+        assert session["/materials/red/roughness"] == 0.6
+        shown = []
+        image = session.render(**SMALL, show=lambda i, n: shown.append((n, i["R"].mean())))
+        assert [n for n, _ in shown] == [1, 2, 4] and shown[-1][1] == image["R"].mean()
+    with pytest.raises(nacre.Error, match="closed"):
+        session.render()
+    with pytest.raises(nacre.Error, match="closed"):
+        session["/image"]
+    session.close()
+
+
+def test_progress_comes_to_an_end():
+    shares = []
+    ball().render(width=300, height=200, progress=shares.append)
+    assert shares[-1] == 1 and shares == sorted(shares)
+    ball().render(**SMALL, progress=True)
+
+
+def test_what_a_callback_raises_comes_out():
+    def fail(_):
+        raise KeyError("mine")
+    with pytest.raises(KeyError, match="mine"):
+        ball().render(**SMALL, progress=fail)
+    with nacre.Session(ball()) as session:
+        with pytest.raises(KeyError, match="mine"):
+            session.render(**SMALL, show=lambda image, samples: fail(image))
+        assert session.render(**SMALL).stats["camera_rays"] > 0
+
+
+def test_cancel_ends_a_render():
+    with nacre.Session(ball()) as session:
+        timer = threading.Timer(0.2, session.cancel)
+        timer.start()
+        start = time.monotonic()
+        with pytest.raises(nacre.Cancelled):
+            session.render(width=1920, height=1080, samples=65536)
+        assert time.monotonic() - start < 10
+        timer.join()
+
+
+def test_control_c_ends_a_render():
+    start = time.monotonic()
+    threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        ball().render(width=1920, height=1080, samples=65536)
+    assert time.monotonic() - start < 10
+
+
+def test_other_threads_run_while_it_renders():
+    count = 0
+
+    def work():
+        nonlocal count
+        while not done.wait(0.001):
+            count += 1
+    done = threading.Event()
+    thread = threading.Thread(target=work)
+    thread.start()
+    ball().render(width=640, height=480, samples=16)
+    done.set()
+    thread.join()
+    assert count > 0
+
+
+def test_threads_may_share_a_scene_but_not_change_it_meanwhile():
+    scene = ball()
+    images, errors = [], []
+    threads = [threading.Thread(target=lambda: images.append(scene.render(**SMALL)))
+               for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(images) == 4 and all(same(image, images[0]) for image in images)
+
+    def change(_):
+        try:
+            scene["/image/spp"] = 1
+        except nacre.Error as error:
+            errors.append(str(error))
+    scene.render(**SMALL, progress=change)
+    assert errors and "in use" in errors[0]
+    with nacre.Session(scene) as session:
+        with pytest.raises(nacre.Error, match="in use"):
+            session.render(**SMALL, show=lambda image, samples: session.close())
+
+
+def test_a_child_renders_after_a_fork():
+    expected = ball().render(**SMALL)
+    child = os.fork()
+    if child == 0:
+        os._exit(0 if same(ball().render(**SMALL), expected) else 1)
+    deadline = time.monotonic() + 60
+    while time.monotonic() < deadline:
+        pid, status = os.waitpid(child, os.WNOHANG)
+        if pid:
+            break
+        time.sleep(0.01)
+    else:
+        os.kill(child, signal.SIGKILL)
+        pytest.fail("the child hangs")
+    assert status == 0
