@@ -183,12 +183,27 @@ std::vector<std::string> ViewDocument::ImageFiles() const {
   return files;
 }
 
+// Whoever has orbited the camera and saves the scene in an editor wants to see the change from
+// there. A member that the file has a new value for is the file's: that is what was just written.
 void ViewDocument::ReadChangedFiles() {
+  const Json edited = live_.root();
   prepared_.versions.Change(live_.ReadChangedFiles());
-  original_ = live_.root();
+  const Json before = std::exchange(original_, live_.root());
+  if (edited.contains("shapes") || scene().spheres.size() <= kMaxTreeSpheres) ListShapes();
+  const auto member = [](const Json& tree, const std::string& name) {
+    const auto found = tree.find(name);
+    return found != tree.end() ? *found : Json();
+  };
+  for (const auto& [name, value] : edited.items()) {
+    if (value == member(before, name) || member(original_, name) != member(before, name)) continue;
+    try {
+      Put("/" + name, value);
+    } catch (const Error&) {  // it needs what the file no longer has
+    }
+  }
+  if (original_ == before) return;
   past_.clear();
   future_.clear();
-  if (scene().spheres.size() <= kMaxTreeSpheres) ListShapes();
 }
 
 }  // namespace nacre

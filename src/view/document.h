@@ -56,8 +56,9 @@ class ViewDocument {
   // many.
   std::vector<std::string> ImageFiles() const;
 
-  // As LiveScene::FilesChanged; and reads what has changed, without the edits and their history.
-  // Throws Error: the document is then the one before.
+  // As LiveScene::FilesChanged; and reads what has changed. Edits stay, but for members
+  // (/materials, /camera) that the file has new values for; their history ends where the file has
+  // changed. Throws Error: the document is then the one before.
   bool FilesChanged() { return live_.FilesChanged(); }
   void ReadChangedFiles();
 

@@ -122,10 +122,25 @@ TEST_CASE("files are watched") {
   document.ReadChangedFiles();
   CHECK(document.scene().background == Rgb(1));
   CHECK_FALSE(document.FilesChanged());
+  // Edits stay, but for what the file says anew.
+  document.Set("/background", 0.5, 1);
+  document.Set("/camera/fov_y_deg", 20, 2);
+  write(R"({"nacre": 1, "background": 0.25})");
+  REQUIRE(soon());
+  document.ReadChangedFiles();
+  CHECK(document.scene().background == Rgb(0.25));
+  CHECK(document.scene().camera.fov_y_deg == 20);
+  CHECK_FALSE(document.can_undo());
+  CHECK(document.Reset());
+  CHECK(document.scene().camera.fov_y_deg != 20);
+  write(R"({"nacre": 1, "background": 1})");
+  REQUIRE(soon());
+  document.ReadChangedFiles();
   std::filesystem::remove(path);
   REQUIRE(soon());
   CHECK_THROWS_AS(document.ReadChangedFiles(), Error);
   CHECK(document.scene().background == Rgb(1));
+  CHECK(document.Reset() == false);
 }
 
 }  // namespace
