@@ -175,7 +175,7 @@ struct Material {
       model;
   // A reflection model of the caller's own, in the place of the model's lobes; or null. All else
   // that the model says holds: coat, sheen, albedo, what it reflects of ambient light.
-  std::shared_ptr<const UserBrdf> user;
+  std::shared_ptr<const UserBrdf> user{};
   // Maps multiply the numbers beside them.
   TextureId emission_map{};
   NormalMap normal_map{};

@@ -16,7 +16,7 @@
 #include "scene/shapes.h"
 #include "shading/light.h"
 #include "shading/scalar_material.h"
-#include "study/share.h"
+#include "shading/share.h"
 
 namespace nacre {
 namespace {

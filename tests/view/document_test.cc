@@ -2,8 +2,10 @@
 // view/document_test.cc: the scene that pages edit: its history, and what is refused.
 #include "view/document.h"
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include <catch2/catch.hpp>
 
