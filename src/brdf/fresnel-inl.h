@@ -17,16 +17,16 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // 1 - v.h free of cancellation, at most 1.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V OneMinusVDotH(D d, V lv_squared, V u_length) {
+HWY_INLINE V OneMinusVDotH(D d, V lv_squared, V twice_u_length) {
   using T = hn::TFromD<D>;
-  const V denominator = hn::MulAdd(hn::Set(d, T(2)), u_length, hn::Set(d, T(4)));
+  const V denominator = hn::Add(twice_u_length, hn::Set(d, T(4)));
   return hn::Min(hn::Mul(lv_squared, Reciprocal(d, denominator)), hn::Set(d, T(1)));
 }
 
 // v.h.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V VDotH(D d, V u_length) {
-  return hn::Mul(u_length, hn::Set(d, hn::TFromD<D>(0.5)));
+HWY_INLINE V VDotH(D d, V twice_u_length) {
+  return hn::Mul(twice_u_length, hn::Set(d, hn::TFromD<D>(0.25)));
 }
 
 template <class V>
@@ -38,7 +38,8 @@ HWY_INLINE V Power5(V x) {
 // (1 - v.h)^5 of Schlick 1994.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V SchlickWeight(D d, const AnglesV<V>& a) {
-  return Power5(OneMinusVDotH(d, a.lv_squared, hn::Sqrt(a.u_squared)));
+  const V twice_u_length = hn::Mul(hn::Set(d, hn::TFromD<D>(2)), hn::Sqrt(a.u_squared));
+  return Power5(OneMinusVDotH(d, a.lv_squared, twice_u_length));
 }
 
 // F0 + (F90 - F0) weight.

@@ -17,13 +17,6 @@ HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
-// Angles and lengths of the half vector that the curves are functions of.
-struct HalfV {
-  FloatV lv_squared, twice_u_length;
-
-  HWY_INLINE FloatV ULength(FloatTag d) const { return hn::Mul(twice_u_length, hn::Set(d, 0.5f)); }
-};
-
 // A curve's value: Schlick's weight W, F = F0 + (F90 - F0) W; F of each channel; or what dielectric
 // and metal reflect, each times its share of the mix.
 struct SchlickCurveV {
@@ -41,14 +34,13 @@ HWY_INLINE RgbV FresnelOf(const MixedCurveV& curve) {
 }
 
 template <FresnelForm kFresnel, class Number>
-HWY_INLINE auto EvaluateCurve(FloatTag d, const HalfV& half, size_t i,
+HWY_INLINE auto EvaluateCurve(FloatTag d, const HalfIncidentV& in, size_t i,
                               const MicrofacetUniforms<Number>& uniforms) {
-  const FloatV u_length = half.ULength(d);
-  const FloatV one_minus_vh = OneMinusVDotH(d, half.lv_squared, u_length);
+  const FloatV one_minus_vh = in.one_minus_vh;
   if constexpr (kFresnel == FresnelForm::kSchlick) {
     return SchlickCurveV{Power5(one_minus_vh)};
   } else {
-    const FloatV v_dot_h = VDotH(d, u_length);
+    const FloatV v_dot_h = VDotH(d, in.twice_u_length);
     if constexpr (kFresnel == FresnelForm::kF82) {
       const RgbV f0 = RgbAt(d, uniforms.metal_f0, i), slope = RgbAt(d, uniforms.f82_slope, i);
       const FloatV one = hn::Set(d, 1.0f), metallic = NumberAt(d, uniforms.metallic, i);

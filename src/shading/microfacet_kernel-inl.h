@@ -55,8 +55,7 @@ struct Microfacet {
   }
 
   // Distribution, visibility, cosine and irradiance.
-  HWY_INLINE FloatV Lobe(FloatTag d, const PacketV& p, const Incident& in,
-                         FloatV twice_u_length) const {
+  HWY_INLINE FloatV Lobe(FloatTag d, const PacketV& p, const Incident& in) const {
     if (kSame && uniforms.sharp_distribution != nullptr) return SharpLobe(d, p, in);
     const FloatV q = GgxRootDenominator(d, in.half, NumberAt(d, uniforms.alpha, p.i));
     const FloatV masking = Masking(d, p, in, NumberAt(d, uniforms.pi_over_alpha2, p.i));
@@ -66,7 +65,7 @@ struct Microfacet {
     // On spheres n.v of what is seen, and n.u of what is lit, too, round to above -4e-7: that is 0.
     wide = hn::IfThenElseZero(hn::Gt(in.half.n_dot_u, hn::Set(d, -0x1p-20f)), wide);
     if (in.any_short) {
-      const FloatV inverse = hn::Div(hn::Set(d, 4.0f), twice_u_length);  // 2 / |u|
+      const FloatV inverse = hn::Div(hn::Set(d, 4.0f), in.twice_u_length);  // 2 / |u|
       const FloatV four_q = hn::Mul(q, hn::Mul(inverse, inverse));
       const FloatV sixteenth = hn::Mul(masking, hn::Set(d, 0.0625f));
       const FloatV of_short = LobeBy(d, hn::Mul(hn::Mul(four_q, four_q), sixteenth), in.weight);
@@ -102,12 +101,11 @@ struct Microfacet {
   HWY_INLINE ReflectedV Reflect(FloatTag d, const View& view, const PacketV& p,
                                 const Incident& in) const {
     const MicrofacetLight<Number>& light = uniforms.light;
-    const HalfV half{in.half.lv_squared, TwiceSquareRoot(d, in.half.u_squared)};
     // Grazing light spreads by as much more as its weight is less: their product stays in range.
     const bool spreads = kFresnel != FresnelForm::kConductor && uniforms.spread != nullptr;
     const FloatV base_weight = spreads ? hn::Set(d, 1.0f) : in.weight;
-    const auto curve = EvaluateCurve<kFresnel>(d, half, p.i, uniforms);
-    const FloatV lobe = Lobe(d, p, in, half.twice_u_length);
+    const auto curve = EvaluateCurve<kFresnel>(d, in, p.i, uniforms);
+    const FloatV lobe = Lobe(d, p, in);
     PartV reflected = ScaledPart(ReflectedBy(d, curve, p.i, light), lobe);
     PartV base = LeftForBase(d, curve, p.i, model, light, base_weight);
     if (model.compensation == Compensation::kTurquin) {

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "brdf/fresnel-inl.h"
 #include "shading/range-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -62,6 +63,18 @@ class HalfBlock : public IncidentBlock {
     hn::Store(half.lv_squared, d, lv_squared_ + at);
   }
 
+  // |u| and 1 - v.h of `count` half vectors that were stored, in a loop of their own, as TakeLogs.
+  HWY_INLINE void TakeLengths(FloatTag d, size_t count) {
+    for (size_t at = 0; at < count; at += hn::Lanes(d)) {
+      const FloatV n_dot_u = hn::Load(d, n_dot_u_ + at);
+      const FloatV u_squared = USquared(n_dot_u, hn::Load(d, nxu_squared_ + at));
+      const FloatV twice_u_length = TwiceSquareRoot(d, u_squared);
+      hn::Store(twice_u_length, d, twice_u_length_ + at);
+      hn::Store(OneMinusVDotH(d, hn::Load(d, lv_squared_ + at), twice_u_length), d,
+                one_minus_vh_ + at);
+    }
+  }
+
   void SetAnyShort(bool any_short) { any_short_ = any_short; }
 
   HWY_INLINE HalfIncidentV LoadHalf(FloatTag d, size_t at) const {
@@ -70,12 +83,15 @@ class HalfBlock : public IncidentBlock {
     return {Load(d, at),
             {n_dot_u, USquared(n_dot_u, nxu_squared), nxu_squared, hn::Load(d, lv_squared_ + at)},
             hn::Load(d, n_dot_v_ + at),
+            hn::Load(d, twice_u_length_ + at),
+            hn::Load(d, one_minus_vh_ + at),
             any_short_};
   }
 
  private:
   alignas(64) float n_dot_v_[kBlockHits], n_dot_u_[kBlockHits];
   alignas(64) float nxu_squared_[kBlockHits], lv_squared_[kBlockHits];
+  alignas(64) float twice_u_length_[kBlockHits], one_minus_vh_[kBlockHits];
   bool any_short_;
 };
 
@@ -156,6 +172,7 @@ inline HWY_NOINLINE void FillHalf(const ShadeRange& range, size_t begin, size_t 
     block->StoreHalf(d, at, half, hn::Max(n_dot_v, hn::Zero(d)));
   };
   block->SetAnyShort(ForHalfAngles(range, begin, end, *block, store));
+  block->TakeLengths(d, end - begin);
 }
 
 // Stores what the model reflects of incident_of(packet) at hits [begin, end).

@@ -84,6 +84,7 @@ struct IncidentV {
 struct HalfIncidentV : IncidentV {
   HalfAnglesV<FloatV> half;
   FloatV n_dot_v;
+  FloatV twice_u_length, one_minus_vh;
   bool any_short;  // false: all half vectors of the block are IsUpright
 };
 
