@@ -27,6 +27,7 @@ def write_assets(folder, random):
     write_torus(folder / 'torus.obj', 16, 8)
     write_soup(folder / 'soup.ply', 12, random)
     write_model(folder / 'model.gltf', 40, random)
+    write_spheres(folder / 'spheres.csv', 20, random)
 
 
 def write_png(path, width, height, pixel):
@@ -76,6 +77,13 @@ def write_soup(path, triangles, random):
                     'property float y\nproperty float z\nelement face %d\n'
                     'property list uchar int vertex_indices\nend_header\n%s\n%s\n' %
                     (3 * triangles, triangles, corners, faces))
+
+
+def write_spheres(path, count, random):
+    """Rows of x, y, z and radius."""
+    rows = ([random.uniform(-2, 2) for _ in range(3)] + [10 ** random.uniform(-2, -0.3)]
+            for _ in range(count))
+    path.write_text('x,y,z,radius\n' + ''.join('%r,%r,%r,%r\n' % tuple(row) for row in rows))
 
 
 def write_model(path, triangles, random):
@@ -359,7 +367,7 @@ class SceneMaker:
 
     def shape(self):
         r = self.random
-        kinds = ('uv_sphere', 'mesh', 'grid', 'pair', 'cloud')
+        kinds = ('uv_sphere', 'mesh', 'grid', 'pair', 'cloud', 'spheres')
         kind = r.choice(('sphere',) * 12 + kinds + (() if self.by_uvs else ('icosphere',)))
         return {'type': kind, **getattr(self, kind + '_shape')()}
 
@@ -406,3 +414,7 @@ class SceneMaker:
         return {'count': self.random.choice((10, 500)), 'seed': self.random.randrange(9),
                 'min': [-2, -2, -2], 'max': [2, 2, 2], 'radius': [0.01, 0.3],
                 'materials': self.random.sample(self.names, 1)}
+
+    def spheres_shape(self):
+        return {'file': 'assets/spheres.csv',
+                'material': self.random.choice([n for n in self.names if n != 'split'])}
