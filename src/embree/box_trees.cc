@@ -108,7 +108,12 @@ struct BoxTrees::State {
   Tree& TreeOf(BoxTree tree) { return tree == BoxTree::kAll ? all : triangles; }
   TraceScene Traced(BoxTree tree) {
     const Tree& of = TreeOf(tree);
-    return {of.scene.get(), device.packet_width(), geometry, geometry->eye - of.origin};
+    // Measured with light from all directions on neighbouring pixels: 3000 spheres take 1.5 times
+    // as long in packets as one by one, a million triangles 1.3 times, some thousand triangles .9.
+    const bool is_large =
+        geometry->triangles.size() >= 1 << 16 ||
+        (tree == BoxTree::kAll && geometry->shells.empty() && geometry->spheres.size() >= 1 << 10);
+    return {of.scene.get(), device.packet_width(), geometry, is_large, geometry->eye - of.origin};
   }
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // embree/embree_api.h: Embree 3 and Embree 4 under one set of names: all that differs between
-// the two lives here. Queries run on packets of 4, 8 or 16 rays.
+// the two lives here. Queries run on packets of 4, 8 or 16 rays, or on one ray.
 #pragma once
 
 #if __has_include(<embree3/rtcore.h>)
@@ -45,6 +45,14 @@ inline void OccludedPacket(int width, const int* valid, RTCScene scene, EmbreeCo
   }
 }
 
+inline void IntersectOne(RTCScene scene, EmbreeContext* context, RTCRayHit* ray) {
+  rtcIntersect1(scene, context, ray);
+}
+
+inline void OccludedOne(RTCScene scene, EmbreeContext* context, RTCRay* ray) {
+  rtcOccluded1(scene, context, ray);
+}
+
 #else
 
 using EmbreeContext = RTCRayQueryContext;
@@ -81,6 +89,20 @@ inline void OccludedPacket(int width, const int* valid, RTCScene scene, EmbreeCo
     default:
       return rtcOccluded16(valid, scene, reinterpret_cast<RTCRay16*>(rays), &arguments);
   }
+}
+
+inline void IntersectOne(RTCScene scene, EmbreeContext* context, RTCRayHit* ray) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = context;
+  rtcIntersect1(scene, ray, &arguments);
+}
+
+inline void OccludedOne(RTCScene scene, EmbreeContext* context, RTCRay* ray) {
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.context = context;
+  rtcOccluded1(scene, ray, &arguments);
 }
 
 #endif

@@ -29,8 +29,10 @@ enum class NormalWeighting : uint8_t {
 //
 // Faces that meet along an edge at more than crease_angle_deg are not averaged over it: positions
 // are then repeated, so that each side has normals of its own. From 180 on nothing is a crease. Of
-// more than two faces on one edge only consecutive triangles are compared.
-void ComputeNormals(NormalWeighting weighting, double crease_angle_deg, Mesh* mesh);
+// more than two faces on one edge only consecutive triangles are compared. On up to `threads`
+// threads (0: as many as the machine has).
+void ComputeNormals(NormalWeighting weighting, double crease_angle_deg, Mesh* mesh,
+                    int threads = 1);
 
 // For models that come without normals and do not say which of their edges are sharp.
 inline constexpr double kModelCreaseAngleDeg = 45;

@@ -54,6 +54,16 @@ Vec3d NewellNormal(std::span<const Vec3d> corners) {
 }
 
 void Triangulate(std::span<const Vec3d> corners, std::vector<uint32_t>* triangles) {
+  if (corners.size() == 3) {
+    // What follows finds that the corner at 1 is an ear, for `Turn` is then the normal's largest
+    // component.
+    const Vec3d normal = NewellNormal(corners);
+    const double size = std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z);
+    if (size > 0 && std::isfinite(size)) {
+      triangles->insert(triangles->end(), {0, 1, 2});
+      return;
+    }
+  }
   const std::vector<Vec2d> flat = Flatten(corners);
   std::vector<uint32_t> remaining(corners.size());
   std::iota(remaining.begin(), remaining.end(), 0u);

@@ -18,11 +18,17 @@ namespace {
 constexpr double kUnitLengthTolerance = 1e-5;
 
 // Of a mesh's positions or indices only the first bad one is told: the rest has the same cause.
+bool IsPoint(const Vec3d& position) {
+  const Range& coordinate = limits::kCoordinate;
+  return coordinate.Contains(position.x) && coordinate.Contains(position.y) &&
+         coordinate.Contains(position.z);
+}
+
 void ValidatePositions(const Mesh& mesh, const std::string& where, FaultList* faults) {
   for (size_t i = 0; i < mesh.positions.size(); ++i) {
-    const size_t before = faults->count();
+    if (IsPoint(mesh.positions[i])) continue;  // no text made for a million others
     CheckPoint(mesh.positions[i], fmt::format("{}/positions/{}", where, i), faults);
-    if (faults->count() != before) return;
+    return;
   }
 }
 
@@ -125,9 +131,7 @@ void ValidateIndices(const Mesh& mesh, const std::string& where, FaultList* faul
 }
 
 bool IsSound(const Sphere& sphere, size_t material_count) {
-  const Range& coordinate = limits::kCoordinate;
-  return coordinate.Contains(sphere.center.x) && coordinate.Contains(sphere.center.y) &&
-         coordinate.Contains(sphere.center.z) && limits::kLength.Contains(sphere.radius) &&
+  return IsPoint(sphere.center) && limits::kLength.Contains(sphere.radius) &&
          sphere.material.index < material_count;
 }
 

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "base/float_mode.h"
+#include "base/parallel.h"
 #include "scene/mesh.h"
 
 namespace nacre {
@@ -35,10 +37,10 @@ std::vector<uint32_t> FindPlaces(const Mesh& mesh) {
   return place;
 }
 
-// What the face of `corner` (an index into Mesh::triangles) adds to the normal there.
-Vec3d Contribution(const Mesh& mesh, NormalWeighting weighting, size_t corner) {
+// What the face of `corner` (an index into Mesh::triangles), whose normal is `face`, adds to the
+// normal there.
+Vec3d Contribution(const Mesh& mesh, NormalWeighting weighting, size_t corner, const Vec3d& face) {
   const size_t triangle = corner / 3;
-  const Vec3d face = FaceNormal(mesh, triangle);
   const auto position = [&](size_t k) -> const Vec3d& {
     return mesh.positions[mesh.triangles[3 * triangle + (corner + k) % 3]];
   };
@@ -52,6 +54,30 @@ Vec3d Contribution(const Mesh& mesh, NormalWeighting weighting, size_t corner) {
       break;
   }
   return face;
+}
+
+// Calls add(corner, contribution) for all corners in their order. The contributions are computed
+// block by block, on several threads.
+template <class Add>
+void AddContributions(const Mesh& mesh, NormalWeighting weighting, int threads, const Add& add) {
+  constexpr size_t kBlock = size_t{1} << 12, kBlocks = 16;  // triangles; blocks at a time
+  const size_t triangles = mesh.triangles.size() / 3;
+  std::vector<Vec3d> found(3 * std::min(triangles, kBlock * kBlocks));
+  for (size_t first = 0; first < triangles; first += kBlock * kBlocks) {
+    const size_t end = std::min(triangles, first + kBlock * kBlocks);
+    ParallelFor((end - first + kBlock - 1) / kBlock, threads, [&](size_t block) {
+      const DefaultFloatMode mode;  // meshes may be as small as denormals
+      const size_t begin = first + block * kBlock;
+      for (size_t i = begin; i < std::min(end, begin + kBlock); ++i) {
+        const Vec3d face = FaceNormal(mesh, i);
+        for (size_t corner = 3 * i; corner < 3 * i + 3; ++corner) {
+          found[corner - 3 * first] = Contribution(mesh, weighting, corner, face);
+        }
+      }
+    });
+    for (size_t corner = 3 * first; corner < 3 * end; ++corner)
+      add(corner, found[corner - 3 * first]);
+  }
 }
 
 Vec3d UnitOrUp(const Vec3d& sum) {
@@ -156,23 +182,23 @@ std::vector<size_t> SplitPositions(Groups* groups, Mesh* mesh) {
 
 }  // namespace
 
-void ComputeNormals(NormalWeighting weighting, double crease_angle_deg, Mesh* mesh) {
+void ComputeNormals(NormalWeighting weighting, double crease_angle_deg, Mesh* mesh, int threads) {
   mesh->tangents.clear();
   std::vector<uint32_t> place = FindPlaces(*mesh);
   std::vector<Vec3d> sums(mesh->positions.size(), Vec3d(0, 0, 0));
   if (crease_angle_deg >= 180) {
-    for (size_t corner = 0; corner < mesh->triangles.size(); ++corner) {
-      sums[place[mesh->triangles[corner]]] += Contribution(*mesh, weighting, corner);
-    }
+    AddContributions(*mesh, weighting, threads, [&](size_t corner, const Vec3d& contribution) {
+      sums[place[mesh->triangles[corner]]] += contribution;
+    });
     mesh->normals.resize(mesh->positions.size());
     for (size_t i = 0; i < place.size(); ++i) mesh->normals[i] = UnitOrUp(sums[place[i]]);
     return;
   }
   Groups groups = GroupOverEdges(*mesh, place, crease_angle_deg);
   sums.assign(mesh->triangles.size(), Vec3d(0, 0, 0));
-  for (size_t corner = 0; corner < mesh->triangles.size(); ++corner) {
-    sums[groups.Find(corner)] += Contribution(*mesh, weighting, corner);
-  }
+  AddContributions(*mesh, weighting, threads, [&](size_t corner, const Vec3d& contribution) {
+    sums[groups.Find(corner)] += contribution;
+  });
   const std::vector<size_t> group_of = SplitPositions(&groups, mesh);
   mesh->normals.assign(mesh->positions.size(), Vec3d(0, 1, 0));
   for (size_t i = 0; i < group_of.size(); ++i) {

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/float_mode.h"
+#include "base/parallel.h"
 #include "scene/limits.h"
 #include "scene/material_parameters.h"
 #include "scene/mesh.h"
@@ -26,6 +29,11 @@ struct Primitive {
   std::vector<uint32_t> vertices;
   std::vector<uint32_t> triangles;
 };
+
+bool IsPoint(const Vec3d& position) {
+  return limits::kCoordinate.Contains(position.x) && limits::kCoordinate.Contains(position.y) &&
+         limits::kCoordinate.Contains(position.z);
+}
 
 int AttributeOf(const Primitive& primitive, const char* name) {
   const auto found = primitive.source.attributes.find(name);
@@ -48,19 +56,44 @@ size_t TriangleCount(const GltfDocument& document, const Primitive& primitive, s
   return is_list ? corners / 3 : corners - 2;
 }
 
+// Calls set(i) for all i below `count`, on several threads. False from it: something is wrong with
+// that one. Returns the first such, or `count`.
+template <class Set>
+size_t SetAll(size_t count, int threads, const Set& set) {
+  constexpr size_t kPiece = size_t{1} << 14;
+  std::atomic<size_t> first_wrong = count;
+  ParallelFor((count + kPiece - 1) / kPiece, threads, [&](size_t piece) {
+    const DefaultFloatMode mode;  // numbers may be denormal
+    const size_t end = std::min(count, (piece + 1) * kPiece);
+    size_t i = piece * kPiece;
+    if (i > first_wrong) return;
+    while (i < end && set(i)) ++i;
+    if (i == end) return;
+    size_t first = first_wrong;
+    while (i < first && !first_wrong.compare_exchange_weak(first, i)) {
+    }
+  });
+  return first_wrong;
+}
+
 // Indices into the accessors, three a triangle.
 std::vector<uint32_t> ReadTriangles(const GltfDocument& document, const Primitive& primitive,
                                     size_t vertex_count, SceneBudget* budget) {
   std::vector<uint32_t> triangles;
+  // Returns the first triangle with an index that is too large, or how many there are.
   const auto fill = [&](size_t corners, const auto& index_of) {
     const size_t count = TriangleCount(document, primitive, corners);
     SpendTriangles(count, document.file, budget);
-    triangles.reserve(3 * count);
-    for (size_t i = 0; i < count; ++i) {
+    triangles.resize(3 * count);
+    return SetAll(count, document.threads, [&](size_t i) {
+      bool fits = true;
+      uint32_t* to = &triangles[3 * i];
       for (const size_t corner : CornersOf(primitive.source.mode, i)) {
-        triangles.push_back(index_of(corner));
+        *to = index_of(corner);
+        fits &= *to++ < vertex_count;
       }
-    }
+      return fits;
+    });
   };
   if (primitive.source.indices < 0) {
     fill(vertex_count, [](size_t corner) { return static_cast<uint32_t>(corner); });
@@ -70,20 +103,35 @@ std::vector<uint32_t> ReadTriangles(const GltfDocument& document, const Primitiv
   if (!indices.is_unsigned()) {
     document.Refuse(indices.place() + "/componentType", "indices are of an unsigned type");
   }
-  fill(indices.count(), [&](size_t corner) {
+  const size_t wrong = fill(indices.count(), [&](size_t corner) { return indices.Index(corner); });
+  if (3 * wrong == triangles.size()) return triangles;
+  for (const size_t corner : CornersOf(primitive.source.mode, wrong)) {
     const uint32_t index = indices.Index(corner);
-    if (index >= vertex_count) {
-      document.Refuse(indices.place(), fmt::format("index {} at {}", index, corner),
-                      fmt::format("there are {} positions", vertex_count));
-    }
-    return index;
-  });
+    if (index < vertex_count) continue;
+    document.Refuse(indices.place(), fmt::format("index {} at {}", index, corner),
+                    fmt::format("there are {} positions", vertex_count));
+  }
   return triangles;
 }
 
 // Keeps only what is used: primitives may share long accessors.
 void Compact(Primitive* primitive) {
   std::vector<uint32_t>& vertices = primitive->vertices;
+  const size_t end =
+      *std::max_element(primitive->triangles.begin(), primitive->triangles.end()) + size_t{1};
+  if (end <= primitive->triangles.size()) {
+    // Faster than sorting, and not longer than the triangles are.
+    std::vector<uint32_t> places(end, 0);
+    for (const uint32_t index : primitive->triangles) places[index] = 1;
+    for (uint32_t index = 0; index < end; ++index) {
+      if (places[index] == 0) continue;
+      places[index] = static_cast<uint32_t>(vertices.size());
+      vertices.push_back(index);
+    }
+    if (vertices.size() == end) return;
+    for (uint32_t& index : primitive->triangles) index = places[index];
+    return;
+  }
   vertices = primitive->triangles;
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
@@ -106,17 +154,19 @@ void CheckCount(const GltfDocument& document, const GltfAccessor& accessor, size
 
 void ReadPositions(const GltfDocument& document, const Primitive& primitive,
                    const GltfAccessor& accessor, const GltfPlacement& placement, Mesh* mesh) {
-  mesh->positions.reserve(primitive.vertices.size());
-  for (const uint32_t element : primitive.vertices) {
-    Vec3d position;
+  const size_t count = primitive.vertices.size();
+  mesh->positions.resize(count);
+  const auto set = [&](size_t i) {
+    const uint32_t element = primitive.vertices[i];
+    Vec3d& position = mesh->positions[i];
     placement.WorldFromVertex(element).multVecMatrix(Triple(accessor, element), position);
-    for (int c = 0; c < 3; ++c) {
-      if (limits::kCoordinate.Contains(position[c])) continue;
-      document.Refuse(accessor.place(), fmt::format("position {} is out of range", element),
-                      "in the world each coordinate is " + Describe(limits::kCoordinate));
-    }
-    mesh->positions.push_back(position);
-  }
+    return IsPoint(position);
+  };
+  const size_t wrong = SetAll(count, placement.ThreadsOf(document), set);
+  if (wrong == count) return;
+  document.Refuse(accessor.place(),
+                  fmt::format("position {} is out of range", primitive.vertices[wrong]),
+                  "in the world each coordinate is " + Describe(limits::kCoordinate));
 }
 
 // Normals go by the inverse transpose: the cofactors, which do not mind a determinant of 0.
@@ -135,11 +185,13 @@ void ReadNormals(const GltfDocument& document, const Primitive& primitive, size_
   if (index < 0) return;  // "flat normals", says the specification: those of the faces
   const GltfAccessor accessor(document, index, "VEC3");
   CheckCount(document, accessor, positions);
-  mesh->normals.reserve(primitive.vertices.size());
-  for (const uint32_t element : primitive.vertices) {
-    mesh->normals.push_back(
-        TransformNormal(Triple(accessor, element), placement.WorldFromVertex(element)));
-  }
+  mesh->normals.resize(primitive.vertices.size());
+  SetAll(primitive.vertices.size(), placement.ThreadsOf(document), [&](size_t i) {
+    const uint32_t element = primitive.vertices[i];
+    mesh->normals[i] =
+        TransformNormal(Triple(accessor, element), placement.WorldFromVertex(element));
+    return true;
+  });
   MendNormals(mesh);  // some exporters write normals without a direction
 }
 
@@ -177,6 +229,7 @@ void ReadTangents(const Primitive& primitive, size_t positions, const GltfPlacem
 // Mirrored triangles turn their corners round, so that their fronts stay in front. A triangle
 // between joints of which some mirror goes by most of its corners.
 void TurnMirrored(const Primitive& primitive, const GltfPlacement& placement, Mesh* mesh) {
+  if (!placement.is_skinned() && placement.WorldFromVertex(0).determinant() >= 0) return;
   std::vector<bool> mirrored;
   mirrored.reserve(primitive.vertices.size());
   for (const uint32_t element : primitive.vertices) {
@@ -206,16 +259,18 @@ void ReadUvs(const GltfDocument& document, const Primitive& primitive, const cha
   if (index < 0) return;
   const GltfAccessor accessor(document, index, "VEC2");
   CheckCount(document, accessor, positions);
-  uvs->reserve(primitive.vertices.size());
-  for (const uint32_t element : primitive.vertices) {
+  const size_t count = primitive.vertices.size();
+  uvs->resize(count);
+  const size_t wrong = SetAll(count, document.threads, [&](size_t i) {
+    const uint32_t element = primitive.vertices[i];
     // There (0, 0) is an image's top left.
     const Vec2d uv(accessor.Number(element, 0), 1 - accessor.Number(element, 1));
-    if (!limits::kCoordinate.Contains(uv.x) || !limits::kCoordinate.Contains(uv.y)) {
-      document.Refuse(accessor.place(),
-                      fmt::format("texture coordinate {} is out of range", element));
-    }
-    uvs->push_back(uv);
-  }
+    (*uvs)[i] = uv;
+    return limits::kCoordinate.Contains(uv.x) && limits::kCoordinate.Contains(uv.y);
+  });
+  if (wrong == count) return;
+  document.Refuse(accessor.place(),
+                  fmt::format("texture coordinate {} is out of range", primitive.vertices[wrong]));
 }
 
 // Linear colours. White ones change nothing, and many exporters write them. Their alpha counts

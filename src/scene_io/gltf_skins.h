@@ -36,6 +36,10 @@ class GltfPlacement {
   // Error (kBadInput) for weights below 0 and for joints that the skin does not have.
   Imath::M44d WorldFromVertex(size_t vertex) const;
 
+  bool is_skinned() const { return joints_ != nullptr; }
+  // How many threads may ask for matrices: what is wrong with a skin is told by one.
+  int ThreadsOf(const GltfDocument& document) const { return is_skinned() ? 1 : document.threads; }
+
  private:
   struct Influences {
     GltfAccessor joints, weights;  // four of each a vertex

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <map>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -47,6 +46,38 @@ struct ObjContents {
   bool normals, uvs;
 };
 
+// Which vertex has a key: numbers of vertices in a table whose places are at least twice as many,
+// each at the first free place from its hash on.
+class VertexTable {
+ public:
+  // The number of the key's vertex, and whether it is a new one: the next.
+  std::pair<uint32_t, bool> Find(const VertexKey& key) {
+    if (places_.size() <= 2 * keys_.size()) Grow();
+    size_t place = HashKey()(key) & (places_.size() - 1);
+    for (; places_[place] != kFree; place = (place + 1) & (places_.size() - 1)) {
+      if (keys_[places_[place]] == key) return {places_[place], false};
+    }
+    places_[place] = static_cast<uint32_t>(keys_.size());
+    keys_.push_back(key);
+    return {places_[place], true};
+  }
+
+ private:
+  static constexpr uint32_t kFree = 0xffffffffu;
+
+  void Grow() {
+    places_.assign(std::max<size_t>(64, 4 * places_.size()), kFree);
+    for (uint32_t i = 0; i < keys_.size(); ++i) {
+      size_t place = HashKey()(keys_[i]) & (places_.size() - 1);
+      while (places_[place] != kFree) place = (place + 1) & (places_.size() - 1);
+      places_[place] = i;
+    }
+  }
+
+  std::vector<VertexKey> keys_;   // by vertex
+  std::vector<uint32_t> places_;  // a power of two of them
+};
+
 // Collects vertices: OBJ numbers positions, normals and uvs apart, a mesh has them by position.
 class MeshBuilder {
  public:
@@ -70,21 +101,20 @@ class MeshBuilder {
   uint32_t Vertex(const ObjCorner& corner) {
     const VertexKey key{corner.position, with_normals_ ? corner.normal : 0,
                         with_uvs_ ? corner.uv : 0};
-    const auto [entry, is_new] =
-        vertices_.try_emplace(key, static_cast<uint32_t>(mesh_.positions.size()));
-    if (!is_new) return entry->second;
+    const auto [vertex, is_new] = vertices_.Find(key);
+    if (!is_new) return vertex;
     mesh_.positions.push_back(obj_.positions[corner.position]);
     if (!obj_.colors.empty()) mesh_.colors.push_back(obj_.colors[corner.position]);
     if (with_normals_) {
       mesh_.normals.push_back(obj_.normals[static_cast<size_t>(key.normal)].normalized());
     }
     if (with_uvs_) mesh_.uvs.push_back(obj_.uvs[static_cast<size_t>(key.uv)]);
-    return entry->second;
+    return vertex;
   }
 
   const ObjFile& obj_;
   bool with_normals_, with_uvs_;
-  std::unordered_map<VertexKey, uint32_t, HashKey> vertices_;
+  VertexTable vertices_;
   std::vector<Vec3d> face_;      // of one face: its corners,
   std::vector<uint32_t> local_;  // and its triangles as indices into them
   Mesh mesh_;
@@ -107,8 +137,8 @@ void ForEachFace(const ObjFile& obj, const Use& use) {
 
 }  // namespace
 
-Mesh ReadObj(const std::filesystem::path& path) {
-  const ObjFile obj = ReadObjFile(path, {});
+Mesh ReadObj(const std::filesystem::path& path, int threads) {
+  const ObjFile obj = ReadObjFile(path, threads, {});
   MeshBuilder builder(obj, ObjContents(obj));
   ForEachFace(obj, [&](uint32_t, const ObjCorner* corners, size_t count) {
     builder.AddFace(corners, count);
@@ -124,7 +154,7 @@ Scene ReadObjScene(const std::filesystem::path& path, const LoadOptions& options
   const auto warn = [&](const std::string& text) {
     if (options.on_warning) options.on_warning(file + ": " + text);
   };
-  const ObjFile obj = ReadObjFile(path, warn);
+  const ObjFile obj = ReadObjFile(path, options.threads, warn);
   Scene scene;
   const std::vector<MaterialId> materials = AddObjMaterials(path, obj, options, &scene);
   const ObjContents contents(obj);
@@ -138,7 +168,7 @@ Scene ReadObjScene(const std::filesystem::path& path, const LoadOptions& options
     mesh.name = path.stem().string();
     mesh.material = {material};
     if (mesh.normals.empty()) {
-      ComputeNormals(NormalWeighting::kAngle, kModelCreaseAngleDeg, &mesh);
+      ComputeNormals(NormalWeighting::kAngle, kModelCreaseAngleDeg, &mesh, options.threads);
     }
   }
   DropMeshesWithoutArea(&scene);

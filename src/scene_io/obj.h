@@ -14,7 +14,7 @@ namespace nacre {
 // those of length 0; otherwise there are none. The same goes for texture coordinates. Groups,
 // lines, points, colours and materials (MTL) are not read. Throws Error (kBadInput) as ReadObjFile
 // (obj_file.h) does.
-Mesh ReadObj(const std::filesystem::path& path);
+Mesh ReadObj(const std::filesystem::path& path, int threads = 0);
 
 // The same faces as a scene of their own, with the materials of the libraries (MTL) that the file
 // names and the colours of its vertices; faces without normals get averages, parted where they meet

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
@@ -14,6 +16,8 @@
 
 #include "base/error.h"
 #include "base/excerpt.h"
+#include "base/float_mode.h"
+#include "base/parallel.h"
 #include "color/transfer.h"
 #include "scene_io/scene_budget.h"
 #include "scene_io/text_file.h"
@@ -37,34 +41,117 @@ bool IsOneOf(const auto& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-class ObjReader {
- public:
-  ObjReader(const std::filesystem::path& path, const std::function<void(const std::string&)>& warn)
-      : file_(path.string()), warn_(warn) {}
+// What a text counts up to, element by element: a face may name those before it by negative
+// numbers.
+struct ObjCounts {
+  size_t lines = 0, positions = 0, normals = 0, uvs = 0;
 
-  ObjFile Read(std::string_view text) {
-    budget_ = SceneBudget(TrianglesOfBytes(text.size()));
-    TextLines lines(WithoutByteOrderMark(text, file_));
-    for (std::string_view line; lines.Next(&line);) {
-      number_ = lines.number();
-      ReadStatement(line);
+  void Add(const ObjCounts& other) {
+    lines += other.lines;
+    positions += other.positions;
+    normals += other.normals;
+    uvs += other.uvs;
+  }
+};
+
+ObjCounts CountElements(std::string_view text) {
+  ObjCounts counts;
+  TextLines lines(text);
+  for (std::string_view line; lines.Next(&line);) {
+    const std::string_view word = NextWord(&line);
+    if (word.empty() || word.size() > 2 || (word[0] != 'v' && word[0] != 'V')) continue;
+    if (word.size() == 1) {
+      ++counts.positions;
+    } else if (word[1] == 'n' || word[1] == 'N') {
+      ++counts.normals;
+    } else if (word[1] == 't' || word[1] == 'T') {
+      ++counts.uvs;
     }
-    if (obj_.corner_counts.empty()) {
-      throw Error(ExitCode::kBadInput, file_, "has no faces");
+  }
+  counts.lines = lines.lines();
+  return counts;
+}
+
+// A piece of the text, which begins and ends with whole statements, and what is found in it. Pieces
+// are read several at a time; what depends on those before it is found when they are joined.
+struct ObjPiece {
+  std::string_view text;
+  ObjCounts before;  // of all pieces before this one
+
+  std::vector<Vec3f> colors;  // as ObjFile::colors, but not decoded
+  float largest_color = 0;
+  std::vector<unsigned char> corner_counts;
+  std::vector<ObjCorner> corners;
+  uint64_t triangles = 0;
+  std::vector<ObjFile::Use> uses;  // faces and names counted from this piece's first; all of them
+  std::vector<std::string> material_names;
+  std::vector<std::string> libraries;
+  std::vector<std::string> warnings;  // each once
+  size_t unknown_warning = kNone;     // the place of the one about unknown statements
+  std::optional<Error> error;  // of its first statement that is wrong; what follows is not read
+  std::optional<Error> index_error;  // of the first face with an index beyond all elements
+
+  static constexpr size_t kNone = static_cast<size_t>(-1);
+};
+
+// Long enough that what is done once a piece does not count.
+constexpr size_t kPieceBytes = size_t{1} << 20;
+
+// Cuts after lines that do not go on in the next one. A text without LF is one piece.
+std::vector<ObjPiece> CutIntoPieces(std::string_view text) {
+  std::vector<ObjPiece> pieces;
+  const auto goes_on = [&](size_t line_end) {
+    if (line_end > 0 && text[line_end - 1] == '\r') --line_end;
+    return line_end > 0 && text[line_end - 1] == '\\';
+  };
+  for (size_t begin = 0; begin < text.size();) {
+    size_t end = text.find('\n', begin + kPieceBytes);
+    while (end != std::string_view::npos && goes_on(end)) end = text.find('\n', end + 1);
+    end = end == std::string_view::npos ? text.size() : end + 1;
+    pieces.emplace_back().text = text.substr(begin, end - begin);
+    begin = end;
+  }
+  return pieces;
+}
+
+class PieceReader {
+ public:
+  // Positions, normals and uvs go to their places in `obj`, which has room for all of the file's;
+  // `most_triangles` are more than the file may have.
+  PieceReader(const std::string& file, uint64_t most_triangles, ObjFile* obj, ObjPiece* piece)
+      : file_(file),
+        most_triangles_(most_triangles),
+        obj_(*obj),
+        piece_(*piece),
+        positions_(piece->before.positions),
+        normals_(piece->before.normals),
+        uvs_(piece->before.uvs) {}
+
+  void Read() {
+    TextLines lines(piece_.text);
+    try {
+      for (std::string_view line; lines.Next(&line);) {
+        number_ = piece_.before.lines + lines.number();
+        ReadStatement(line);
+        if (piece_.triangles >= most_triangles_) return;  // joining the pieces refuses it
+      }
+    } catch (const Error& error) {
+      piece_.error = error;
     }
-    CheckIndices();
-    FinishColors();
-    return std::move(obj_);
   }
 
  private:
-  [[noreturn]] void Refuse(size_t line, std::string what, std::string hint = {}) const {
-    throw Error(ExitCode::kBadInput, fmt::format("{}:{}", file_, line), std::move(what),
-                std::move(hint));
+  Error ErrorHere(std::string what, std::string hint = {}) const {
+    return Error(ExitCode::kBadInput, fmt::format("{}:{}", file_, number_), std::move(what),
+                 std::move(hint));
+  }
+
+  [[noreturn]] void Refuse(std::string what, std::string hint = {}) const {
+    throw ErrorHere(std::move(what), std::move(hint));
   }
 
   void WarnOnce(const std::string& text) {
-    if (warn_ && warned_.insert(text).second) warn_(text);
+    if (warned_.insert(text).second) piece_.warnings.push_back(text);
   }
 
   void ReadStatement(std::string_view line) {
@@ -77,18 +164,18 @@ class ObjReader {
     } else if (keyword_ == "vn") {
       std::array<double, 3> n{};
       ReadNumbers(line, 3, n);
-      obj_.normals.emplace_back(n[0], n[1], n[2]);
+      obj_.normals[normals_++] = Vec3d(n[0], n[1], n[2]);
     } else if (keyword_ == "vt") {
       std::array<double, 2> uv{};
       ReadNumbers(line, 1, uv);
-      obj_.uvs.emplace_back(uv[0], uv[1]);
+      obj_.uvs[uvs_++] = Vec2d(uv[0], uv[1]);
     } else if (keyword_ == "f" || keyword_ == "fo") {
       ReadFace(line);
     } else if (keyword_ == "usemtl") {
       UseMaterial(std::string(Trimmed(line)));
     } else if (keyword_ == "mtllib") {
       const auto [name, is_new] = libraries_.emplace(Trimmed(line));
-      if (is_new) obj_.libraries.push_back(*name);
+      if (is_new) piece_.libraries.push_back(*name);
     } else if (keyword_ == "l") {
       WarnOnce("lines are not shown");
     } else if (keyword_ == "p") {
@@ -97,9 +184,10 @@ class ObjReader {
       WarnOnce("other files and commands are not called");
     } else if (IsOneOf(kFreeForm, keyword_)) {
       WarnOnce("free-form curves and surfaces are not shown");
-    } else if (!IsOneOf(kIgnored, keyword_) && !std::exchange(warned_of_unknown_, true)) {
-      WarnOnce(fmt::format("statements that are not known are left out, the first is \"{}\"",
-                           Excerpt(written)));
+    } else if (!IsOneOf(kIgnored, keyword_) && piece_.unknown_warning == ObjPiece::kNone) {
+      piece_.unknown_warning = piece_.warnings.size();
+      piece_.warnings.push_back(fmt::format(
+          "statements that are not known are left out, the first is \"{}\"", Excerpt(written)));
     }
   }
 
@@ -112,7 +200,7 @@ class ObjReader {
       const std::optional<double> number = ParseNumber(word);
       if (!number) {
         constexpr std::array<std::string_view, 4> kNames = {"no", "one", "two", "three"};
-        Refuse(number_, fmt::format("\"{}\" is not a finite number", Excerpt(word)),
+        Refuse(fmt::format("\"{}\" is not a finite number", Excerpt(word)),
                fmt::format("\"{}\" is followed by {}", keyword_, kNames[fewest]));
       }
       numbers[i] = *number;
@@ -124,17 +212,18 @@ class ObjReader {
   void ReadPosition(std::string_view line) {
     std::array<double, 6> numbers{};
     const size_t count = ReadNumbers(line, 3, numbers);
-    obj_.positions.emplace_back(numbers[0], numbers[1], numbers[2]);
+    obj_.positions[positions_++] = Vec3d(numbers[0], numbers[1], numbers[2]);
     if (count < 6) {
-      if (!obj_.colors.empty()) obj_.colors.emplace_back(1);
+      if (!piece_.colors.empty()) piece_.colors.emplace_back(1);
       return;
     }
-    obj_.colors.resize(obj_.positions.size(), Vec3f(1));  // vertices before the first one are white
-    Vec3f& color = obj_.colors.back();
+    // Vertices before the first one are white.
+    piece_.colors.resize(positions_ - piece_.before.positions, Vec3f(1));
+    Vec3f& color = piece_.colors.back();
     for (int c = 0; c < 3; ++c) {
       const auto value = static_cast<float>(numbers[static_cast<size_t>(3 + c)]);
       color[c] = value > 0 ? value : 0;
-      largest_color_ = std::max(largest_color_, color[c]);
+      piece_.largest_color = std::max(piece_.largest_color, color[c]);
     }
   }
 
@@ -148,7 +237,7 @@ class ObjReader {
     int64_t index = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
     if (error != std::errc() || end != digits.data() + digits.size()) {
-      Refuse(number_, fmt::format("\"{}\" is no index", Excerpt(digits)),
+      Refuse(fmt::format("\"{}\" is no index", Excerpt(digits)),
              "a corner is a position, or position/uv/normal, counted from 1");
     }
     return index;
@@ -156,15 +245,21 @@ class ObjReader {
 
   // The zero-based element that an index refers to: positive indices count from the first element,
   // negative ones backwards from the latest; 0 gives -1, none. Elements may be defined after the
-  // face, so CheckIndices tests the upper bound at the end of the file.
+  // face, so those beyond all of the file's are refused only where all else is right.
   int64_t PlaceOf(int64_t index, size_t so_far, std::string_view what) const {
     if (index > 0) return std::min<int64_t>(index - 1, 0x7fffffff);
     const auto count = static_cast<int64_t>(so_far);
     if (index < -count) {
-      Refuse(number_, fmt::format("a face has {} {}", what, index),
+      Refuse(fmt::format("a face has {} {}", what, index),
              fmt::format("there are {} before it", count));
     }
     return index == 0 ? -1 : count + index;
+  }
+
+  void CheckPlace(int64_t place, size_t count, std::string_view what) {
+    if (place < static_cast<int64_t>(count) || piece_.index_error) return;
+    piece_.index_error = ErrorHere(fmt::format("a face has {} {}", what, place + 1),
+                                   fmt::format("there are {}", count));
   }
 
   void ReadFace(std::string_view line) {
@@ -172,59 +267,155 @@ class ObjReader {
     for (std::string_view word = NextWord(&line); !word.empty() && !word.starts_with('#');
          word = NextWord(&line)) {
       if (++count > kMaxObjCorners) {
-        Refuse(number_, fmt::format("a face has more than {} corners", kMaxObjCorners),
+        Refuse(fmt::format("a face has more than {} corners", kMaxObjCorners),
                "cut it into triangles before");
       }
-      const int64_t position = PlaceOf(NextIndex(&word), obj_.positions.size(), "position");
-      if (position < 0) Refuse(number_, "a face has position 0", "indices are counted from 1");
+      const int64_t position = PlaceOf(NextIndex(&word), positions_, "position");
+      if (position < 0) Refuse("a face has position 0", "indices are counted from 1");
       const bool has_uv = !word.empty() && word.front() != '/';  // 1//3 has none, nor has 1//
-      const int64_t uv = NextIndex(&word);
+      const int64_t uv_index = NextIndex(&word);
       const bool has_normal = !word.empty();
-      const int64_t normal = NextIndex(&word);
-      if (has_normal && normal == 0) {
+      const int64_t normal_index = NextIndex(&word);
+      if (has_normal && normal_index == 0) {
         WarnOnce("normals of index 0 are taken for none: indices are counted from 1");
       }
-      if (has_uv && uv == 0) {
+      if (has_uv && uv_index == 0) {
         WarnOnce("texture coordinates of index 0 are taken for none: indices are counted from 1");
       }
-      obj_.corners.push_back(
-          {static_cast<uint32_t>(position),
-           static_cast<int32_t>(PlaceOf(uv, obj_.uvs.size(), "uv")),
-           static_cast<int32_t>(PlaceOf(normal, obj_.normals.size(), "normal"))});
+      const int64_t uv = PlaceOf(uv_index, uvs_, "uv");
+      const int64_t normal = PlaceOf(normal_index, normals_, "normal");
+      CheckPlace(position, obj_.positions.size(), "position");
+      CheckPlace(normal, obj_.normals.size(), "normal");
+      CheckPlace(uv, obj_.uvs.size(), "uv");
+      piece_.corners.push_back({static_cast<uint32_t>(position), static_cast<int32_t>(uv),
+                                static_cast<int32_t>(normal)});
     }
-    if (count < 3) Refuse(number_, "a face has fewer than three corners");
-    SpendTriangles(count - 2, file_, &budget_, kTooManyForItsSize);
-    obj_.corner_counts.push_back(static_cast<unsigned char>(count));
-    face_lines_.push_back(static_cast<uint32_t>(number_));
+    if (count < 3) Refuse("a face has fewer than three corners");
+    piece_.triangles += count - 2;
+    piece_.corner_counts.push_back(static_cast<unsigned char>(count));
   }
 
   void UseMaterial(std::string name) {
-    const auto next = static_cast<uint32_t>(obj_.material_names.size());
+    const auto next = static_cast<uint32_t>(piece_.material_names.size());
     const auto [known, is_new] = materials_.try_emplace(std::move(name), next);
-    if (is_new) obj_.material_names.push_back(known->first);
-    const size_t first_face = obj_.corner_counts.size();
-    if (!obj_.uses.empty() && obj_.uses.back().first_face == first_face) obj_.uses.pop_back();
-    obj_.uses.push_back({first_face, known->second});
+    if (is_new) piece_.material_names.push_back(known->first);
+    piece_.uses.push_back({piece_.corner_counts.size(), known->second});
   }
 
-  void CheckIndices() const {
-    const auto check = [&](size_t face, int64_t place, size_t count, std::string_view what) {
-      if (place < static_cast<int64_t>(count)) return;
-      Refuse(face_lines_[face], fmt::format("a face has {} {}", what, place + 1),
-             fmt::format("there are {}", count));
-    };
-    const ObjCorner* corner = obj_.corners.data();
-    for (size_t face = 0; face < obj_.corner_counts.size(); ++face) {
-      for (size_t i = 0; i < obj_.corner_counts[face]; ++i, ++corner) {
-        check(face, corner->position, obj_.positions.size(), "position");
-        check(face, corner->normal, obj_.normals.size(), "normal");
-        check(face, corner->uv, obj_.uvs.size(), "uv");
-      }
+  const std::string& file_;
+  const uint64_t most_triangles_;
+  ObjFile& obj_;
+  ObjPiece& piece_;
+  size_t positions_, normals_, uvs_;  // of the file, read so far
+  size_t number_ = 0;                 // of the line that is read,
+  std::string keyword_;               // and its first word, in lower case
+  std::unordered_map<std::string, uint32_t> materials_;
+  std::unordered_set<std::string> warned_, libraries_;
+};
+
+// Reads all pieces, up to the first one with an error.
+void ReadPieces(const std::string& file, uint64_t most_triangles, int threads,
+                std::vector<ObjPiece>* pieces, ObjFile* obj) {
+  std::vector<ObjCounts> counts(pieces->size());
+  ParallelFor(pieces->size(), threads,
+              [&](size_t i) { counts[i] = CountElements((*pieces)[i].text); });
+  ObjCounts all;
+  for (size_t i = 0; i < pieces->size(); ++i) {
+    (*pieces)[i].before = all;
+    all.Add(counts[i]);
+  }
+  obj->positions.resize(all.positions);
+  obj->normals.resize(all.normals);
+  obj->uvs.resize(all.uvs);
+  std::atomic<size_t> first_wrong = pieces->size();
+  ParallelFor(pieces->size(), threads, [&](size_t i) {
+    if (i > first_wrong) return;
+    const DefaultFloatMode mode;  // colours may be denormal
+    ObjPiece& piece = (*pieces)[i];
+    PieceReader(file, most_triangles, obj, &piece).Read();
+    if (!piece.error && piece.triangles < most_triangles) return;
+    size_t first = first_wrong;
+    while (i < first && !first_wrong.compare_exchange_weak(first, i)) {
+    }
+  });
+}
+
+// Puts the pieces together, in their order, and throws the error that the file's first wrong
+// statement has.
+class PieceJoiner {
+ public:
+  PieceJoiner(const std::string& file, const std::function<void(const std::string&)>& warn,
+              uint64_t budget, ObjFile* obj)
+      : file_(file), warn_(warn), budget_(budget), obj_(*obj) {}
+
+  // Frees what it has taken.
+  void Join(std::vector<ObjPiece> pieces) {
+    size_t faces = 0, corners = 0;
+    float largest_color = 0;
+    std::optional<Error> index_error;
+    for (const ObjPiece& piece : pieces) {
+      Warn(piece);
+      SpendTriangles(piece.triangles, file_, &budget_, kTooManyForItsSize);
+      if (piece.error) throw Error(*piece.error);
+      if (!index_error) index_error = piece.index_error;
+      faces += piece.corner_counts.size();
+      corners += piece.corners.size();
+      largest_color = std::max(largest_color, piece.largest_color);
+    }
+    if (faces == 0) throw Error(ExitCode::kBadInput, file_, "has no faces");
+    if (index_error) throw Error(*index_error);
+    obj_.corner_counts.reserve(faces);
+    obj_.corners.reserve(corners);
+    for (ObjPiece& piece : pieces) {
+      const ObjPiece taken = std::move(piece);
+      AddNames(taken);
+      AddColors(taken);
+      obj_.corner_counts.insert(obj_.corner_counts.end(), taken.corner_counts.begin(),
+                                taken.corner_counts.end());
+      obj_.corners.insert(obj_.corners.end(), taken.corners.begin(), taken.corners.end());
+    }
+    if (!obj_.colors.empty()) obj_.colors.resize(obj_.positions.size(), Vec3f(1));
+    DecodeColors(largest_color);
+  }
+
+ private:
+  void Warn(const ObjPiece& piece) {
+    if (!warn_) return;
+    for (size_t i = 0; i < piece.warnings.size(); ++i) {
+      const std::string& text = piece.warnings[i];
+      const bool unknown = i == piece.unknown_warning;
+      if (unknown && std::exchange(warned_of_unknown_, true)) continue;
+      if (warned_.insert(text).second) warn_(text);
     }
   }
 
-  void FinishColors() {
-    const double scale = largest_color_ > 1 ? 1.0 / 255 : 1;
+  void AddNames(const ObjPiece& piece) {
+    for (const std::string& library : piece.libraries) {
+      if (known_libraries_.insert(library).second) obj_.libraries.push_back(library);
+    }
+    std::vector<uint32_t> names;  // the file's numbers of the piece's
+    for (const std::string& name : piece.material_names) {
+      const auto next = static_cast<uint32_t>(obj_.material_names.size());
+      const auto [known, is_new] = materials_.try_emplace(name, next);
+      if (is_new) obj_.material_names.push_back(name);
+      names.push_back(known->second);
+    }
+    for (const ObjFile::Use& use : piece.uses) {
+      const size_t first_face = obj_.corner_counts.size() + use.first_face;
+      if (!obj_.uses.empty() && obj_.uses.back().first_face == first_face) obj_.uses.pop_back();
+      obj_.uses.push_back({first_face, names[use.name]});
+    }
+  }
+
+  // Vertices before the first one with a colour are white, and so are others without.
+  void AddColors(const ObjPiece& piece) {
+    if (piece.colors.empty()) return;
+    obj_.colors.resize(piece.before.positions, Vec3f(1));
+    obj_.colors.insert(obj_.colors.end(), piece.colors.begin(), piece.colors.end());
+  }
+
+  void DecodeColors(float largest) {
+    const double scale = largest > 1 ? 1.0 / 255 : 1;
     for (Vec3f& color : obj_.colors) {
       for (int c = 0; c < 3; ++c) {
         color[c] = static_cast<float>(SrgbEotf(std::min(scale * double{color[c]}, 1.0)));
@@ -232,24 +423,28 @@ class ObjReader {
     }
   }
 
-  const std::string file_;
+  const std::string& file_;
   const std::function<void(const std::string&)>& warn_;
-  ObjFile obj_;
-  size_t number_ = 0;    // of the line that is read,
-  std::string keyword_;  // and its first word, in lower case
-  float largest_color_ = 0;
-  SceneBudget budget_{0};
+  SceneBudget budget_;
+  ObjFile& obj_;
   bool warned_of_unknown_ = false;
-  std::vector<uint32_t> face_lines_;
   std::unordered_map<std::string, uint32_t> materials_;
-  std::unordered_set<std::string> warned_, libraries_;
+  std::unordered_set<std::string> warned_, known_libraries_;
 };
 
 }  // namespace
 
-ObjFile ReadObjFile(const std::filesystem::path& path,
+ObjFile ReadObjFile(const std::filesystem::path& path, int threads,
                     const std::function<void(const std::string&)>& warn) {
-  return ObjReader(path, warn).Read(ReadTextFile(path, kMaxObjBytes));
+  const std::string file = path.string();
+  const std::string bytes = ReadTextFile(path, kMaxObjBytes);
+  const std::string_view text = WithoutByteOrderMark(bytes, file);
+  const uint64_t budget = TrianglesOfBytes(bytes.size());
+  std::vector<ObjPiece> pieces = CutIntoPieces(text);
+  ObjFile obj;
+  ReadPieces(file, budget + 1, threads, &pieces, &obj);
+  PieceJoiner(file, warn, budget, &obj).Join(std::move(pieces));
+  return obj;
 }
 
 }  // namespace nacre

@@ -42,9 +42,10 @@ struct ObjFile {
 // colours with a number above 1 are in [0, 255]. An index 0 of a uv or a normal, which some
 // exporters write, stands for none. What is not read (lines, points, free-form curves and surfaces)
 // is reported to `warn`, each kind once, unless that is empty.
+// It is read in pieces, on up to `threads` threads (0: as many as the machine has).
 // Throws Error (kBadInput) with the file and the line for numbers that are none or not finite,
 // indices out of range, faces of fewer than 3 or more than 255 corners, and files without faces.
-ObjFile ReadObjFile(const std::filesystem::path& path,
+ObjFile ReadObjFile(const std::filesystem::path& path, int threads,
                     const std::function<void(const std::string&)>& warn);
 
 }  // namespace nacre

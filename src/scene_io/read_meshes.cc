@@ -82,7 +82,8 @@ void ReadInterpolation(JsonObject* shape, Mesh* mesh) {
   shape->Boolean("smooth_terminator", &mesh->smooth_terminator);
 }
 
-void PrepareNormals(const JsonValue& file, const NormalSettings& settings, Mesh* mesh) {
+void PrepareNormals(const JsonValue& file, const NormalSettings& settings, int threads,
+                    Mesh* mesh) {
   const bool keep = settings.from_file && !mesh->normals.empty();
   if (settings.crease_angle_deg && (settings.none || keep)) {
     file.AddFault("no normals are computed that \"crease_angle_deg\" could part",
@@ -92,7 +93,7 @@ void PrepareNormals(const JsonValue& file, const NormalSettings& settings, Mesh*
   if (settings.none) {
     mesh->normals.clear();
   } else if (!keep) {
-    ComputeNormals(settings.weighting, settings.crease_angle_deg.value_or(180), mesh);
+    ComputeNormals(settings.weighting, settings.crease_angle_deg.value_or(180), mesh, threads);
   }
 }
 
@@ -122,7 +123,7 @@ std::optional<Mesh> ReadMeshFile(const JsonValue& value, const Transform& transf
       throw Error(ExitCode::kBadInput, {}, "a glTF file is a scene of its own",
                   "render it alone, or save its mesh as OBJ or PLY");
     }
-    Mesh mesh = HasExtension(file, ".ply") ? ReadPly(path) : ReadObj(path);
+    Mesh mesh = HasExtension(file, ".ply") ? ReadPly(path) : ReadObj(path, context.threads);
     context.budget->Spend(mesh.triangles.size() / 3);
     ApplyTransform(transform, &mesh);
     return mesh;
@@ -141,7 +142,7 @@ void LoadMesh(const JsonValue& value, const Transform& transform, const NormalSe
   mesh->material = settings.material;
   mesh->interpolation = settings.interpolation;
   mesh->smooth_terminator = settings.smooth_terminator;
-  PrepareNormals(value, normals, &*mesh);
+  PrepareNormals(value, normals, context->threads, &*mesh);
   if (displacement) DisplaceMesh(value, *displacement, *context->scene, &*mesh);
   context->scene->meshes.push_back(std::move(*mesh));
 }

@@ -25,6 +25,8 @@ class TextLines {
   bool Next(std::string_view* line);
   // The number, from 1 on, of the file's line in which it began.
   size_t number() const { return number_; }
+  // How many of the file's lines are read.
+  size_t lines() const { return lines_; }
 
  private:
   std::string_view NextInFile();

@@ -39,6 +39,7 @@ struct Subject {
   std::vector<Change> changes;
 };
 
+// Those that take long to read and to render are the last three.
 const std::vector<Subject> kSubjects = {
     {"first_scene.json",
      {{"/materials/red/roughness", {"0", "0.05", "0.4"}},
@@ -48,13 +49,13 @@ const std::vector<Subject> kSubjects = {
     {"material_grid.json",
      {{"/shapes/0/material/base_color", {"[0.2, 0.3, 0.9]", "0.5"}},
       {"/shapes/0/rows/count", {"2", "5"}}}},
+    {"skies.json",
+     {{"/lights/sky/rotate_deg", {"0", "30"}}, {"/materials/metal/metallic", {"0", "1"}}}},
     {"textures.json",
      {{"/materials/knot/roughness", {"0.3", "0.9"}},
       {"/materials/knot/normal_map", {"\"tiles_normal\"", "null"}},
       {"/textures/boxed/scale", {"5", "1"}},
       {"/shapes/3/transform/scale", {"0.5", "0.9"}}}},
-    {"skies.json",
-     {{"/lights/sky/rotate_deg", {"0", "30"}}, {"/materials/metal/metallic", {"0", "1"}}}},
     {"mesh_lights.json",
      {{"/lights/knot/radiance", {"3", "9"}},
       {"/lights/knot/visible", {"true", "false"}},
@@ -100,8 +101,10 @@ TEST_CASE("sessions have the bits of fresh processes, in hundreds of sequences o
   settings.height = 24;
   settings.layers = {"all"};
   std::minstd_rand random(5);
-  for (int sequence = 0; sequence < 240; ++sequence) {
-    const Subject& subject = kSubjects[static_cast<size_t>(sequence) % kSubjects.size()];
+  int refused = 0;
+  for (size_t sequence = 0; sequence < 216; ++sequence) {
+    const size_t turn = sequence % 4;
+    const Subject& subject = kSubjects[turn < 3 ? turn : 3 + sequence / 4 % 3];
     const std::string path = NACRE_SOURCE_DIR "/scenes/" + std::string(subject.scene);
     std::vector<Change> changes = subject.changes;
     changes.insert(changes.end(), kOfEveryScene.begin(), kOfEveryScene.end());
@@ -110,16 +113,23 @@ TEST_CASE("sessions have the bits of fresh processes, in hundreds of sequences o
     const size_t count = 1 + random() % 6;
     for (size_t i = 0; i < count; ++i) {
       const Change& change = changes[random() % changes.size()];
-      made.emplace_back(change.pointer, change.values[random() % change.values.size()]);
-      session.Set(made.back().first, nacre::Value::Json(made.back().second));
+      const char* const value = change.values[random() % change.values.size()];
+      try {
+        session.Set(change.pointer, nacre::Value::Json(value));
+        made.emplace_back(change.pointer, value);
+      } catch (const nacre::Error&) {
+        ++refused;  // the material has another model by now; the scene stays as it was
+      }
       // What was made for pictures on the way must not show in the last one.
-      if (random() % 2 == 0) session.Render(settings);
+      if (random() % 3 == 0) session.Render(settings);
     }
     CAPTURE(subject.scene, sequence);
     const nacre::Image last = session.Render(settings);
     CheckEqual(last, RenderByProcess(path, made, output));
   }
   std::filesystem::remove(output);
+  CHECK(refused > 0);
+  CHECK(refused < 60);
 }
 
 }  // namespace

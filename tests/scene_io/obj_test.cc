@@ -2,6 +2,7 @@
 // OBJ files, good and bad.
 #include "scene_io/obj.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -14,6 +15,7 @@
 #include "catch.h"
 #include "messages.h"
 #include "scene/mesh.h"
+#include "scene_io/obj_file.h"
 
 namespace nacre {
 namespace {
@@ -57,6 +59,69 @@ TEST_CASE("a triangle") {
   CHECK(mesh.positions == std::vector<Vec3d>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   CHECK(mesh.triangles == std::vector<uint32_t>{0, 1, 2});
   CHECK(mesh.normals.empty());
+}
+
+// Everything that ReadObjFile says of a text: what it holds, or what is wrong, and its warnings.
+std::string AllOf(const std::string& text) {
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("nacre_all_" + std::to_string(getpid()) + ".obj");
+  std::ofstream(path, std::ios::binary) << text;
+  std::string all;
+  const auto warn = [&](const std::string& warning) { all += warning + "\n"; };
+  try {
+    const ObjFile obj = ReadObjFile(path, 3, warn);
+    for (const Vec3d& p : obj.positions) all += fmt::format("v {} {} {}\n", p.x, p.y, p.z);
+    for (const Vec3f& c : obj.colors) all += fmt::format("color {} {} {}\n", c.x, c.y, c.z);
+    for (const Vec3d& n : obj.normals) all += fmt::format("vn {} {} {}\n", n.x, n.y, n.z);
+    for (const Vec2d& uv : obj.uvs) all += fmt::format("vt {} {}\n", uv.x, uv.y);
+    for (const unsigned char count : obj.corner_counts) all += fmt::format("face {}\n", count);
+    for (const ObjCorner& c : obj.corners) {
+      all += fmt::format("corner {} {} {}\n", c.position, c.uv, c.normal);
+    }
+    for (const ObjFile::Use& use : obj.uses) {
+      all += fmt::format("use {} {}\n", use.first_face, use.name);
+    }
+    for (const std::string& name : obj.material_names) all += "material " + name + "\n";
+    for (const std::string& name : obj.libraries) all += "library " + name + "\n";
+  } catch (const Error& error) {
+    all += error.what();
+  }
+  std::filesystem::remove(path);
+  return all;
+}
+
+// With such blanks in the place of @, statements are in different pieces, which are read at the same time.
+const std::string kPadding(size_t{5} << 18, ' ');
+
+void CheckPieces(std::string text) {
+  std::string padded = text;
+  for (size_t at = padded.find('@'); at != std::string::npos;
+       at = padded.find('@', at + kPadding.size())) {
+    padded.replace(at, 1, kPadding);
+  }
+  std::replace(text.begin(), text.end(), '@', ' ');
+  INFO(text);
+  CHECK(AllOf(padded) == AllOf(text));
+}
+
+TEST_CASE("a file in pieces is read as a whole is") {
+  const std::string faces = "f -1 -2 -3\nf 1/1/1 2/2/-1 3/-1/1 4//\n";
+  const std::string parts =
+      "usemtl early\nmtllib a b\nv 0 0 0\nv 1 0 0\n#@\nv 0 1 0\nvn 0 0 1\nvt 0 0\nusemtl red\nl 1 "
+      "2\n" +
+      faces + "usemtl blue\n#@\nusemtl red\nmtllib a b\nwhat 1\nv 1 1 0 1 .5 0\nvt 1 1\n" + faces +
+      "#@\\\n#@\r\nv 2 2 2\np 1\nother 1\nl 1\nf \\\n 1 \\\n 2 \\\n 5\n#@\nusemtl new\n" + faces;
+  CheckPieces(parts);
+  CheckPieces(parts + "#@\nv 1 1 1 255 9 0\n");
+  // Of two mistakes the first is told, but for indices beyond all elements: those are told last.
+  CheckPieces(parts + "#@\nf 1 2 9\n#@\nf 1 2 8\n");
+  CheckPieces(parts + "#@\nf 1 2 9\n#@\nv 1 2\n#@\nv 1\n");
+  CheckPieces(parts + "#@\nf -1 -2 -6\n#@\nf -1 -2 -5\n");
+  CheckPieces("v 0 0 0\n#@\nvn 0 0 1\n#@");
+  // A line that goes on is not cut.
+  CheckPieces(kTriangle + "f 1 @\\\n 2 3\n");
+  CheckPieces(kTriangle + "f 1 2 3 #@\\\nf 1 2 4\n");
+  CheckPieces(kTriangle + "f 1 \\\r\n\\\r\n@\\\r\n2 3\r\n");
 }
 
 TEST_CASE("texture coordinates part vertices, and are read if every corner has them") {

@@ -65,6 +65,12 @@ TEST_CASE("closest hits are brute force's from an orthographic camera") {
   CheckClosest(scene, eye, rays);
 }
 
+// Large trees trace such rays one by one, from the inside of a packet that has room for more.
+TEST_CASE("rays in all directions in a large tree") {
+  Random random(21);
+  CheckClosest(RandomSpheres(&random, 1500), Vec3d(0), RaysAllAround(&random, 1003));
+}
+
 TEST_CASE("far spheres, and tiny and huge ones in one scene") {
   Random random(13);
   Scene scene;

@@ -47,6 +47,18 @@ TEST_CASE("occlusion is brute force's") {
   }
 }
 
+// Large trees trace such rays one by one.
+TEST_CASE("occlusion is brute force's in all directions in a large tree") {
+  Random random(32);
+  const Scene scene = RandomSpheres(&random, 1500);
+  const auto surfaces = TraceSurfaces(Intersector(scene, Vec3d(0)), CameraRays(&random, 1500));
+  std::vector<ShadowRay> rays;
+  for (const Surface& surface : surfaces) {
+    rays.push_back({{surface.position, random.Direction()}, kInfinity, surface.primitive});
+  }
+  CheckOccluded(scene, rays);
+}
+
 TEST_CASE("a convex body does not shadow itself") {
   Random random(32);
   for (const double radius : {1e-6, 1.0, 1e7}) {
