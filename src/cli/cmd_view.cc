@@ -13,6 +13,7 @@
 #include <CLI/CLI.hpp>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -20,6 +21,7 @@
 
 #include "base/error.h"
 #include "base/path.h"
+#include "base/printable.h"
 #include "base/version.h"
 #include "cli/commands.h"
 #include "cli/given_options.h"
@@ -30,7 +32,6 @@
 #include "cli/report_page.h"
 #include "cli/report_sections.h"
 #include "report/child_process.h"
-#include "report/page_parts.h"
 #include "scene_io/kept_files.h"
 #include "view/page.h"
 #include "view/server.h"
@@ -149,8 +150,8 @@ ServerOptions MakeServerOptions(const ViewArguments& arguments) {
   return options;
 }
 
-// Images are shown by the report's page, with no scene behind it. Files that have changed are in it
-// when it is loaded again.
+// Images are shown by the report's page, with no scene behind it. When files have changed it is
+// loaded again.
 void RunImages(const ViewArguments& arguments, const CLI::App& command, int* exit_code) {
   const RenderOptions& options = arguments.options;
   const std::set<std::string> of_scenes = {"--size", "--spp",     "--max-error",
@@ -169,11 +170,11 @@ void RunImages(const ViewArguments& arguments, const CLI::App& command, int* exi
   const auto make = [&]() -> ServedPage {
     std::vector<ReportPicture> pictures;
     for (const std::string& path : arguments.inputs) pictures.push_back(ReadPicture(path, ""));
-    return {PicturesPage(pictures, shown), "'" + PolicySource(PageStyleSha256()) + "'",
-            "'" + PolicySource(PageScriptSha256()) + "'"};
+    return MakeImagesPage(PicturesPage(pictures, shown));
   };
   std::vector<std::string> before = keys();
   Server* running = nullptr;
+  std::string banner;
   int ticks = 0;
   const auto tick = [&] {
     ThrowIfStopped();
@@ -184,12 +185,18 @@ void RunImages(const ViewArguments& arguments, const CLI::App& command, int* exi
     before = std::move(now);
     try {
       running->Serve(make());
+      banner.clear();
+      running->Say(0, Json{{"reload", true}}.dump());
     } catch (const Error& error) {  // the pictures before stay
-      PrintError("{}\n", error.what());
+      banner = PrintableLines(error.what());
+      running->Say(0, Json{{"banner", banner}}.dump());
     }
   };
   Server server(MakeServerOptions(arguments), make(),
-                {[](ClientId) {}, [](ClientId) {},
+                {[&](ClientId id) {
+                   running->Say(id, Json{{"banner", banner}}.dump());
+                 },
+                 [](ClientId) {},
                  [](ClientId, std::string_view) {
                    throw Error(ExitCode::kUsage, "", "images have nothing to ask for");
                  },
@@ -278,6 +285,10 @@ void AddViewCommand(CLI::App* app, int* exit_code) {
   command->add_flag("--no-open", arguments->no_open, "Open no browser, only print the address");
   RenderOptions* const o = &arguments->options;
   AddDisplayOptions(command, &o->tonemap, &o->exposure);
+  command->get_option("--tonemap")
+      ->description(fmt::format("Tone operator that the page opens with: {}",
+                                fmt::join(ToneOperatorNames(), ", ")));
+  command->get_option("--exposure")->description("Exposure in stops that the page opens with");
   command->add_option("--size", o->size, "Width and height in pixels")->type_name("WxH");
   command
       ->add_option("--spp", o->spp,
@@ -296,6 +307,7 @@ void AddViewCommand(CLI::App* app, int* exit_code) {
           "--listen", arguments->server.address,
           "Address to listen on. Any but this machine's own (127.0.0.1, ::1) needs a proxy "
           "with TLS ahead of it")
+      ->type_name("ADDRESS")
       ->capture_default_str();
   command
       ->add_option("--origin", arguments->server.origin,

@@ -18,7 +18,8 @@ void AddSoa(const Soa3<float>& from, size_t begin, size_t end, Soa3<float>* to) 
 }
 
 void AddToLightLayer(const DirectBatch& batch, const ReflectedRadiance& of_light, int layer) {
-  AddSoa(of_light.sum, 0, batch.lit(), &batch.radiance.per_light[static_cast<size_t>(layer)]);
+  const Soa3<float>& shown = batch.plan.diffuse_light_layers ? of_light.diffuse : of_light.sum;
+  AddSoa(shown, 0, batch.lit(), &batch.radiance.per_light[static_cast<size_t>(layer)]);
 }
 
 void AddRadiance(const DirectBatch& batch, const ReflectedRadiance& of_light) {

@@ -189,6 +189,7 @@ DirectPlan PlanLights(const Scene& scene, const RenderSettings& settings,
   PlanPunctualLights(scene, layers, &plan, why);
   PlanSampledLights(scene, settings, layers, shown, &prepared->tables, &plan, why);
   PlanComponents(scene, layers, &plan, why);
+  plan.diffuse_light_layers = plan.components && settings.diffuse_light_layers;
   return plan;
 }
 

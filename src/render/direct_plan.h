@@ -85,6 +85,7 @@ struct DirectPlan {
   bool eye_outside = false;            // no camera ray starts inside a sphere
   double camera_extent = 0;            // ShadowRayBatch::camera_extent
   bool components = false;             // ReflectedRadiance::diffuse and specular are computed
+  bool diffuse_light_layers = false;   // with components: as RenderSettings says
   std::vector<std::vector<MeshRadiance>> mesh_radiance;  // by mesh; empty if no mesh has any
 };
 

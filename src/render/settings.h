@@ -54,6 +54,9 @@ struct RenderSettings {
   // Locate distant lights relative to hits on spheres from the hits' normals
   // (ShadingLight::from_spheres). false: always from the hits' positions, for tests.
   bool far_lights = true;
+  // The layer of a light shows its diffuse reflection alone, and not its specular one as well: with
+  // both components among the layers, for whoever explains a pixel.
+  bool diffuse_light_layers = false;
   // Take none of the shortcuts that change no bits: shadow rays are traced even where nothing can
   // occlude them, every sample gets a position and is summed. For tests that
   // compare shortcuts with the general path.

@@ -36,6 +36,47 @@ std::string ExistingPart(const Json& root, std::string pointer) {
 
 Json PointJson(const Vec3d& v) { return {v.x, v.y, v.z}; }
 
+Json ColorJson(const Rgb& color) {
+  if (color.x == color.y && color.y == color.z) return color.x;
+  return {color.x, color.y, color.z};
+}
+
+void AddAttenuation(const Attenuation& attenuation, Json* json) {
+  if (attenuation == Attenuation::InverseSquare()) return;
+  (*json)["attenuation"] = {{"constant", attenuation.constant},
+                            {"linear", attenuation.linear},
+                            {"quadratic", attenuation.quadratic}};
+}
+
+// A light as an object of a scene file; null for skies, and for lights with an extent.
+Json LightJson(const Light& light) {
+  Json json;
+  if (const auto* sun = std::get_if<DirectionalLight>(&light.kind)) {
+    json = {{"type", "directional"},
+            {"direction_of_travel", PointJson(sun->direction_of_travel)},
+            {"irradiance", ColorJson(sun->irradiance)}};
+  } else if (const auto* point = std::get_if<PointLight>(&light.kind)) {
+    json = {{"type", "point"},
+            {"position", PointJson(point->position)},
+            {"intensity", ColorJson(point->intensity)}};
+    AddAttenuation(point->attenuation, &json);
+  } else if (const auto* spot = std::get_if<SpotLight>(&light.kind)) {
+    json = {{"type", "spot"},
+            {"position", PointJson(spot->position)},
+            {"intensity", ColorJson(spot->intensity)},
+            {"direction_of_travel", PointJson(spot->direction_of_travel)},
+            {"cutoff_deg", spot->cutoff_deg},
+            {"inner_deg", spot->inner_deg},
+            {"exponent", spot->exponent},
+            {"edge", spot->edge == SpotEdge::kSquare ? "square" : "smoothstep"}};
+    AddAttenuation(spot->attenuation, &json);
+  } else {
+    return json;
+  }
+  if (!light.shadows) json["shadows"] = false;
+  return json;
+}
+
 bool IsImageFile(const std::filesystem::path& path) {
   constexpr std::array kExtensions = {".png", ".jpg",  ".jpeg", ".exr", ".hdr", ".tga",
                                       ".tif", ".tiff", ".ppm",  ".pgm", ".pfm"};
@@ -52,6 +93,7 @@ ViewDocument::ViewDocument(const std::filesystem::path& path, const LoadOptions&
       live_(path, options),
       original_(live_.root()) {
   if (scene().spheres.size() <= kMaxTreeSpheres) ListShapes();
+  if (is_model()) model_original_ = Tree();
 }
 
 ViewDocument::ViewDocument(const LoadOptions& options)
@@ -84,11 +126,32 @@ void ViewDocument::Put(const std::string& pointer, const Json& value) {
   prepared_.versions.Change(live_.Set(pointer, JsonText(value)));
 }
 
+// A model's light that is changed by a member becomes one of the file's own words first: there all
+// of it is said. Returns whether it did.
+bool ViewDocument::CompleteLight(const std::string& pointer) {
+  if (!is_model()) return false;
+  for (const Light& light : scene().lights) {
+    const std::string own = (Json::json_pointer("/lights") / light.name).to_string();
+    if (!pointer.starts_with(own + "/") || live_.root().contains(Json::json_pointer(own))) continue;
+    const Json json = LightJson(light);
+    if (json.is_null()) continue;
+    Put(own, json);
+    return true;
+  }
+  return false;
+}
+
 void ViewDocument::Set(const std::string& pointer, const Json& value, uint64_t gesture) {
   const std::string place = ExistingPart(live_.root(), pointer);
   if (place.empty() || place.starts_with("/shapes")) ListShapes();  // the history holds all of it
   Json before = live_.root().at(Json::json_pointer(place));
-  Put(pointer, value);
+  const bool completed = CompleteLight(pointer);
+  try {
+    Put(pointer, value);
+  } catch (const Error&) {
+    if (completed) Put(place, before);
+    throw;
+  }
   Json after = live_.root().at(Json::json_pointer(place));
   future_.clear();
   if (gesture != 0 && !past_.empty() && past_.back().gesture == gesture) {
@@ -133,7 +196,7 @@ bool ViewDocument::Reset() {
 Json ViewDocument::Tree() const {
   Json tree = live_.root();
   if (!lists_all_shapes()) tree.erase("shapes");
-  if (!tree.is_object() || !IsModelFile(path_)) return tree;
+  if (!tree.is_object() || !is_model()) return tree;
   Json& materials = tree["materials"];
   for (const Material& material : scene().materials) {
     if (ModelOf(material) == nullptr) continue;
@@ -141,7 +204,39 @@ Json ViewDocument::Tree() const {
     if (materials.contains(material.name)) whole.update(materials[material.name]);
     materials[material.name] = std::move(whole);
   }
+  tree["lights"] = ModelLights();
   return tree;
+}
+
+Json ViewDocument::OriginalTree() const {
+  if (!is_model()) return original_;
+  Json tree = model_original_;
+  tree["lights"] = OriginalModelLights();
+  return tree;
+}
+
+bool ViewDocument::is_model() const { return IsModelFile(path_); }
+
+// The scene's lights that `root` does not name.
+void ViewDocument::AddModelLights(Json* lights) const {
+  const Json own = live_.root().value("lights", Json::object());
+  for (const Light& light : scene().lights) {
+    if (own.contains(light.name)) continue;
+    Json whole = LightJson(light);
+    if (!whole.is_null()) (*lights)[light.name] = std::move(whole);
+  }
+}
+
+Json ViewDocument::ModelLights() const {
+  Json lights = live_.root().value("lights", Json::object());
+  AddModelLights(&lights);
+  return lights;
+}
+
+Json ViewDocument::OriginalModelLights() const {
+  Json lights = model_original_.value("lights", Json::object());
+  AddModelLights(&lights);
+  return lights;
 }
 
 Json ViewDocument::Camera() const {
@@ -189,15 +284,18 @@ void ViewDocument::ReadChangedFiles() {
   const Json edited = live_.root();
   prepared_.versions.Change(live_.ReadChangedFiles());
   const Json before = std::exchange(original_, live_.root());
+  if (is_model()) model_original_ = Tree();
   if (edited.contains("shapes") || scene().spheres.size() <= kMaxTreeSpheres) ListShapes();
   const auto member = [](const Json& tree, const std::string& name) {
     const auto found = tree.find(name);
     return found != tree.end() ? *found : Json();
   };
+  kept_edits_ = false;
   for (const auto& [name, value] : edited.items()) {
     if (value == member(before, name) || member(original_, name) != member(before, name)) continue;
     try {
       Put("/" + name, value);
+      kept_edits_ = true;
     } catch (const Error&) {  // it needs what the file no longer has
     }
   }

@@ -42,13 +42,19 @@ class ViewDocument {
 
   bool can_undo() const { return !past_.empty(); }
   bool can_redo() const { return !future_.empty(); }
+  // Edits that have outlived a change of the file are no step that could be undone.
+  bool can_reset() const { return can_undo() || kept_edits_; }
 
-  // The file's tree with all changes. A model's has materials and camera of the file in it. Without
-  // "shapes" if these are too many to be listed.
+  // The file's tree with all changes. A model's has materials and lights of the file in it, but for
+  // skies and lights with an extent. Without "shapes" if these are too many to be listed.
   Json Tree() const;
   bool lists_all_shapes() const { return live_.lists_all_shapes(); }
-  // The file's tree as it was read: of a model, what it was given besides.
-  const Json& original() const { return original_; }
+  // The same without the changes.
+  Json OriginalTree() const;
+  bool is_model() const;
+  // Of a model: "lights" of both trees. Those that nacre lights models by follow the camera.
+  Json ModelLights() const;
+  Json OriginalModelLights() const;
   // The camera that is rendered with, every member of it.
   Json Camera() const;
   const std::string& name() const { return name_; }
@@ -73,6 +79,8 @@ class ViewDocument {
   };
 
   void Put(const std::string& pointer, const Json& value);
+  bool CompleteLight(const std::string& pointer);
+  void AddModelLights(Json* lights) const;
   void ListShapes();
 
   std::string name_;
@@ -80,8 +88,10 @@ class ViewDocument {
   std::filesystem::path folder_;
   LiveScene live_;
   PreparedScene prepared_;
-  Json original_;
+  Json original_;        // as read: of a model, what it was given besides
+  Json model_original_;  // of a model: Tree() as read
   std::vector<Step> past_, future_;
+  bool kept_edits_ = false;
 };
 
 }  // namespace nacre

@@ -9,9 +9,11 @@
 #include <string_view>
 #include <variant>
 
+#include "base/overloaded.h"
 #include "base/printable.h"
 #include "brdf/ggx.h"
 #include "brdf/phong.h"
+#include "scene/coat.h"
 #include "scene/material_parameters.h"
 #include "scene/shapes.h"
 #include "shading/light.h"
@@ -46,6 +48,14 @@ Vec3d LayerOf(const Image& pixel, const std::string& layer, const char* letters 
 
 struct Point {
   Vec3d position, normal, to_view;
+};
+
+// A prepared material, and the normal of its coat, if it has one: coats have normal maps of their
+// own.
+struct ExplainedMaterial {
+  ShadingMaterial prepared;
+  ShadingMaterial base;  // without coat and layers
+  Vec3d coat_normal;
 };
 
 // The middle of a light with an extent, which its angles are told for; none of what is all around.
@@ -95,9 +105,11 @@ std::optional<Arrival> ArrivalOf(const Light& light, const Point& point) {
   return Arrival{to_light, distance, prepared.color * factor};
 }
 
-Json TermsJson(const ShadingMaterial& material, const Point& point, const Vec3d& to_light) {
-  const Angles<double> a = ComputeAngles(point.normal, to_light, point.to_view);
+Json TermsJson(const ShadingMaterial& material, const Vec3d& normal, const Vec3d& to_light,
+               const Vec3d& to_view) {
   Json terms = Json::object();
+  if (!((normal ^ to_light) > 0) || !((normal ^ to_view) > 0)) return terms;
+  const Angles<double> a = ComputeAngles(normal, to_light, to_view);
   if (const auto* model = std::get_if<MicrofacetModel>(&material.model)) {
     const double visibility = VisibilityOf(*model, a.n_dot_l, a.n_dot_v);
     terms["alpha"] = model->alpha;
@@ -107,62 +119,102 @@ Json TermsJson(const ShadingMaterial& material, const Point& point, const Vec3d&
     terms["F"] = TripleJson(FresnelOf(*model, VDotH(a), OneMinusVDotH(a)));
   } else if (const auto* phong = std::get_if<PhongFamilyModel>(&material.model)) {
     const bool half = phong->model == PhongModel::kBlinnPhong;
-    const Vec3d mirrored = point.normal * (2 * a.n_dot_l) - to_light;
+    const Vec3d mirrored = normal * (2 * a.n_dot_l) - to_light;
     terms["shininess"] = phong->shininess;
-    if (!half) terms["r_dot_v"] = mirrored ^ point.to_view;
-    terms["lobe"] =
-        NumberJson(half ? BlinnLobe(a, phong->shininess)
-                        : PhongLobe(point.normal, to_light, point.to_view, phong->shininess));
+    if (!half) terms["r_dot_v"] = mirrored ^ to_view;
+    terms["lobe"] = NumberJson(half ? BlinnLobe(a, phong->shininess)
+                                    : PhongLobe(normal, to_light, to_view, phong->shininess));
   }
   return terms;
 }
 
+std::string_view NameOf(const LayerModel& layer) {
+  return std::visit(Overloaded{[](const SheenModel&) { return "sheen"; }}, layer);
+}
+
+// What the material reflects of irradiance E from this direction. Where something covers its base,
+// `json` gets what that reflects itself, bottom to top, and what it leaves of all below.
+Reflection ReflectedJson(const ExplainedMaterial& material, const Point& point,
+                         const Vec3d& to_light, const Rgb& irradiance, Json* json) {
+  const Vec3d& n = point.normal;
+  const Vec3d& v = point.to_view;
+  Reflection sum = Reflect(material.base, n, to_light, v);
+  const bool covered = !material.prepared.layers.empty() || material.prepared.coat;
+  if (!covered || !((n ^ to_light) > 0) || !((n ^ v) > 0)) {
+    return {sum.diffuse * irradiance, sum.specular * irradiance};
+  }
+  Json covers = Json::array();
+  const auto cover = [&](std::string_view name, Json terms, const Reflection& own,
+                         const Rgb& below) {
+    covers.push_back({{"name", std::string(name)},
+                      {"terms", std::move(terms)},
+                      {"diffuse", TripleJson(own.diffuse * irradiance)},
+                      {"specular", TripleJson(own.specular * irradiance)},
+                      {"below", TripleJson(below)}});
+    sum = {sum.diffuse * below + own.diffuse, sum.specular * below + own.specular};
+  };
+  (*json)["base"] = {{"diffuse", TripleJson(sum.diffuse * irradiance)},
+                     {"specular", TripleJson(sum.specular * irradiance)}};
+  const Angles<double> angles = ComputeAngles(n, to_light, v);
+  for (const LayerModel& layer : material.prepared.layers) {
+    const LayerReflection own = EvaluateLayer(layer, angles);
+    cover(NameOf(layer), Json::object(), {own.lobe, Rgb(0, 0, 0)},
+          Rgb(own.below, own.below, own.below));
+  }
+  if (const ShadingMaterial* const coat = material.prepared.coat.get()) {
+    const Vec3d& m = material.coat_normal;
+    cover("coat", TermsJson(*coat, m, to_light, v), Reflect(*coat, m, to_light, v),
+          LeftByCoat(*coat, m ^ v));
+  }
+  (*json)["covers"] = std::move(covers);
+  return {sum.diffuse * irradiance, sum.specular * irradiance};
+}
+
 void AddAngles(const ShadingMaterial& material, const Point& point, const Vec3d& to_light,
                Json* json) {
-  const double n_dot_l = point.normal ^ to_light, n_dot_v = point.normal ^ point.to_view;
   const Vec3d sum = to_light + point.to_view;
   const Vec3d half = sum.length() > 0 ? sum / sum.length() : point.normal;
   (*json)["to_light"] = TripleJson(to_light);
-  (*json)["n_dot_l"] = n_dot_l;
-  (*json)["n_dot_v"] = n_dot_v;
+  (*json)["n_dot_l"] = point.normal ^ to_light;
+  (*json)["n_dot_v"] = point.normal ^ point.to_view;
   (*json)["n_dot_h"] = point.normal ^ half;
   (*json)["v_dot_h"] = point.to_view ^ half;
-  (*json)["terms"] =
-      n_dot_l > 0 && n_dot_v > 0 ? TermsJson(material, point, to_light) : Json::object();
+  (*json)["terms"] = TermsJson(material, point.normal, to_light, point.to_view);
 }
 
-Json LightJson(const Light& light, const ShadingMaterial& material, const Point& point,
-               const Image& pixel) {
-  const Vec3d rendered = LayerOf(pixel, "light." + light.name);
-  Json json = {{"name", Printable(light.name)}, {"rendered", TripleJson(rendered)}};
+Json LightJson(const Light& light, const ExplainedMaterial& material, const Point& point,
+               const PixelLayers& pixel) {
+  const Vec3d rendered = LayerOf(pixel.all, "light." + light.name);
+  const Vec3d diffuse = LayerOf(pixel.diffuse_light, "light." + light.name);
+  Json json = {{"name", Printable(light.name)},
+               {"rendered", TripleJson(rendered)},
+               {"rendered_diffuse", TripleJson(diffuse)},
+               {"rendered_specular", TripleJson(rendered - diffuse)}};
   const std::optional<Arrival> arrival = ArrivalOf(light, point);
   if (!arrival) {
     // It comes from many directions, and the renderer samples it.
     const std::optional<Vec3d> middle = MiddleOf(light);
-    json["state"] = middle ? "has an extent; angles to its middle" : "all around";
+    json["state"] = std::string(middle ? "has an extent; angles to its middle" : "all around") +
+                    "; mean of " + std::to_string(pixel.samples) + " samples";
     if (!middle) return json;
     const Vec3d way = *middle - point.position;
     const double distance = way.length();
     json["distance"] = NumberJson(distance);
-    if (distance > 0) AddAngles(material, point, way / distance, &json);
+    if (distance > 0) AddAngles(material.base, point, way / distance, &json);
     return json;
   }
   const Vec3d& l = arrival->to_light;
-  AddAngles(material, point, l, &json);
-  const double n_dot_l = point.normal ^ l;
-  const Reflection reflected = Reflect(material, point.normal, l, point.to_view);
-  const Rgb diffuse = reflected.diffuse * arrival->irradiance;
-  const Rgb specular = reflected.specular * arrival->irradiance;
-  const double brightest = std::max({rendered.x, rendered.y, rendered.z});
+  AddAngles(material.base, point, l, &json);
+  const Reflection reflected = ReflectedJson(material, point, l, arrival->irradiance, &json);
+  const Rgb sum = reflected.Sum();
+  const bool shows = std::max({rendered.x, rendered.y, rendered.z}) > 0;
   json["distance"] = NumberJson(arrival->distance);
   json["irradiance"] = TripleJson(arrival->irradiance);
-  json["diffuse"] = TripleJson(diffuse);
-  json["specular"] = TripleJson(specular);
-  json["state"] = !(n_dot_l > 0) ? "below the horizon"
-                  : !(brightest > 0) && std::max({diffuse.x + specular.x, diffuse.y + specular.y,
-                                                  diffuse.z + specular.z}) > 0
-                      ? "in shadow"
-                      : "lit";
+  json["diffuse"] = TripleJson(reflected.diffuse);
+  json["specular"] = TripleJson(reflected.specular);
+  json["state"] = !((point.normal ^ l) > 0)                       ? "below the horizon"
+                  : !shows && std::max({sum.x, sum.y, sum.z}) > 0 ? "in shadow"
+                                                                  : "lit";
   return json;
 }
 
@@ -232,7 +284,7 @@ bool IsParameterOf(const MaterialParameter& parameter, const MapTarget& target,
 
 // The material with what its maps give this hit; `parameters` gets name and value of what they
 // multiply. A map is seen as the albedo of a white Lambertian that has it.
-Material MaterialAtHit(const Material& material, size_t index, const AlbedoWith& albedo_with,
+Material MaterialAtHit(const Material& material, size_t index, const PixelWith& pixel_with,
                        Json* parameters) {
   Material at_hit = material;
   const MaterialModel* const model = ModelOf(material);
@@ -243,7 +295,7 @@ Material MaterialAtHit(const Material& material, size_t index, const AlbedoWith&
     Material white = material;
     white.model = LambertMaterial{.albedo = {1, 1, 1}, .albedo_map = texture};
     white.vertex_colors = VertexColors::kNone;
-    const Rgb texel = albedo_with(index, white);
+    const Rgb texel = LayerOf(pixel_with(index, white), "albedo");
     for (const MapTarget& target : TargetsOf(map)) {
       Rgb value = target.factor(at_hit);
       for (int c = 0; c < 3; ++c) {
@@ -271,7 +323,8 @@ Vec3d ToView(const Camera& camera, const Vec3d& position) {
 
 }  // namespace
 
-Json ExplainPixel(const Scene& scene, const Image& pixel, const AlbedoWith& albedo_with) {
+Json ExplainPixel(const Scene& scene, const PixelLayers& layers, const PixelWith& pixel_with) {
+  const Image& pixel = layers.all;
   Json json = {{"value", TripleJson(LayerOf(pixel, ""))}};
   const auto object = static_cast<size_t>(SampleOf(pixel, "id.object"));
   const auto number = static_cast<size_t>(SampleOf(pixel, "id.material"));
@@ -280,8 +333,9 @@ Json ExplainPixel(const Scene& scene, const Image& pixel, const AlbedoWith& albe
     return json;
   }
   Json mapped = Json::object();
-  const Material material =
-      MaterialAtHit(scene.materials[number - 1], number - 1, albedo_with, &mapped);
+  // A copy: the scene's has another in its place while `pixel_with` renders.
+  const Material own = scene.materials[number - 1];
+  const Material material = MaterialAtHit(own, number - 1, pixel_with, &mapped);
   const MaterialModel* const model = ModelOf(material);
   Point point;
   point.position = LayerOf(pixel, "P", "XYZ");
@@ -300,14 +354,23 @@ Json ExplainPixel(const Scene& scene, const Image& pixel, const AlbedoWith& albe
     json["layers"][layer] = TripleJson(LayerOf(pixel, layer));
   }
   Json lights = Json::array();
-  const ShadingMaterial prepared = PrepareMaterial(material, {0, 0, 0});
+  ExplainedMaterial explained;
+  explained.prepared = PrepareMaterial(material, {0, 0, 0});
+  explained.base = explained.prepared;
+  explained.base.layers.clear();
+  explained.base.coat.reset();
+  explained.coat_normal = point.normal;
+  const std::optional<Material> coat = CoatOf(own);
+  if (coat && (own.normal_map.texture.valid() || coat->normal_map.texture.valid())) {
+    explained.coat_normal = LayerOf(pixel_with(number - 1, *coat), "N", "XYZ").normalized();
+  }
   for (const Light& light : scene.lights) {
     if (std::holds_alternative<AmbientLight>(light.kind)) continue;
-    lights.push_back(LightJson(light, prepared, point, pixel));
+    lights.push_back(LightJson(light, explained, point, layers));
   }
   json["lights"] = std::move(lights);
-  json["lobe"] = LobeJson(prepared, point);
-  json["curves"] = CurvesJson(prepared);
+  json["lobe"] = LobeJson(explained.prepared, point);
+  json["curves"] = CurvesJson(explained.prepared);
   return json;
 }
 

@@ -10,12 +10,19 @@
 
 namespace nacre {
 
-// The albedo layer of the pixel while another material is in the place of this one.
-using AlbedoWith = std::function<Rgb(size_t material, const Material& other)>;
+// A pixel through its centre.
+struct PixelLayers {
+  Image all;            // all layers
+  Image diffuse_light;  // the same by RenderSettings::diffuse_light_layers
+  int samples = 1;      // of lights with an extent
+};
 
-// `pixel`: all layers of one pixel of the scene, of one sample through its centre. Directions and
-// terms are in double, by the scalar twins, at the hit's position and normal; what the renderer
-// made of them in float stands beside. Maps are looked up by `albedo_with`.
-Json ExplainPixel(const Scene& scene, const Image& pixel, const AlbedoWith& albedo_with);
+// All layers of the pixel while another material is in the place of this one.
+using PixelWith = std::function<Image(size_t material, const Material& other)>;
+
+// Directions and terms are in double, by the scalar twins, at the hit's position and normal; what
+// the renderer made of them in float stands beside, by light and component: these add up to the
+// pixel's value. Maps are looked up by `pixel_with`.
+Json ExplainPixel(const Scene& scene, const PixelLayers& pixel, const PixelWith& pixel_with);
 
 }  // namespace nacre

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/page.h"
 
+#include <utility>
+
 #include "base/printable.h"
 #include "report/page.h"
+#include "report/page_parts.h"
 #include "scene_io/json_text.h"
 #include "scene_io/load_scene.h"
 #include "view/page_parts.h"
@@ -23,6 +26,22 @@ ServedPage MakeViewPage(const std::string& title, const std::string& generator,
       {{"title", safe_title}, {"style", ViewStyle()}, {"script", ViewScript()}, {"data", data}});
   page.style_hashes = "'" + PolicySource(ViewStyleSha256()) + "'";
   page.script_hashes = "'" + PolicySource(ViewScriptSha256()) + "'";
+  return page;
+}
+
+ServedPage MakeImagesPage(std::string report) {
+  // Its own policy is that of a file. The server's says the same, but for its socket.
+  const size_t policy = report.find("<meta http-equiv");
+  report.erase(policy, report.find('\n', policy) + 1 - policy);
+  std::string script = "<script>";
+  script += ViewImagesScript();
+  script += "</script>\n";
+  report.insert(report.rfind("</body>"), script);
+  ServedPage page;
+  page.html = std::move(report);
+  page.style_hashes = "'" + PolicySource(PageStyleSha256()) + "'";
+  page.script_hashes =
+      "'" + PolicySource(PageScriptSha256()) + "' '" + PolicySource(ViewImagesScriptSha256()) + "'";
   return page;
 }
 

@@ -13,4 +13,8 @@ namespace nacre {
 ServedPage MakeViewPage(const std::string& title, const std::string& generator,
                         const std::string& tone, double exposure);
 
+// A report's page, with a script by which it follows its files: it is told
+// {"reload": true} when they have changed, and {"banner": TEXT} when they cannot be read.
+ServedPage MakeImagesPage(std::string report);
+
 }  // namespace nacre

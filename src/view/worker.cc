@@ -308,14 +308,16 @@ void Worker::ServeSet(ClientId client, const SetRequest& set) {
     return;
   }
   Changed();
-  sinks_.say(0, JsonText({{"changed", set.pointer},
-                          {"value", set.value},
-                          {"revision", revision_},
-                          {"client", client},
-                          {"serial", set.serial},
-                          {"camera", document_->Camera()},
-                          {"undo", document_->can_undo()},
-                          {"redo", document_->can_redo()}}));
+  Json told = {{"changed", set.pointer},         {"value", set.value},
+               {"revision", revision_},          {"client", client},
+               {"serial", set.serial},           {"camera", document_->Camera()},
+               {"undo", document_->can_undo()},  {"redo", document_->can_redo()},
+               {"reset", document_->can_reset()}};
+  if (document_->is_model()) {
+    told["lights"] = document_->ModelLights();
+    told["original_lights"] = document_->OriginalModelLights();
+  }
+  sinks_.say(0, JsonText(told));
 }
 
 void Worker::ServeConvert(ClientId client, const ConvertRequest& convert) {
@@ -344,13 +346,20 @@ void Worker::ServeConvert(ClientId client, const ConvertRequest& convert) {
 }
 
 void Worker::Explain(ClientId client, const ExplainRequest& request) {
-  // Of one sample through the pixel's centre, which is where its terms are computed.
+  // Through the pixel's centre, which is where its terms are computed: a filter as good as none.
+  constexpr double kNoWidth = 1e-6;
+  constexpr int kSamples = 64;  // of lights that are sampled
+  plan_.reset();                // it refers to the scene
+  const std::vector<Light>& lights = document_->scene().lights;
+  const bool sampled = std::any_of(lights.begin(), lights.end(), [](const Light& light) {
+    return !IsPunctual(light) && !std::holds_alternative<AmbientLight>(light.kind);
+  });
   ImageSettings image = FullImage();
   const int divisor = FitDivisor();
   image.width = DividedBy(image.width, divisor);
   image.height = DividedBy(image.height, divisor);
-  image.spp = 1;
-  plan_.reset();  // it refers to the scene
+  image.filter = {FilterKind::kBox, kNoWidth};
+  image.spp = sampled ? kSamples : 1;
   document_->UseImage(image);
   RenderSettings settings = Settings();
   settings.cancel = nullptr;
@@ -362,20 +371,19 @@ void Worker::Explain(ClientId client, const ExplainRequest& request) {
     const FramePlan plan = MakePlan(document_->scene(), settings, document_->prepared());
     return RenderImage(plan, settings, nullptr);
   };
-  const auto albedo_with = [&](size_t index, const Material& other) {
+  PixelLayers pixel;
+  pixel.samples = image.spp;
+  pixel.all = render();
+  settings.diffuse_light_layers = true;
+  pixel.diffuse_light = render();
+  const auto pixel_with = [&](size_t index, const Material& other) {
     const Material own = document_->scene().materials[index];
     document_->UseMaterial(index, other);
-    settings.layers = {"albedo"};
-    const Image image = render();
+    Image of_other = render();
     document_->UseMaterial(index, own);
-    Rgb albedo;
-    for (int c = 0; c < 3; ++c) {
-      albedo[c] = image.Find(std::string("albedo.") + "RGB"[c])->samples.front();
-    }
-    return albedo;
+    return of_other;
   };
-  const Image pixel = render();
-  Json json = ExplainPixel(document_->scene(), pixel, albedo_with);
+  Json json = ExplainPixel(document_->scene(), pixel, pixel_with);
   json["x"] = request.x;
   json["y"] = request.y;
   sinks_.say(client, JsonText({{"explained", std::move(json)}, {"revision", revision_}}));
@@ -399,7 +407,7 @@ void Worker::Changed() {
 }
 
 void Worker::SayScene(ClientId client) {
-  Json tree = document_->Tree(), original = document_->original();
+  Json tree = document_->Tree(), original = document_->OriginalTree();
   const bool whole = document_->lists_all_shapes() && JsonText(tree).size() <= kMaxSceneText;
   if (!whole) {
     tree.erase("shapes");
@@ -427,7 +435,8 @@ void Worker::SayScene(ClientId client) {
                                {"client", client},
                                {"banner", banner_},
                                {"undo", document_->can_undo()},
-                               {"redo", document_->can_redo()}}));
+                               {"redo", document_->can_redo()},
+                               {"reset", document_->can_reset()}}));
 }
 
 void Worker::SayFault(ClientId client, const std::string& pointer, const Error& error) {

@@ -50,6 +50,27 @@ TEST_CASE("members that a change has made go with it") {
   CHECK(document.Tree() == before);
 }
 
+TEST_CASE("a model's lights are changed by their members") {
+  ViewDocument document(NACRE_SOURCE_DIR "/scenes/models/pawns.glb", LoadOptions{});
+  const Json before = document.Tree();
+  REQUIRE(before.at("lights").contains("key"));
+  const Json direction = before["lights"]["key"]["direction_of_travel"];
+  document.Set("/lights/key/irradiance", 5, 1);
+  CHECK(document.Tree()["lights"]["key"]["irradiance"] == 5);
+  CHECK(document.Tree()["lights"]["key"]["direction_of_travel"] == direction);
+  CHECK(document.Tree()["lights"]["rim"] == before["lights"]["rim"]);
+  CHECK_THROWS_AS(document.Set("/lights/rim/irradiance", "bright", 2), Error);
+  CHECK(document.Tree()["lights"]["rim"] == before["lights"]["rim"]);
+  // The lights that it has not got of its own follow the camera, and are no change.
+  document.Set("/camera", Json{{"position", {0, 1, 9}}}, 3);
+  CHECK(document.ModelLights()["rim"] != before["lights"]["rim"]);
+  CHECK(document.ModelLights()["rim"] == document.OriginalModelLights()["rim"]);
+  CHECK(document.ModelLights()["key"] != document.OriginalModelLights()["key"]);
+  document.Undo();
+  document.Undo();
+  CHECK(document.Tree() == before);
+}
+
 TEST_CASE("reset is a step like others") {
   ViewDocument document(LoadOptions{});
   const Json before = document.Tree();

@@ -88,37 +88,63 @@ class ProtocolTest(unittest.TestCase):
         for i, channel in enumerate('RGB'):
             self.assertEqual(list(values[i * 14400:(i + 1) * 14400]), [v for row in planes[channel] for v in row])
 
+    def adds_up(self, answer):
+        """Lights, components and what covers a base, to the linear value. Returns how many lights are lit."""
+        layers, lights, lit = answer['layers'], answer['lights'], 0
+        for c, value in enumerate(answer['value']):
+            # Sums of floats in another order.
+            delta = 1e-5 * max(1, abs(value))
+            self.assertAlmostEqual(sum(layers[name][c] for name in ('diffuse', 'specular', 'ambient', 'emission')), value, delta=delta)
+            for name in ('diffuse', 'specular'):
+                self.assertAlmostEqual(sum(light[f'rendered_{name}'][c] for light in lights), layers[name][c], delta=delta)
+        for light in lights:
+            for c in range(3):
+                self.assertAlmostEqual(light['rendered_diffuse'][c] + light['rendered_specular'][c], light['rendered'][c], delta=1e-9)
+            if light.get('state') != 'lit':
+                continue
+            lit += 1
+            for name in ('diffuse', 'specular'):
+                for c in range(3):
+                    # Double against float, at a position that was rounded to float: highlights are steep.
+                    self.assertAlmostEqual(light[name][c], light[f'rendered_{name}'][c], delta=1e-4 * max(1, light['rendered'][c]))
+                    if 'covers' not in light:
+                        continue
+                    total = light['base'][name][c]
+                    for cover in light['covers']:
+                        total = total * cover['below'][c] + cover[name][c]
+                    self.assertAlmostEqual(total, light[name][c], delta=1e-12 * max(1, light[name][c]))
+        return lit
+
     def test_an_explained_pixel_adds_up(self):
         spot = {'type': 'spot', 'position': [0, 4, 4], 'direction_of_travel': [0, -3, -4], 'intensity': 80, 'cutoff_deg': 30, 'inner_deg': 5}
-        for scene, light in (('first_scene', spot), ('phong_vs_pbr', None), ('metals', None), ('textures', None)):
-            _, page = self.open(SOURCE / f'scenes/{scene}.json', *SIZE, '--spp', 2, *(('--set', f'/lights/spot={json.dumps(light)}') if light else ()))
+        sun = {'type': 'directional', 'direction_of_travel': [0.3, -0.5, -1], 'irradiance': 2}
+        for scene, light in (('first_scene', spot), ('phong_vs_pbr', None), ('metals', None), ('textures', None), ('coat_and_sheen', sun),
+                             ('area_lights', sun)):
+            _, page = self.open(SOURCE / f'scenes/{scene}.json', *SIZE, '--spp', 2, *(('--set', f'/lights/own={json.dumps(light)}') if light else ()))
             page.until(is_done)
-            lit = mapped = 0
-            for x, y in ((80, 45), (70, 40), (40, 45), (120, 45), (85, 50), (2, 2)):
+            lit = mapped = covered = sampled = 0
+            for x, y in ((80, 45), (70, 40), (40, 45), (120, 45), (85, 50), (20, 50), (46, 34), (114, 34), (60, 53), (100, 53), (2, 2)):
                 page.send({'explain': x, 'y': y})
                 answer = page.until(lambda m: 'explained' in m)['explained']
                 if answer.get('background'):
                     continue
                 mapped += len(answer['mapped'])
+                covered += any('covers' in light for light in answer['lights'])
+                sampled += any('samples' in light['state'] and light['rendered_diffuse'][0] > 0 for light in answer['lights'])
                 self.assertLess(max(value for _, value in answer['curves']['albedo']), 1.001)
-                parts = [answer['layers'][name] for name in ('diffuse', 'specular', 'ambient', 'emission')]
-                for c in range(3):
-                    self.assertAlmostEqual(sum(p[c] for p in parts), answer['value'][c], delta=2e-6 * max(1, answer['value'][c]))
                 self.assertAlmostEqual(sum(v * v for v in answer['normal']), 1, places=6)
+                with self.subTest(scene=scene, x=x, y=y):
+                    lit += self.adds_up(answer)
                 for light in answer['lights']:
-                    if light.get('state') != 'lit':
+                    if 'to_light' not in light:
                         continue
-                    lit += 1
-                    # Double against float, at a position that was rounded to float: highlights are
-                    # steep.
-                    for c in range(3):
-                        self.assertAlmostEqual(light['diffuse'][c] + light['specular'][c], light['rendered'][c],
-                                               delta=1e-4 * max(1, light['rendered'][c]))
                     half = [a + b for a, b in zip(light['to_light'], answer['to_view'])]
                     length = math.hypot(*half)
                     self.assertAlmostEqual(sum(a * b for a, b in zip(answer['normal'], half)) / length, light['n_dot_h'], places=9)
             self.assertGreater(lit, 0, scene)
             self.assertEqual(mapped > 0, scene == 'textures')
+            self.assertEqual(covered > 0, scene == 'coat_and_sheen')
+            self.assertEqual(sampled > 0, scene in ('coat_and_sheen', 'area_lights'))
 
     def test_it_refines_while_nothing_moves(self):
         _, page = self.open(SCENE, '--size', '320x180', '--spp', 64)

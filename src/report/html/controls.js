@@ -8,6 +8,8 @@ const KEYS = [
   ['x', 'exposure 0'], ['l L', 'next, last layer'], ['t T', 'next, last tone operator'], ['?', 'this help'],
 ];
 
+const HANDS = ['Drag to move, wheel or two fingers to zoom, double-click for all of the picture.'];
+
 function showKeys() {
   let dialog = document.getElementById('keys');
   if (!dialog) {
@@ -15,7 +17,7 @@ function showKeys() {
                 el('p', {}, 'While a viewer has the focus:'),
                 el('table', {}, el('tbody', {}, KEYS.map(([key, what]) =>
                     el('tr', {}, el('td', {}, el('kbd', {}, key)), el('td', {}, what))))),
-                el('p', {}, 'Drag to move, wheel or two fingers to zoom, double-click for all of the picture.'),
+                HANDS.map(text => el('p', {}, text)),
                 el('button', {onclick: () => dialog.close()}, 'Close'));
     document.body.append(dialog);
   }
@@ -45,7 +47,7 @@ class Controls {
                               oninput: event => this.divide(Number(event.target.value))});
     this.splitRow = el('div', {hidden: true}, this.split);
     this.scale = el('output', {'aria-label': 'Zoom'});
-    this.scaleFields = [this.limit('low', 'Darkest'), this.limit('high', 'Brightest')];
+    this.scaleFields = [el('div', {class: 'row'}, this.limit('low', 'Darkest'), this.limit('high', 'Brightest'))];
     this.element = el('div', {}, this.bar());
   }
 

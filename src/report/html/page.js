@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // report/html/page.js: the page from its sections.
 
+const VIEWERS = [];  // of the page, in order
+
 // A page of one section needs no second title.
 const heading = section => REPORT.sections.length > 1 ? el('h2', {}, section.title) : null;
 
 function imageSection(section, number) {
   const viewer = new Viewer(section, number), set = section.sets[0], parts = [];
+  VIEWERS.push(viewer);
   if (section.cases) parts.push(validationTable(section, viewer));
   parts.push(viewer.element);
   if (!section.cases && set) {

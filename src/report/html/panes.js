@@ -135,9 +135,9 @@ class Pane {
       context.fillStyle = '#fff';
       context.fillRect(divider * w - 0.5, 0, 1, h);
     }
-    if (mark && scale >= 2) {
-      const x = w / 2 + (mark.x - camera.x) * scale, y = h / 2 + (mark.y - camera.y) * scale;
-      const side = scale * mark.cell;
+    if (mark && (mark.shown ?? scale >= 2)) {
+      const side = Math.max(scale * mark.cell, 6), middle = mark.cell / 2;
+      const x = w / 2 + (mark.x + middle - camera.x) * scale - side / 2, y = h / 2 + (mark.y + middle - camera.y) * scale - side / 2;
       context.lineWidth = 1;
       context.strokeStyle = '#000';
       context.strokeRect(x - 1.5, y - 1.5, side + 3, side + 3);

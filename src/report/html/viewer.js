@@ -152,7 +152,8 @@ class Viewer {
   }
 
   drawPanes() {
-    const cell = this.cell(), mark = {x: this.mark.x - this.mark.x % cell, y: this.mark.y - this.mark.y % cell, cell};
+    const cell = this.cell(), mark = {x: this.mark.x - this.mark.x % cell, y: this.mark.y - this.mark.y % cell, cell,
+                  shown: this.marked};
     this.panes.forEach((pane, i) => {
       if (this.stage.contains(pane.element)) pane.draw(pane.content.pictures, mark, pane.content.divider ?? null);
     });

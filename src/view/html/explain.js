@@ -29,20 +29,41 @@ class Explanation {
     const terms = (name, label = name) => lights.some(l => l.terms && name in l.terms)
         ? [row(label, l => l.terms && name in l.terms ? Array.isArray(l.terms[name]) ? three(l.terms[name]) : show(l.terms[name], 5) : '')] : [];
     const angle = (name, label) => row(label, l => name in l ? `${show(l[name], 4)} (${show(degrees(l[name]), 3)}°)` : '');
-    const rows = [row('', l => l.state),
+    const rows = [row('state', l => l.state),
                   row('distance', l => l.distance === null ? '∞' : l.distance === undefined ? '' : show(l.distance, 4)), row('irradiance', l => l.irradiance ? three(l.irradiance) : ''),
                   angle('n_dot_l', 'n·l'), angle('n_dot_v', 'n·v'), angle('n_dot_h', 'n·h'), angle('v_dot_h', 'v·h'),
                   ...terms('alpha', 'α'), ...terms('D'), ...terms('G'), ...terms('F'), ...terms('shininess', 'exponent'), ...terms('r_dot_v', 'r·v'), ...terms('lobe'),
-                  row('diffuse radiance', l => l.diffuse ? three(l.diffuse) : 'sampled'), row('specular radiance', l => l.specular ? three(l.specular) : 'sampled'),
-                  row('as rendered', l => three(l.rendered))];
-    const parts = [['diffuse', layers.diffuse], ['specular', layers.specular], ['ambient', layers.ambient], ['emission', layers.emission]];
-    const total = [...parts.map(([name, v]) => [name, three(v)]), ['sum', three(sum3(parts.map(([, v]) => v)))], ...end];
+                  ...this.covers(lights, row),
+                  row('diffuse radiance', l => l.diffuse ? three(l.diffuse) : ''), row('specular radiance', l => l.specular ? three(l.specular) : ''),
+                  row('rendered, diffuse', l => three(l.rendered_diffuse)), row('rendered, specular', l => three(l.rendered_specular)),
+                  row('rendered, both', l => three(l.rendered))];
+    const parts = [...lights.map(l => [`light ${l.name}`, l.rendered]), ['ambient light', layers.ambient], ['emission', layers.emission]];
+    const total = [...parts.map(([name, v]) => [name, three(v)]), ['sum', three(sum3(parts.map(([, v]) => v)))],
+                   ['of it diffuse', three(layers.diffuse)], ['of it specular', three(layers.specular)], ...end];
     this.body.replaceChildren(
         el('p', {class: 'soft'}, `Pixel ${x}, ${y}, through its centre. Terms in double; radiances in linear units.`),
         el('div', {class: 'columns'}, el('div', {}, table(null, facts, {caption: 'What is there', words: true})),
            el('div', {}, table(null, total, {caption: 'How it adds up', words: true}))),
         el('div', {class: 'columns'}, el('div', {}, lights.length ? table(['light', ...names], rows, {caption: 'What each light brings'}) : null),
            el('div', {}, this.polar(json), this.curves(json))));
+  }
+
+  // What lies over the base reflects some light itself, and leaves a share of what is below it.
+  covers(lights, row) {
+    const covered = lights.filter(l => l.covers), rows = [];
+    if (!covered.length) return rows;
+    rows.push(row('base, diffuse', l => l.base ? three(l.base.diffuse) : ''), row('base, specular', l => l.base ? three(l.base.specular) : ''));
+    covered[0].covers.forEach(({name}, i) => {
+      const of = get => l => l.covers ? get(l.covers[i]) : '';
+      for (const [term, label] of [['alpha', 'α'], ['D', 'D'], ['G', 'G'], ['F', 'F']]) {
+        if (covered.some(l => term in l.covers[i].terms)) {
+          rows.push(row(`${name}: ${label}`, of(({terms}) => term in terms ? Array.isArray(terms[term]) ? three(terms[term]) : show(terms[term], 5) : '')));
+        }
+      }
+      rows.push(row(`${name} leaves of it`, of(({below}) => three(below))),
+                row(`${name} adds`, of(({diffuse, specular}) => three(sum3([diffuse, specular])))));
+    });
+    return rows;
   }
 
   // f n·l in the plane of normal and viewer. Lights outside of the plane are drawn at their angle

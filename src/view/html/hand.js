@@ -28,7 +28,15 @@ function project(camera, frame, point) {
   return {x: frame.width / 2 + dot(d, right) / pixel, y: frame.height / 2 - dot(d, up) / pixel, pixel};
 }
 
-const placeOf = light => ['position', 'center'].find(name => Array.isArray(light?.[name]));
+// Where a light's handle is, and by which member it moves: {member, at}. A directional light has its
+// handle where it comes from, on a sphere around what the camera looks at.
+function handleOf(light, camera) {
+  const member = ['position', 'center'].find(name => Array.isArray(light?.[name]));
+  if (member) return {member, at: light[member]};
+  if (light?.type !== 'directional') return null;
+  const reach = camera.type === 'orthographic' ? camera.height : Math.hypot(...add(camera.position, camera.look_at, -1)) * sight(camera).half * 2;
+  return {member: 'direction_of_travel', at: add(camera.look_at, unit(light.direction_of_travel), -0.35 * reach)};
+}
 
 class Hand {
   // `act`: {set(pointer, value, gesture)}
@@ -135,17 +143,17 @@ class Hand {
     const pane = this.viewer.panes[0];
     if (!pane || !this.camera) return;
     for (const [name, lamp] of this.lamps) {
-      if (placeOf(this.lights[name])) continue;
+      if (handleOf(this.lights[name], this.camera)) continue;
       lamp.remove();
       this.lamps.delete(name);
     }
     const [w, h] = pane.size(), view = this.viewer.camera, scale = view.scaleIn(w, h);
     for (const [name, light] of Object.entries(this.lights)) {
-      const place = placeOf(light);
-      if (!place) continue;
+      const handle = handleOf(light, this.camera);
+      if (!handle) continue;
       const lamp = this.lamps.get(name) || this.makeLamp(name);
       if (lamp.parentNode !== pane.element) pane.element.append(lamp);
-      const at = project(this.camera, this.viewer.set.frame, light[place]);
+      const at = project(this.camera, this.viewer.set.frame, handle.at);
       lamp.hidden = !at || this.viewer.mode === 'side';
       if (!at) continue;
       // Lights beside the picture have their handles at its edge.
@@ -183,15 +191,17 @@ class Hand {
 
   // By pixels of the frame at the light's depth, and `away` of them along the view.
   moveLight(name, dx, dy, away, gesture) {
-    const light = this.lights[name], place = placeOf(light), {right, up, forward} = sight(this.camera);
-    const at = project(this.camera, this.viewer.set.frame, light[place]);
-    if (!at) return;
-    const by = add(add(right.map(v => v * dx * at.pixel), up, -dy * at.pixel), forward, -away * at.pixel);
-    const moved = add(light[place], by).map(tidy6);
-    this.lights = {...this.lights, [name]: {...light, [place]: moved}};
-    this.act.set(`/lights/${token(name)}/${place}`, moved, gesture);
+    const light = this.lights[name], {member, at} = handleOf(light, this.camera), {right, up, forward} = sight(this.camera);
+    const seen = project(this.camera, this.viewer.set.frame, at);
+    if (!seen) return;
+    const by = add(add(right.map(v => v * dx * seen.pixel), up, -dy * seen.pixel), forward, -away * seen.pixel);
+    let moved = add(at, by);
+    if (light.type === 'directional') moved = unit(add(this.camera.look_at, moved, -1));
+    moved = moved.map(tidy6);
+    this.lights = {...this.lights, [name]: {...light, [member]: moved}};
+    this.act.set(`/lights/${token(name)}/${member}`, moved, gesture);
     this.placeLamps();
   }
 }
 
-const tidy6 = value => Number(value.toPrecision(6));
+const tidy6 = value => Math.abs(value) < 1e-12 ? 0 : Number(value.toPrecision(6));

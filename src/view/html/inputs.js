@@ -82,6 +82,7 @@ function numberInput(schema, label, edit) {
 function threeInput(names, label, edit) {
   let value = [0, 0, 0];
   const fields = names.map((name, i) => el('input', {type: 'number', step: 'any', 'aria-label': `${label}, ${name}`, onchange: event => {
+    if (event.target.value === '') { event.target.value = tidy(value[i]); return; }
     value = [...value];
     value[i] = Number(event.target.value);
     edit(value, newGesture());
@@ -208,7 +209,9 @@ function makeControl(name, schema, pointer, edit, drop, known = {}) {
       input.show(value === undefined ? schema.default : value);
     },
     focus() { input.focus.focus(); },
-    fault(text) {
+    // `note`: nothing is wrong, but worth to know.
+    fault(text, note = false) {
+      fault.classList.toggle('note', note);
       fault.textContent = text;
       fault.hidden = !text;
     },

@@ -4,6 +4,7 @@
 
 KEYS.splice(0, 2, ['drag, arrows', 'go round the middle of the scene'], ['Shift drag, w a s d', 'move the camera sideways'],
             ['wheel, Page up, Page down', 'nearer, farther'], ['click, Shift arrows', 'a pixel, the next pixel']);
+HANDS.splice(0, 1, 'Two fingers move the camera, sideways and nearer. A double click shows all of the picture.');
 KEYS.push(['k', 'keep the picture as A'], ['/', 'find a parameter'], ['Ctrl Z, Ctrl Shift Z', 'undo, redo']);
 
 class LiveViewer extends Viewer {
@@ -15,12 +16,14 @@ class LiveViewer extends Viewer {
     this.live = live;
     this.context = canvas.getContext('2d', {alpha: false});
     this.head = null;
+    this.marked = false;  // a pixel has been asked for
     this.kept = new Map();  // samples of the picture at rest, by layer
     this.act = act;
     this.hand = new Hand(this, act);
     this.pending = [];  // own changes that no picture shows yet
     this.metrics = el('div', {class: 'metrics', 'aria-live': 'polite', hidden: true});
     this.readout.before(this.metrics);
+    this.readout.append(el('p', {class: 'soft'}, 'Click the picture: where does this value come from? Drag it: the camera goes round. “?” lists the keys.'));
     for (const name of ['stage']) new ResizeObserver(() => this.hand.placeLamps()).observe(this[name]);
   }
 
@@ -105,7 +108,7 @@ class LiveViewer extends Viewer {
   }
 
   inspect(x, y) {
-    this.reads = true;
+    this.reads = this.marked = true;
     super.inspect(x, y);
     this.act.explain(this.mark.x, this.mark.y);
   }

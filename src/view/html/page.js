@@ -33,7 +33,10 @@ class View {
         this.panel.element));
     document.addEventListener('keydown', event => this.key(event));
     this.connection = new Connection({text: message => this.received(message), frame: (head, bytes) => this.frame(head, bytes),
-                                      file: (extension, bytes) => save(`${baseName(this)}.${extension}`, new Blob([bytes])),
+                                      file: (extension, bytes) => {
+                                        save(`${baseName(this)}.${extension}`, new Blob([bytes]));
+                                        this.status.textContent = this.spoken.textContent = 'the file is made';
+                                      },
                                       state: open => this.connected(open)});
   }
 
@@ -63,12 +66,12 @@ class View {
     else if ('explained' in message) this.explanation.show(message.explained, this.viewer.look);
     else if ('kept' in message) { if (!message.kept && this.viewer.images.length > 1) this.viewer.showMetrics(null); }
     else if ('metrics' in message) this.viewer.showMetrics(message.metrics, message.revision);
-    else if ('not_kept' in message) this.panel.fault(message.convert, `Not kept: ${message.not_kept.join('; ')}`);
+    else if ('not_kept' in message) this.panel.fault(message.convert, `What is not the same: ${message.not_kept.join('; ')}`, true);
     if ('banner' in message) this.showBanner(message.banner);
     if ('undo' in message) {
       this.steps.undo.disabled = !message.undo;
       this.steps.redo.disabled = !message.redo;
-      this.steps.reset.disabled = !message.undo;
+      this.steps.reset.disabled = !message.reset;
     }
   }
 
@@ -84,10 +87,15 @@ class View {
     this.viewer.hand.show(camera, scene.lights);
   }
 
-  changed({changed, value, revision, client, serial, camera}) {
+  changed({changed, value, revision, client, serial, camera, lights, original_lights: originalLights}) {
     const mine = client === this.client;
     if (mine) this.viewer.pending.push({serial, revision});
     this.scene = this.panel.scene = putAt(this.scene, changed, value);
+    if (lights) {  // of a model: they may follow the camera
+      this.scene.lights = lights;
+      this.original.lights = originalLights;
+      if (changed.startsWith('/camera')) this.panel.show('/lights');
+    }
     // A newer own value is on its way: this one would move the control back under the hand.
     if (mine && serial < this.last.get(changed)) return;
     this.panel.changed(changed, value, camera);

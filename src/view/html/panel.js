@@ -174,11 +174,11 @@ class Panel {
   }
 
   // What is wrong stands below the control that asked for it; returns whether there is one.
-  fault(pointer, text) {
+  fault(pointer, text, note = false) {
     let control = null;
     for (const [at, candidate] of this.controls) if (pointer && (at === pointer || pointer.startsWith(at + '/') || at === `${pointer}/model`)) control = candidate;
     if (!control) return false;
-    control.fault(text);
+    control.fault(text, note);
     control.show(this.valueOf(control.pointer));
     return control.element.checkVisibility();  // in a group that is closed nobody sees it
   }
