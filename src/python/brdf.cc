@@ -3,6 +3,7 @@
 
 #include <cstring>
 #include <memory>
+#include <optional>
 
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
@@ -60,15 +61,47 @@ class Function {
   std::shared_ptr<py::object> function_;
 };
 
+// Python keeps a state for each thread that calls it. The renderer's threads are not Python's: this
+// makes theirs, once. py::gil_scoped_acquire alone would make one for each call, which takes as
+// long as the rest of a call.
+class ThreadState {
+ public:
+  ThreadState() : state_(PyGILState_Ensure()), saved_(PyEval_SaveThread()) {}
+  ~ThreadState() {
+    if (!Py_IsInitialized() || _Py_IsFinalizing()) return;
+    PyEval_RestoreThread(saved_);
+    PyGILState_Release(state_);
+  }
+  ThreadState(const ThreadState&) = delete;
+  ThreadState& operator=(const ThreadState&) = delete;
+
+ private:
+  PyGILState_STATE state_;
+  PyThreadState* saved_;
+};
+
+// What a render's thread holds while it calls a function of the user's.
+class Call {
+ public:
+  Call() {
+    static thread_local const ThreadState state;
+    interpreter_.emplace();
+  }
+
+ private:
+  FunctionLock function_;
+  std::optional<py::gil_scoped_acquire> interpreter_;
+};
+
 // A copy, for the function may keep it: an array of shape (count, columns) whose columns are each
 // in one piece.
 template <size_t kColumns>
 py::object Columns(size_t count, const std::array<const double*, kColumns>& from) {
-  py::array_t<double> planes({kColumns, count});
+  py::array_t<double, py::array::f_style> columns({count, kColumns});
   for (size_t c = 0; c < kColumns; ++c) {
-    std::memcpy(planes.mutable_data() + c * count, from[c], count * sizeof(double));
+    std::memcpy(columns.mutable_data() + c * count, from[c], count * sizeof(double));
   }
-  return planes.attr("T");
+  return columns;
 }
 
 void CopyPlanes(const py::object& result, size_t count, const std::array<double*, 3>& to) {
@@ -84,7 +117,7 @@ nacre::UserBrdf UserBrdfOf(const py::object& evaluate, const py::object& sample,
                            const py::object& pdf) {
   nacre::UserBrdf brdf;
   brdf.evaluate = [function = Function(evaluate)](const nacre::Directions& d, const auto& rgb) {
-    const py::gil_scoped_acquire acquire;
+    const Call call;
     CopyPlanes(function(Columns<3>(d.count, d.normal), Columns<3>(d.count, d.to_view),
                         Columns<3>(d.count, d.to_light)),
                d.count, rgb);
@@ -92,7 +125,7 @@ nacre::UserBrdf UserBrdfOf(const py::object& evaluate, const py::object& sample,
   if (!sample.is_none()) {
     brdf.sample = [function = Function(sample)](const nacre::Directions& d, const double* u,
                                                 const double* v, const auto& to_light) {
-      const py::gil_scoped_acquire acquire;
+      const Call call;
       CopyPlanes(function(Columns<3>(d.count, d.normal), Columns<3>(d.count, d.to_view),
                           Columns<2>(d.count, {u, v})),
                  d.count, to_light);
@@ -100,7 +133,7 @@ nacre::UserBrdf UserBrdfOf(const py::object& evaluate, const py::object& sample,
   }
   if (!pdf.is_none()) {
     brdf.pdf = [function = Function(pdf)](const nacre::Directions& d, double* out) {
-      const py::gil_scoped_acquire acquire;
+      const Call call;
       const Planes values = function(Columns<3>(d.count, d.normal), Columns<3>(d.count, d.to_view),
                                      Columns<3>(d.count, d.to_light));
       std::memcpy(out, values.data(), d.count * sizeof(double));

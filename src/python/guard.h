@@ -9,6 +9,7 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include <pybind11/pybind11.h>
 
@@ -53,6 +54,47 @@ class Use {
   Kind kind_;
 };
 
+// Held where a render calls a function of the user's: one call at a time in the process. The
+// interpreter lock alone would not do: numpy drops it in every operation on more than 500 numbers,
+// and threads that hand it to one another each time are slower than one.
+class FunctionLock {
+ public:
+  FunctionLock() : lock_(TheMutex()), outer_(std::exchange(Held(), &lock_)) {}
+  ~FunctionLock() { Held() = outer_; }
+  FunctionLock(const FunctionLock&) = delete;
+  FunctionLock& operator=(const FunctionLock&) = delete;
+
+  // Lets go of the lock that this thread holds, if any, while a function of the user's waits for a
+  // render. Not to be made or destroyed with the interpreter lock.
+  class Pause {
+   public:
+    Pause() : held_(Held()) {
+      if (held_ != nullptr) held_->unlock();
+    }
+    ~Pause() {
+      if (held_ != nullptr) held_->lock();
+    }
+    Pause(const Pause&) = delete;
+    Pause& operator=(const Pause&) = delete;
+
+   private:
+    std::unique_lock<std::mutex>* held_;
+  };
+
+ private:
+  static std::mutex& TheMutex() {
+    static std::mutex mutex;
+    return mutex;
+  }
+  static std::unique_lock<std::mutex>*& Held() {
+    static thread_local std::unique_lock<std::mutex>* held = nullptr;
+    return held;
+  }
+
+  std::unique_lock<std::mutex> lock_;
+  std::unique_lock<std::mutex>* outer_;
+};
+
 // Calls body() on a thread of its own, without the interpreter lock, while this thread looks for
 // signals: the first whose handler throws (Ctrl-C) calls stop(), and its exception is thrown when
 // body() has returned. `body` may take the lock.
@@ -64,6 +106,7 @@ auto Interruptibly(const std::function<void()>& stop, const Body& body) {
   std::optional<py::error_already_set> signal;
   {
     const py::gil_scoped_release release;
+    const FunctionLock::Pause pause;
     std::mutex mutex;
     std::condition_variable ended;
     bool done = false;

@@ -9,6 +9,7 @@
 #include "base/overloaded.h"
 #include "render/white_level.h"
 #include "sampling/hash.h"
+#include "shading/user_model.h"
 
 namespace nacre {
 namespace {
@@ -29,7 +30,9 @@ double LobeWidth(const ShadingMaterial& material) {
                                [&](const MicrofacetModel& microfacet) {
                                  return microfacet.delta ? infinity : microfacet.alpha;
                                },
-                               [&](const auto&) { return infinity; }},
+                               [](const UserModel& user) { return UserLobeWidth(user); },
+                               [&](const MatteModel&) { return infinity; },
+                               [&](const std::monostate&) { return infinity; }},
                     material.model);
 }
 
@@ -52,6 +55,14 @@ bool HasHardCone(const Scene& scene) {
   return std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
     const auto* spot = std::get_if<SpotLight>(&light.kind);
     return spot != nullptr && spot->cutoff_deg - spot->inner_deg < 1;
+  });
+}
+
+// Whether a material reflects light by a function of the caller's: it may have edges of its own, as
+// a toon shader has, and nothing says how narrow its highlights are.
+bool HasUserModel(const std::vector<ShadingMaterial>& materials) {
+  return std::any_of(materials.begin(), materials.end(), [](const ShadingMaterial& material) {
+    return std::holds_alternative<UserModel>(material.model);
   });
 }
 
@@ -91,7 +102,7 @@ AdaptivePlan PlanAdaptive(const Scene& scene, const std::vector<ShadingMaterial>
       std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
         return !IsPunctual(light) && !std::holds_alternative<AmbientLight>(light.kind);
       });
-  plan.footprints = !both_signs && !HasHardCone(scene) && !sampled;
+  plan.footprints = !both_signs && !HasHardCone(scene) && !sampled && !HasUserModel(materials);
   plan.center = MakePixelSampler(filter, 1, scene.image.seed);
   plan.filter_radius = std::max(filter.width / 2, 0.5);
   // Half the second moment where the picture is smooth. Where its slope changes within a pixel, as

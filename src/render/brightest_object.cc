@@ -62,6 +62,9 @@ double BrightestUnder(const SampledLight& light) {
 
 double BrightestObject(const Scene& scene, const DirectPlan& direct, double white) {
   if (white < kNoBound) return white;
+  for (const Material& material : scene.materials) {
+    if (material.user) return kNoBound;  // it may reflect more than there is
+  }
   double brightest = LargestEmission(scene);
   for (const Light& light : scene.lights) {
     if (IsPunctual(light)) return kNoBound;

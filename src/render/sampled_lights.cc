@@ -215,7 +215,7 @@ void AddLobeSamples(const LitBatch& lit) {
   std::copy_n(n.z.data(), lit.count(), to_light.z.data());
   for (const MaterialRun& run : lit.runs()) {
     SampleLobe(*run.shading, lit.RangeOf(run), lit.room.points.u.data(), lit.room.points.v.data(),
-               &to_light);
+               &lit.batch.room.shade, &to_light);
     RaiseLobeSamples(lit.batch, run, &to_light);
   }
   FindLight(lit.planned.light, lit.hits(), &lit.room.directions);

@@ -387,10 +387,10 @@ void SampleCosine(const Surface& surface, size_t count, const float* u, const fl
 }
 
 void SampleLobe(const ShadingMaterial& material, const LobeRange& range, const float* u,
-                const float* v, Soa3<float>* to_light) {
+                const float* v, ShadeScratch* scratch, Soa3<float>* to_light) {
   if (!HasSampledLobe(material)) return;
   if (const auto* user = std::get_if<UserModel>(&material.model)) {
-    return SampleUser(*user, range, u, v, to_light);
+    return SampleUser(*user, range, u, v, scratch, to_light);
   }
   const HitTextures* const maps = MapsOf(material, range);
   if (const auto* phong = std::get_if<PhongFamilyModel>(&material.model)) {

@@ -46,7 +46,7 @@ void UnderLayersPdf(const ShadingMaterial& material, const LobeRange& range,
 // shared out between it and the lobe of Kulla and Conty's compensation, of which PrepareRun must
 // have run; the lobe itself of the Phong family. Directions below the surface reflect nothing.
 void SampleLobe(const ShadingMaterial& material, const LobeRange& range, const float* u,
-                const float* v, Soa3<float>* to_light);
+                const float* v, ShadeScratch* scratch, Soa3<float>* to_light);
 
 // The pdf with which SampleLobe chooses the directions light.to_light; 0 of materials that it
 // is not for.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -177,9 +178,9 @@ void ShadeUser(const UserModel& model, const ShadeRange& range, ShadeScratch* sc
 }
 
 void SampleUser(const UserModel& model, const LobeRange& range, const float* u, const float* v,
-                Soa3<float>* to_light) {
-  std::unique_ptr<UserRoom> room;
-  Gathered gathered(&room);
+                ShadeScratch* scratch, Soa3<float>* to_light) {
+  Gathered gathered(&scratch->user);
+  UserRoom* const room = scratch->user.get();
   for (size_t i = range.begin; i < range.end; ++i) {
     const Vec3d normal = VectorAt(range.hits.normal, i), to_view = VectorAt(range.hits.to_view, i);
     if (!(normal.dot(to_view) > 0)) continue;
@@ -237,6 +238,43 @@ double UserPdf(const UserModel& model, const Vec3d& normal, const Vec3d& to_view
   double pdf = 0;
   Pdf(*model.brdf, {1, VectorsOf(normal), VectorsOf(to_view), VectorsOf(to_light)}, &pdf);
   return pdf;
+}
+
+double UserLobeWidth(const UserModel& model) {
+  // The half vector turns across the plane of incidence, where the light stays above the surface.
+  constexpr size_t kAngles = 48;
+  constexpr double kLargest = 0.5;
+  double angle[kAngles] = {};  // the first is 0
+  for (size_t k = 1; k < kAngles; ++k) {
+    angle[k] = kLargest * std::exp2(-0.5 * static_cast<double>(kAngles - 1 - k));
+  }
+  double width = std::numeric_limits<double>::infinity();
+  const auto room = std::make_unique<UserRoom>();
+  for (const double view_angle : {0.2, 1.0}) {
+    const Vec3d to_view(-std::sin(view_angle), 0, std::cos(view_angle));
+    for (size_t k = 0; k < kAngles; ++k) {
+      const Vec3d half(0, std::sin(angle[k]), std::cos(angle[k]));
+      SetVector({0, 0, 1}, k, &room->normal);
+      SetVector(to_view, k, &room->to_view);
+      SetVector((2 * to_view.dot(half) * half - to_view).normalized(), k, &room->to_light);
+    }
+    Evaluate(
+        *model.brdf,
+        {kAngles, VectorsOf(room->normal), VectorsOf(room->to_view), VectorsOf(room->to_light)},
+        ValuesOf(&room->value));
+    for (const double* const value : ValuesOf(&room->value)) {
+      double change = 0, largest = 0;
+      for (size_t k = 0; k < kAngles; ++k) {
+        change = std::max(change, std::abs(value[k] - value[0]));
+        largest = std::max(largest, std::abs(value[k]));
+      }
+      if (!(change > 1e-3 * largest)) continue;
+      size_t k = 0;
+      while (!(std::abs(value[k] - value[0]) > (1 - 1 / M_E) * change)) ++k;
+      width = std::min(width, angle[k]);
+    }
+  }
+  return width;
 }
 
 }  // namespace nacre

@@ -17,7 +17,7 @@ void ShadeUser(const UserModel& model, const ShadeRange& range, ShadeScratch* sc
 
 // SampleLobe and LobePdf of a model with a sampler.
 void SampleUser(const UserModel& model, const LobeRange& range, const float* u, const float* v,
-                Soa3<float>* to_light);
+                ShadeScratch* scratch, Soa3<float>* to_light);
 void UserPdf(const UserModel& model, const LobeRange& range, const LightBatch& light,
              ShadeScratch* scratch, float* pdf);
 
@@ -30,5 +30,10 @@ Vec3d SampleUser(const UserModel& model, const Vec3d& normal, const Vec3d& to_vi
                  double u1);
 double UserPdf(const UserModel& model, const Vec3d& normal, const Vec3d& to_view,
                const Vec3d& to_light);
+
+// About how far the half vector may turn from the normal, in radians, before the lobe around the
+// mirror direction has fallen to 1/e; infinite of a model that changes little over half a radian.
+// Measured by the function itself: highlights of other places, and edges, go unnoticed.
+double UserLobeWidth(const UserModel& model);
 
 }  // namespace nacre

@@ -125,7 +125,10 @@ TEST_CASE("with or without a sampler, a user's model converges to the same pictu
       const nacre::Image got = nacre::Render(scene, Small(64));
       // The mean of a hundred thousand samples, whose standard deviation is about their mean.
       CHECK(std::abs(Mean(got) / Mean(expected) - 1) < 0.01);
-      CHECK(nacre::Compare(got, expected, {.layers = {""}}).layers[0].rmse < 0.1 * Mean(expected));
+      // With the model's own sampler all directions are the same. Without it there is noise, some
+      // .19 of the mean under the disk.
+      const double rmse = nacre::Compare(got, expected, {.layers = {""}}).layers[0].rmse;
+      CHECK(rmse < (sampled ? 1e-4 : 0.25) * Mean(expected));
     }
   }
 }
@@ -164,8 +167,13 @@ TEST_CASE("threads and layers change no bit of a user's model, and sessions keep
   session.Set("/materials/ball/emission", 0);
   CHECK(session.Render(Small(2)).Find("G")->samples == expected.Find("G")->samples);
   // A material of the same name takes its place.
-  scene.AddMaterial("ball", {{"model", "lambert"}, {"albedo", 0}});
-  CHECK(Mean(nacre::Render(scene, Small(2))) == 0);
+  const Parameters black = {{"model", "lambert"}, {"albedo", 0}};
+  scene.AddMaterial("ball", black);
+  nacre::Scene other = Spheres(kSky);
+  other.AddMaterial("ball", black);
+  other.AddLight("key", kPoint);
+  CHECK(nacre::Render(scene, Small(2)).Find("G")->samples ==
+        nacre::Render(other, Small(2)).Find("G")->samples);
 }
 
 TEST_CASE("a user's model works under --max-error") {
@@ -176,6 +184,65 @@ TEST_CASE("a user's model works under --max-error") {
   const nacre::Image expected = nacre::Render(scene, settings);
   scene.AddMaterial("ball", AsFunctions(nacre::Brdf("burley"), false));
   CHECK(std::abs(Mean(nacre::Render(scene, settings)) / Mean(expected) - 1) < 0.01);
+}
+
+// The share of values that are within `max_error` of the truth, as --max-error counts.
+double ShareWithin(const nacre::Image& image, const nacre::Image& truth, double max_error) {
+  const std::vector<float>& got = image.Find("G")->samples;
+  const std::vector<float>& wanted = truth.Find("G")->samples;
+  size_t within = 0;
+  for (size_t i = 0; i < got.size(); ++i) {
+    const double bound = max_error * std::max(std::abs(double{wanted[i]}), 0.05);
+    within += std::abs(double{got[i]} - wanted[i]) <= bound ? 1 : 0;
+  }
+  return static_cast<double>(within) / static_cast<double>(got.size());
+}
+
+TEST_CASE("rings that a user's model draws between pixel centres are found by --max-error") {
+  nacre::UserBrdf rings;
+  rings.evaluate = [](const nacre::Directions& d, const std::array<double*, 3>& rgb) {
+    for (size_t i = 0; i < d.count; ++i) {
+      double n_dot_l = 0;
+      for (size_t c = 0; c < 3; ++c) n_dot_l += d.normal[c][i] * d.to_light[c][i];
+      const double turn = 8 * n_dot_l - std::round(8 * n_dot_l);
+      for (size_t c = 0; c < 3; ++c) rgb[c][i] = std::abs(turn) < 0.02 ? 2.1 : 0.1;
+    }
+  };
+  nacre::Scene scene;
+  scene.SetCamera({{"position", {0, 0, 6}}, {"fov_y_deg", 30}});
+  scene.AddLight("light", kSun);
+  scene.AddMaterial("ball", rings);
+  scene.AddSphere({0, 0, 0}, 1, "ball");
+  const nacre::Image truth = nacre::Render(scene, Small(1024));
+  nacre::RenderSettings settings = Small(0);
+  settings.max_error = 0.1;
+  const nacre::Image got = nacre::Render(scene, settings);
+  CHECK(ShareWithin(got, truth, 0.1) >= 0.95);
+  // Those of pixels whose centres see none would be .1 to .2 of the light.
+  CHECK(std::abs(Mean(got) / Mean(truth) - 1) < 0.02);
+}
+
+TEST_CASE("how narrow the lobe of a user's model is, is measured for --max-error") {
+  // Highlights smaller than pixels, which are looked for by the width of the lobe.
+  const Parameters metal = {{"model", "metallic_roughness"}, {"metallic", 1}, {"roughness", 0.15}};
+  nacre::Scene scene;
+  scene.SetCamera({{"position", {0, 0, 40}}, {"fov_y_deg", 8}});
+  scene.AddLight("light", kSun);
+  for (int i = 0; i < 16; ++i) scene.AddSphere({i % 4 * 1.3 - 2, i / 4 * 1.3 - 2, 0}, 0.6, "ball");
+  nacre::RenderSettings settings = Small(0);
+  settings.width = settings.height = 20;
+  settings.max_error = 0.05;
+  nacre::RenderStats of_model, of_functions;
+  scene.AddMaterial("ball", metal);
+  const nacre::Image expected = nacre::Render(scene, settings, &of_model);
+  const nacre::Brdf brdf("metallic_roughness", {metal[1], metal[2]});
+  scene.AddMaterial("ball", AsFunctions(brdf, false));
+  const nacre::Image got = nacre::Render(scene, settings, &of_functions);
+  const double ratio =
+      static_cast<double>(of_functions.camera_rays) / static_cast<double>(of_model.camera_rays);
+  INFO(ratio);
+  CHECK(std::abs(ratio - 1) < 0.05);
+  CHECK(Difference(got, expected) < 0.02);
 }
 
 TEST_CASE("functions are asked for what is above the surface alone") {

@@ -44,7 +44,7 @@ class SampledHits {
   LobeRange Range() const { return {hits_, surface_, 0, kCoverageHits}; }
 
   void Sample(const float* u, const float* v) {
-    SampleLobe(material_, Range(), u, v, &lit_.to_light);
+    SampleLobe(material_, Range(), u, v, &scratch_, &lit_.to_light);
     Shade();
   }
 

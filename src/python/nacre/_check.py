@@ -2,7 +2,7 @@
 """Is my BRDF right? Its reciprocity, energy, sampler and cost, and its difference from another."""
 import dataclasses
 import time
-from typing import Any, Dict, List, NamedTuple, Optional, Tuple, Union
+from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 
@@ -13,11 +13,13 @@ from ._scene import Scene
 # Angles in degrees; of phi, 0 is where the viewer is and 180 where mirrors look.
 _THETA = (0.5, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 88.0)
 _PHI = (0.0, 30.0, 60.0, 90.0, 120.0, 150.0, 165.0, 175.0, 180.0)
-# Reciprocity and isotropy hold to the rounding of a formula that is not written for precision: sharp
-# lobes turn 1e-16 of a cosine into more. Somebody's mistake is larger.
-_ROUNDING = 1e-6
+# Reciprocity and isotropy hold to the rounding of a formula that is not written for precision: float32
+# makes 1e-5 of it in a lobe of alpha 0.16. Somebody's mistake is larger.
+_ROUNDING = 1e-4
 # What `Brdf.albedo` of a function is right to, and a margin for what other quadratures call 1.
 _ENERGY = 1e-3
+# A numpy function takes some 100 ns for a sample; a Python loop over the samples, thousands.
+_SLOW = 2e-6
 
 
 class Verdict(NamedTuple):
@@ -67,12 +69,12 @@ class Check:
         for name, verdict in self.verdicts.items():
             lines.append(f"  {'ok  ' if verdict.ok else 'FAIL'}  {name:12} {verdict.text}")
         lines += [f"  hint: {hint}" for hint in self.hints]
-        lines += ["", "  furnace: what is seen of light of radiance 1 from everywhere",
-                  "    angle    " + "".join(f"{np.degrees(np.arccos(c)):7.1f}" for c in self.cosines),
-                  "    albedo   " + "".join(f"{a:7.3f}" for a in self.furnace.max(axis=1))]
+        lines += ["", "  furnace: what is seen of light of radiance 1 from everywhere, by the viewer's angle",
+                  "    degrees  " + "".join(f"{np.degrees(np.arccos(c)):8.1f}" for c in self.cosines),
+                  "    albedo   " + "".join(f"{a:8.3g}" for a in self.furnace.max(axis=1))]
         if self.furnace_reference is not None:
             lines.append("    against  " + "".join(
-                f"{a:7.3f}" for a in self.furnace_reference.max(axis=1)))
+                f"{a:8.3g}" for a in self.furnace_reference.max(axis=1)))
         if self.error is not None:
             lines += ["", "  relative error, the largest over phi; light down, viewer across, degrees",
                       "           " + "".join(f"{t:9.3g}" for t in self.theta_view)]
@@ -119,9 +121,17 @@ def _relative(a: Array, b: Array) -> Array:
 
 
 def _ball(brdf: Brdf, size: int) -> Image:
+    model: Union[Brdf, Function] = brdf
+    if not brdf.is_own and brdf._material is None:  # of a scene
+
+        def reflect(normal: Array, to_view: Array, to_light: Array) -> Array:
+            n_dot_l = (normal * to_light).sum(axis=1, keepdims=True)
+            result: Array = brdf.evaluate(normal, to_view, to_light) / n_dot_l
+            return result
+        model = reflect
     scene = Scene()
     scene.set_camera(position=(0, 0, 8), look_at=(0, 0, 0), fov_y_deg=16)
-    _add(scene, brdf)
+    scene.add_material("ball", model)
     scene.add_light("key", "point", position=(6, 7, 8), intensity=500)
     scene.add_light("rim", "directional", direction_of_travel=(1, -0.2, 1), irradiance=1.5)
     scene.add_sphere((0, 0, 0), 1, "ball")
@@ -155,19 +165,24 @@ def _sampler(brdf: Brdf, cosines: Array, furnace: Array) -> Verdict:
 
 
 def _cost(brdf: Brdf) -> float:
+    """Seconds a sample: in arrays of 65536, or as many as take a tenth of a second."""
     rng = np.random.default_rng(3)
     light, view = (_direction(80 * rng.random(65536), 360 * rng.random(65536)) for _ in range(2))
-    normal = np.broadcast_to(_UP, light.shape)
+    normal = np.tile(_UP, (65536, 1))
     function: Any = brdf._evaluate.function if brdf._evaluate is not None else brdf.evaluate
-    seconds = []
-    for _ in range(3):
-        start = time.perf_counter()
-        function(normal, view, light)
-        seconds.append(time.perf_counter() - start)
-    return min(seconds) / 65536
+    count = 256
+    while True:
+        seconds = []
+        for _ in range(3):
+            start = time.perf_counter()
+            function(normal[:count], view[:count], light[:count])
+            seconds.append(time.perf_counter() - start)
+        if count == 65536 or min(seconds) > 0.02:
+            return min(seconds) / count
+        count *= 4
 
 
-def _hints(values: Array, reference: Array, theta_light: Array) -> List[str]:
+def _factor_hints(values: Array, reference: Array, theta_light: Array) -> List[str]:
     """What a wrong factor may be."""
     good = (reference > 0) & (values > 0)
     if not good.any():
@@ -177,8 +192,7 @@ def _hints(values: Array, reference: Array, theta_light: Array) -> List[str]:
     known: Tuple[Tuple[float, str], ...] = (
         (np.pi, "pi: the 1/pi is missing"), (1 / np.pi, "1/pi: divided by pi once too often"),
         (4, "4: the 1/4 of the microfacet lobe is missing"), (1 / 4, "1/4"), (2, "2"), (1 / 2, "1/2"))
-    for by, what in ((1.0, ""), (n_dot_l, "n.l: the function returns the BRDF without it"),
-                     (1 / n_dot_l, "1/n.l")):
+    for by, what in ((1.0, ""), (n_dot_l, "n.l: which is not part of the BRDF"), (1 / n_dot_l, "1/n.l")):
         left = ratio / by
         median = float(np.nanmedian(left))
         if not np.nanquantile(np.abs(left / median - 1), 0.98) < 1e-3:
@@ -190,6 +204,38 @@ def _hints(values: Array, reference: Array, theta_light: Array) -> List[str]:
         if factors:
             return ["it is the other times " + ", and times ".join(factors)]
     return []
+
+
+def _other_roughness(values: Array, against: str, parameters: Dict[str, Any], tolerance: float,
+                     values_of: Callable[[Brdf], Array]) -> List[str]:
+    """Whether roughness has been taken for alpha, or alpha for roughness."""
+    roughness = parameters.get("roughness")
+    if not isinstance(roughness, (int, float)):
+        return []
+    for other in (float(roughness)**0.5, float(roughness)**2):
+        reference = values_of(Brdf(against, **{**parameters, "roughness": other}))
+        if (np.abs(values - reference) <= tolerance * reference).all():
+            return [f"it is that of roughness {other:.4g}: alpha is the square of the roughness"]
+    return []
+
+
+def _hints(found: Check, known: List[str]) -> List[str]:
+    """What may be wrong, of what is not right, and what is known of that."""
+    hints = list(known)
+    wrong = {name for name, verdict in found.verdicts.items() if not verdict.ok}
+    if "reciprocal" in wrong:
+        alone = found.values / np.cos(np.radians(found.theta_light))[:, None, None, None]
+        if _relative(alone, alone.swapaxes(0, 1)).max() < _ROUNDING:
+            hints.append("without a factor n.l it is reciprocal: n.l is not part of the BRDF")
+    if found.reference is not None and found.error is not None and "agrees" in wrong and not hints:
+        hints = _factor_hints(found.values, found.reference, found.theta_light)
+        steep = np.maximum(found.theta_light[:, None], found.theta_view) >= 80
+        if not hints and found.error[~steep].max() < 1e-3 < found.error[steep].max():
+            hints.append("only grazing angles are wrong: a denominator that is kept above 0 by too much?")
+    if found.seconds > _SLOW:
+        hints.append(f"{1e6 * found.seconds:.1f} us a sample: a loop over the samples? One expression "
+                     "over whole arrays takes about a hundredth")
+    return hints
 
 
 def check(model: Union[Function, Brdf], against: Union[str, Brdf, None] = None, *,
@@ -244,7 +290,6 @@ def check(model: Union[Function, Brdf], against: Union[str, Brdf, None] = None, 
     if brdf._sample is not None:
         verdicts["sampler"] = _sampler(brdf, cosines, furnace)
     reference = error = furnace_reference = image_reference = comparison = None
-    hints: List[str] = []
     image = _ball(brdf, size)
     if other is not None:
         reference = values_of(other)
@@ -256,27 +301,14 @@ def check(model: Union[Function, Brdf], against: Union[str, Brdf, None] = None, 
             bool(error.max() <= tolerance),
             f"differs by {error.max():.1e} at most, at {_worst(error, theta, theta, phi)}; half of "
             f"the angles by less than {np.median(error):.1e}")
-        if not verdicts["agrees"].ok:
-            hints = _hints(values, reference, theta)
         image_reference = _ball(other, size)
         comparison = image.compare(image_reference, layers=["beauty"])
     found = Check(brdf.name, "" if other is None else other.name, theta, theta, phi, values, reference,
                   error, cosines, furnace, furnace_reference, image, image_reference, comparison,
-                  verdicts, _cost(brdf), hints)
+                  verdicts, _cost(brdf), [])
+    known = (_other_roughness(values, against, parameters, tolerance, values_of)
+             if isinstance(against, str) and not verdicts["agrees"].ok else [])
+    found.hints = _hints(found, known)
     if not quiet:
         print(found)
     return found
-
-
-def _add(scene: Scene, brdf: Brdf) -> None:
-    """The model as the material "ball", whichever it is. nacre's own are rendered by the function
-    that evaluates them, in double."""
-    if brdf.is_own:
-        scene.add_material("ball", brdf)
-        return
-
-    def reflect(normal: Array, to_view: Array, to_light: Array) -> Array:
-        n_dot_l = (normal * to_light).sum(axis=1, keepdims=True)
-        result: Array = brdf.evaluate(normal, to_view, to_light) / n_dot_l
-        return result
-    scene.add_material("ball", reflect)

@@ -130,18 +130,22 @@ class Scene(_Values):
             a sampler. Its parameters are then those of a material of which all but the lobes holds:
             emission, coat, sheen, normal maps, and the albedo that ambient light sees; of the model
             "lambert" unless `rest` names another: add_material("mine", f, rest="metallic_roughness",
-            coat=1).
+            coat=1). Or a `nacre.Brdf` of one of nacre's models, whose parameters are added to.
 
         A function is called from the render's threads, one call at a time, with hundreds of points;
-        what it raises ends the render and comes out of it.
+        what it raises ends the render and comes out of it. Adaptive sampling (max_error) measures how
+        narrow its highlights are.
         """
         if isinstance(model, str):
             self._add("materials", name, {"model": model, **parameters})
             return
         brdf = model if isinstance(model, Brdf) else Brdf(model)
+        if brdf._material is not None:
+            self._add("materials", name, {**brdf._material, **parameters})
+            return
         if not brdf.is_own:
-            raise TypeError("nacre's own models are added by name: add_material(name, "
-                            f"{brdf.name!r}, ...)")
+            raise TypeError("the material of another scene is added by its values: "
+                            "add_material(name, model, ...)")
         members = {"model": parameters.pop("rest", "lambert"), **parameters}
         self._native.add_user_material(name, *brdf._functions(), [
             (key, to_json(value, key)) for key, value in members.items()])
