@@ -56,7 +56,7 @@ std::vector<std::string_view> RemoveLayers(Material* material) {
   std::vector<std::string_view> names;
   auto* const model = std::get_if<MetallicRoughnessMaterial>(&material->model);
   if (model == nullptr) return names;
-  if (ShowsSheen(*model)) names.emplace_back("sheen");
+  if (ShowsSheen(*model)) names.push_back(SheenModel::kName);
   model->sheen_color = Rgb(0, 0, 0);
   return names;
 }

@@ -18,6 +18,7 @@ struct HitTextures;
 
 // Fuzz: brdf/sheen.h.
 struct SheenModel {
+  static constexpr std::string_view kName = "sheen";
   Rgb color{0, 0, 0};
   Charlie<double> charlie;
 };

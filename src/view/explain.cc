@@ -129,7 +129,7 @@ Json TermsJson(const ShadingMaterial& material, const Vec3d& normal, const Vec3d
 }
 
 std::string_view NameOf(const LayerModel& layer) {
-  return std::visit(Overloaded{[](const SheenModel&) { return "sheen"; }}, layer);
+  return std::visit([](const auto& model) { return model.kName; }, layer);
 }
 
 // What the material reflects of irradiance E from this direction. Where something covers its base,
