@@ -9,7 +9,6 @@
 #include <string_view>
 #include <variant>
 
-#include "base/overloaded.h"
 #include "base/printable.h"
 #include "brdf/ggx.h"
 #include "brdf/phong.h"
