@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/hash.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <cstring>
+#include <span>
 #include <string_view>
+#include <type_traits>
+#include <vector>
 
 #include "scene/material_parameters.h"
 
@@ -41,6 +47,28 @@ class Hasher {
   uint64_t state_ = 0x9e3779b97f4a7c15u;
 };
 
+// Long arrays, in four chains side by side, eight bytes at a time: in a chain alone, each product
+// waits for the one before.
+template <class T>
+void AddArray(std::span<const T> values, Hasher* hash) {
+  static_assert(std::is_standard_layout_v<T> && sizeof(T) % sizeof(float) == 0);
+  constexpr size_t kChains = 4;
+  std::array<Hasher, kChains> chains;
+  std::array<uint64_t, kChains> words{};
+  const auto* const bytes = reinterpret_cast<const unsigned char*>(values.data());
+  for (size_t i = 0; i < values.size_bytes(); i += sizeof(words)) {
+    const size_t left = values.size_bytes() - i;
+    if (left < sizeof(words)) words = {};
+    std::memcpy(words.data(), bytes + i, std::min(left, sizeof(words)));
+    for (size_t chain = 0; chain < kChains; ++chain) chains[chain].Word(words[chain]);
+  }
+  for (const Hasher& chain : chains) hash->Word(chain.state());
+}
+template <class T>
+void AddArray(const std::vector<T>& values, Hasher* hash) {
+  AddArray(std::span<const T>(values), hash);
+}
+
 void Add(const Camera& camera, Hasher* hash) {
   hash->Word(static_cast<uint64_t>(camera.projection));
   hash->Add(camera.position);
@@ -68,7 +96,7 @@ void Add(const SceneImage& image, Hasher* hash) {
   hash->Word(std::bit_cast<uint32_t>(image.middle));
   const size_t count = static_cast<size_t>(whole.width) * static_cast<size_t>(whole.height) *
                        static_cast<size_t>(image.texels->channels);
-  for (size_t i = 0; i < count; ++i) hash->Word(std::bit_cast<uint32_t>(image.texels->values[i]));
+  AddArray(std::span<const float>(image.texels->values.data(), count), hash);
 }
 
 void Add(const Texture& texture, Hasher* hash) {
@@ -182,8 +210,8 @@ struct AddLightKind {
   void operator()(const MeshAreaLight& light) const {
     hash->Word(light.mesh->positions.size());
     hash->Word(light.mesh->triangles.size());
-    for (const Vec3d& position : light.mesh->positions) hash->Add(position);
-    for (const uint32_t index : light.mesh->triangles) hash->Word(index);
+    AddArray(light.mesh->positions, hash);
+    AddArray(light.mesh->triangles, hash);
     Surface(light);
   }
   void operator()(const EnvironmentLight& light) const {
@@ -208,7 +236,7 @@ struct AddLightKind {
   void operator()(const PictureSky& sky) const {
     hash->Word(static_cast<uint64_t>(sky.picture->width));
     hash->Word(static_cast<uint64_t>(sky.picture->height));
-    for (const float texel : sky.picture->rgb) hash->Word(std::bit_cast<uint32_t>(texel));
+    AddArray(sky.picture->rgb, hash);
     hash->Add(sky.scale);
   }
   template <class Flat>
@@ -238,17 +266,14 @@ void AddShapes(const Scene& scene, Hasher* hash) {
     hash->Word(mesh.triangles.size());
     hash->Word(static_cast<uint64_t>(mesh.interpolation));
     hash->Word(mesh.smooth_terminator);
-    for (const Vec3d& position : mesh.positions) hash->Add(position);
-    for (const Vec3d& normal : mesh.normals) hash->Add(normal);
-    for (const Vec2d& uv : mesh.uvs) hash->Add(uv);
-    for (const Vec2d& uv : mesh.second_uvs) hash->Add(uv);
-    for (const Vec3f& color : mesh.colors) hash->Add(Vec3d(color));
-    for (const float opacity : mesh.opacities) hash->Add(double{opacity});
-    for (const Tangent& tangent : mesh.tangents) {
-      hash->Add(tangent.direction);
-      hash->Add(tangent.sign);
-    }
-    for (const uint32_t index : mesh.triangles) hash->Word(index);
+    AddArray(mesh.positions, hash);
+    AddArray(mesh.normals, hash);
+    AddArray(mesh.uvs, hash);
+    AddArray(mesh.second_uvs, hash);
+    AddArray(mesh.colors, hash);
+    AddArray(mesh.opacities, hash);
+    AddArray(mesh.tangents, hash);
+    AddArray(mesh.triangles, hash);
     hash->Add(mesh.material);
   }
 }

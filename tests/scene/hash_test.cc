@@ -2,6 +2,8 @@
 // tests/scene/hash_test.cc: a scene's fingerprint tells every value that shows from another.
 #include "scene/hash.h"
 
+#include <set>
+
 #include "catch.h"
 #include "scene/material_parameters.h"
 #include "scene/sphere_mesh.h"
@@ -85,6 +87,23 @@ TEST_CASE("what else shows changes the hash") {
   CHECK(differs([](Scene* s) { s->materials[0].opacity_cutoff = 0.25; }));
   CHECK(differs([](Scene* s) { s->meshes[0].interpolation = Interpolation::kFaceted; }));
   CHECK(differs([](Scene* s) { s->meshes[0].smooth_terminator = false; }));
+}
+
+// They are hashed in chains of eight bytes each, and the last of them may be shorter.
+TEST_CASE("every value of an array counts, and where it stands") {
+  Scene scene = MakeScene();
+  Mesh& mesh = scene.meshes[0];
+  for (size_t count = 1; count < 20; ++count) {
+    mesh.opacities.assign(count, 0.5f);
+    const uint64_t hash = HashShapes(scene);
+    std::set<uint64_t> hashes = {hash};
+    for (float& opacity : mesh.opacities) {
+      opacity = 0.25f;
+      CHECK(hashes.insert(HashShapes(scene)).second);
+      opacity = 0.5f;
+    }
+    CHECK(HashShapes(scene) == hash);
+  }
 }
 
 }  // namespace
