@@ -6,15 +6,19 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/float_mode.h"
+#include "base/parallel.h"
 #include "image_io/color_channels.h"
 #include "image_io/orientation.h"
 
@@ -23,6 +27,7 @@ namespace {
 
 constexpr int kLargestSide = 65536;
 // Rows of other widths are never coded run by run.
+constexpr int kRowsAtATime = 16;
 constexpr int kShortestCoded = 8, kLongestCoded = 0x7fff;
 
 [[noreturn]] void FailHdr(const std::string& path, const std::string& what,
@@ -33,12 +38,26 @@ constexpr int kShortestCoded = 8, kLongestCoded = 0x7fff;
 // The file, byte by byte. Throws where it ends.
 class HdrBytes {
  public:
-  explicit HdrBytes(const std::string& path) : path_(path), file_(path, std::ios::binary) {}
+  // `buffered`: as many bytes as Peek will be asked for.
+  explicit HdrBytes(const std::string& path, size_t buffered = 0)
+      : path_(path),
+        file_(path, std::ios::binary),
+        buffer_(std::max(size_t{1} << 16, 4 * buffered)) {}
 
   uint8_t Next() {
     if (next_ == end_) Fill();
     return static_cast<uint8_t>(buffer_[next_++]);
   }
+  // The next `count` bytes, which Skip takes; null if the file ends before.
+  const char* Peek(size_t count) {
+    if (end_ - next_ < count) {
+      std::copy(buffer_.begin() + next_, buffer_.begin() + end_, buffer_.begin());
+      end_ -= std::exchange(next_, 0);
+      end_ += ReadInto(end_);
+    }
+    return end_ - next_ >= count ? buffer_.data() + next_ : nullptr;
+  }
+  void Skip(size_t count) { next_ += count; }
   std::string Line() {
     constexpr size_t kLongest = 1 << 16;
     std::string line;
@@ -52,16 +71,19 @@ class HdrBytes {
   }
 
  private:
+  size_t ReadInto(size_t first) {
+    file_.read(buffer_.data() + first, static_cast<std::streamsize>(buffer_.size() - first));
+    return static_cast<size_t>(file_.gcount());
+  }
   void Fill() {
-    file_.read(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
     next_ = 0;
-    end_ = static_cast<size_t>(file_.gcount());
+    end_ = ReadInto(0);
     if (end_ == 0) FailHdr(path_, "cannot be read: it is cut off");
   }
 
   std::string path_;
   std::ifstream file_;
-  std::array<char, 1 << 16> buffer_{};
+  std::vector<char> buffer_;
   size_t next_ = 0, end_ = 0;
 };
 
@@ -200,6 +222,7 @@ class RowReader {
   RowReader(const std::string& path, HdrBytes* bytes) : path_(path), bytes_(bytes) {}
 
   void Read(Row* row) {
+    if (TakePlain(row)) return;
     std::array<uint8_t, 4> first = NextPixel();
     const auto width = static_cast<int>(row->size());
     const bool may_be_coded = width >= kShortestCoded && width <= kLongestCoded;
@@ -214,6 +237,21 @@ class RowReader {
   }
 
  private:
+  // Takes a row without codes and repetitions, if that is what comes.
+  bool TakePlain(Row* row) {
+    const size_t size = 4 * row->size();
+    const char* const bytes = bytes_->Peek(size);
+    if (bytes == nullptr || (bytes[0] == 2 && bytes[1] == 2)) return false;
+    bool repeats = false;
+    for (size_t i = 0; i < size; i += 4) {
+      repeats |= bytes[i] == 1 && bytes[i + 1] == 1 && bytes[i + 2] == 1;
+    }
+    if (repeats) return false;
+    std::memcpy(row->data(), bytes, size);
+    bytes_->Skip(size);
+    return true;
+  }
+
   std::array<uint8_t, 4> NextPixel() {
     std::array<uint8_t, 4> pixel{};
     for (uint8_t& byte : pixel) byte = bytes_->Next();
@@ -261,24 +299,36 @@ class RowReader {
 // `size`: of the image when it was opened.
 void ReadPixels(const std::string& path, const Window& size, const Window& region,
                 std::span<const SampleTarget> targets) {
-  HdrBytes bytes(path);
+  HdrBytes bytes(path, size_t{4} * static_cast<size_t>(std::max(size.width(), size.height())));
   const HdrHeader header = ReadHeader(path, &bytes);
   const RowPlacer placer(header.orientation, {0, 0, header.width, header.height}, region, targets);
   CheckUnchanged(path, header.width == size.width() && header.height == size.height());
   const auto width = static_cast<size_t>(placer.stored_width());
   RowReader reader(path, &bytes);
-  Row row(width);
-  std::vector<float> values(3 * width);
-  for (int y = 0; y < placer.stored_height(); ++y) {
-    reader.Read(&row);
-    for (size_t x = 0; x < width; ++x) {
-      const int exponent = row[x][3];
-      const double scale = exponent == 0 ? 0.0 : std::ldexp(1.0, exponent - (128 + 8));
-      for (size_t c = 0; c < 3; ++c) {
-        values[3 * x + c] = static_cast<float>(row[x][c] * scale / header.exposure[c]);
+  std::array<double, 256> scales{};  // by exponent
+  for (int exponent = 1; exponent < 256; ++exponent) {
+    scales[static_cast<size_t>(exponent)] = std::ldexp(1.0, exponent - (128 + 8));
+  }
+  const bool exposed = header.exposure != std::array<double, 3>{1, 1, 1};
+  // Rows follow one another in the file and are converted several at a time.
+  std::vector<Row> rows(kRowsAtATime, Row(width));
+  std::vector<std::vector<float>> values(kRowsAtATime, std::vector<float>(3 * width));
+  for (int first = 0; first < placer.stored_height(); first += kRowsAtATime) {
+    const int count = std::min(kRowsAtATime, placer.stored_height() - first);
+    for (int i = 0; i < count; ++i) reader.Read(&rows[static_cast<size_t>(i)]);
+    ParallelFor(static_cast<size_t>(count), 0, [&](size_t i) {
+      const DefaultFloatMode mode;  // samples may be denormal
+      const Row& row = rows[i];
+      float* const to = values[i].data();
+      for (size_t x = 0; x < width; ++x) {
+        const double scale = scales[row[x][3]];
+        for (size_t c = 0; c < 3; ++c) {
+          const double value = row[x][c] * scale;
+          to[3 * x + c] = static_cast<float>(exposed ? value / header.exposure[c] : value);
+        }
       }
-    }
-    placer.Place(y, values.data(), 3);
+      placer.Place(first + static_cast<int>(i), to, 3);
+    });
   }
 }
 

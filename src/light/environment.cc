@@ -2,6 +2,10 @@
 // light/environment.cc: prepares an environment image for sampling.
 #include "light/environment.h"
 
+#include <numeric>
+
+#include "base/float_mode.h"
+#include "base/parallel.h"
 #include "color/luminance.h"
 
 namespace nacre {
@@ -25,36 +29,47 @@ double TexelSolidAngle(int width, int height, int row) {
   return 4 * M_PI / width * std::sin(M_PI * (row + 0.5) / height) * std::sin(M_PI / height / 2);
 }
 
-EnvironmentMap MakeEnvironmentMap(int width, int height, std::span<const Vec3f> texels) {
+EnvironmentMap MakeEnvironmentMap(int width, int height, std::span<const Vec3f> texels,
+                                  int threads) {
   EnvironmentMap map;
   map.width = width;
   map.height = height;
-  map.texels.reserve(texels.size());
-  map.column_tables.reserve(texels.size());
-  map.rows.reserve(static_cast<size_t>(height));
-  std::vector<double> row_weights, luminances(static_cast<size_t>(width));
-  row_weights.reserve(static_cast<size_t>(height));
-  double sum = 0;
-  for (int y = 0; y < height; ++y) {
-    double row_sum = 0;
-    for (size_t x = 0; x < luminances.size(); ++x) {
-      const Vec3f& t = texels[static_cast<size_t>(y) * luminances.size() + x];
-      luminances[x] = Luminance(Rgb(t.x, t.y, t.z));
-      row_sum += luminances[x];
-      map.texels.push_back({t.x, t.y, t.z, static_cast<float>(luminances[x])});
-    }
-    const std::vector<CdfEntry> columns = MakeInverseCdf(luminances);
-    map.column_tables.insert(map.column_tables.end(), columns.begin(), columns.end());
-    map.rows.push_back(RowEdges(height, y));
-    row_weights.push_back(row_sum * TexelSolidAngle(width, height, y));
-    sum += row_weights.back();
-  }
+  map.texels = HugeArray<EnvironmentTexel>(texels.size());
+  map.column_tables = HugeArray<CdfEntry>(texels.size());
+  const auto columns = static_cast<size_t>(width), rows = static_cast<size_t>(height);
+  std::vector<double> row_weights(rows);
+  constexpr size_t kRows = 16;  // at a time
+  // Calls body(y, luminances) for all rows, on several threads.
+  const auto for_each_row = [&](const auto& body) {
+    ParallelFor((rows + kRows - 1) / kRows, threads, [&](size_t block) {
+      const DefaultFloatMode mode;  // texels may be denormal
+      std::vector<double> luminances(columns);
+      for (size_t y = block * kRows; y < std::min(rows, (block + 1) * kRows); ++y) {
+        for (size_t x = 0; x < columns; ++x) {
+          const Vec3f& t = texels[y * columns + x];
+          luminances[x] = Luminance(Rgb(t.x, t.y, t.z));
+        }
+        body(y, luminances);
+      }
+    });
+  };
+  for_each_row([&](size_t y, const std::vector<double>& luminances) {
+    const double row_sum = std::accumulate(luminances.begin(), luminances.end(), 0.0);
+    row_weights[y] = row_sum * TexelSolidAngle(width, height, static_cast<int>(y));
+    FillInverseCdf(luminances, &map.column_tables[y * columns]);
+  });
+  const double sum = std::accumulate(row_weights.begin(), row_weights.end(), 0.0);
   map.row_table = MakeInverseCdf(row_weights);
   map.is_black = !(sum > 0);
-  // Luminance times solid angle over its sum, per solid angle.
-  for (EnvironmentTexel& texel : map.texels) {
-    texel.pdf = map.is_black ? 0 : static_cast<float>(texel.pdf / sum);
-  }
+  for (int y = 0; y < height; ++y) map.rows.push_back(RowEdges(height, y));
+  for_each_row([&](size_t y, const std::vector<double>& luminances) {
+    for (size_t x = 0; x < columns; ++x) {
+      const Vec3f& t = texels[y * columns + x];
+      // Luminance times solid angle over its sum, per solid angle.
+      const double pdf = map.is_black ? 0 : static_cast<float>(luminances[x]) / sum;
+      map.texels[y * columns + x] = {t.x, t.y, t.z, static_cast<float>(pdf)};
+    }
+  });
   return map;
 }
 

@@ -17,6 +17,7 @@
 #include <span>
 #include <vector>
 
+#include "base/huge_pages.h"
 #include "base/vec.h"
 #include "sampling/inverse_cdf.h"
 
@@ -38,15 +39,17 @@ struct EnvironmentRow {
 
 struct EnvironmentMap {
   int width = 0, height = 0;
-  std::vector<EnvironmentTexel> texels;  // row by row
+  HugeArray<EnvironmentTexel> texels;  // row by row
   std::vector<EnvironmentRow> rows;
   std::vector<CdfEntry> row_table;
-  std::vector<CdfEntry> column_tables;  // `width` entries a row
-  bool is_black = true;                 // nothing to sample
+  HugeArray<CdfEntry> column_tables;  // `width` entries a row
+  bool is_black = true;               // nothing to sample
 };
 
-// Texels in rows from +y on; radiances >= 0 and finite. The map takes 32 bytes a texel.
-EnvironmentMap MakeEnvironmentMap(int width, int height, std::span<const Vec3f> texels);
+// Texels in rows from +y on; radiances >= 0 and finite. The map takes 32 bytes a texel. On up to
+// `threads` threads (0: as many as the machine has).
+EnvironmentMap MakeEnvironmentMap(int width, int height, std::span<const Vec3f> texels,
+                                  int threads = 1);
 
 // The solid angle of each texel in a row of an image of this size.
 double TexelSolidAngle(int width, int height, int row);

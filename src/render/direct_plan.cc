@@ -80,7 +80,7 @@ void PlanSampledLights(const Scene& scene, const RenderSettings& settings,
     if (IsPunctual(light) || std::holds_alternative<AmbientLight>(light.kind)) continue;
     PlannedSampledLight planned;
     planned.index = i;
-    planned.light = PrepareSampledLight(light, scene.camera.position, tables);
+    planned.light = PrepareSampledLight(light, scene.camera.position, tables, settings.threads);
     planned.shadow_rays = scene.image.shadows && light.shadows;
     planned.layer = LightLayer(layers, i);
     if (shown != nullptr) planned.primitives = shown->primitives[i];

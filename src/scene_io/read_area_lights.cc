@@ -2,14 +2,18 @@
 // scene_io/read_area_lights.cc: lights with an extent, and environments.
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/huge_pages.h"
+#include "base/parallel.h"
 #include "image_io/color_channels.h"
 #include "image_io/image_file.h"
 #include "scene_io/readers.h"
@@ -69,11 +73,26 @@ struct PictureReading {
   bool clamp_negative = false;  // samples below 0 count as 0
 };
 
+// Whether all samples are as they must be.
+bool AreRadiances(std::span<const float> samples, int threads) {
+  constexpr size_t kPiece = size_t{1} << 18;
+  std::atomic<bool> all = true;
+  ParallelFor((samples.size() + kPiece - 1) / kPiece, threads, [&](size_t piece) {
+    const size_t first = piece * kPiece;
+    bool good = true;
+    for (const float sample : samples.subspan(first, std::min(kPiece, samples.size() - first))) {
+      good &= sample >= 0 && sample <= limits::kRadiance.max;
+    }
+    if (!good) all = false;
+  });
+  return all;
+}
+
 // Throws Error (kBadInput) for what is no picture of light. `clamped`: how many samples were below
 // 0, and the lowest.
 std::shared_ptr<const SkyPicture> MakePicture(const std::string& path, const std::string& file,
-                                              const PictureReading& reading, size_t* clamped,
-                                              float* lowest) {
+                                              const PictureReading& reading, int threads,
+                                              size_t* clamped, float* lowest) {
   const auto refuse = [&](const std::string& what, const std::string& hint) {
     throw Error(ExitCode::kBadInput, file, what, hint);
   };
@@ -93,6 +112,8 @@ std::shared_ptr<const SkyPicture> MakePicture(const std::string& path, const std
   auto picture = std::make_shared<SkyPicture>();
   picture->width = window.width();
   picture->height = window.height();
+  picture->rgb.reserve(3 * window.pixel_count());
+  AdviseHugePages(picture->rgb.data(), 3 * window.pixel_count() * sizeof(float));
   picture->rgb.resize(3 * window.pixel_count());
   float* const rgb = picture->rgb.data();
   const ptrdiff_t step_y = ptrdiff_t{3} * window.width();
@@ -102,6 +123,7 @@ std::shared_ptr<const SkyPicture> MakePicture(const std::string& path, const std
     targets.push_back({channels[c], rgb + c, 3, step_y});
   }
   image.read(window, targets);
+  if (!colors->is_grey() && AreRadiances(picture->rgb, threads)) return picture;
   for (size_t i = 0; i < picture->rgb.size(); ++i) {
     if (colors->is_grey() && i % 3 != 0) rgb[i] = rgb[i - 1];
     if (rgb[i] < 0 && rgb[i] >= std::numeric_limits<float>::lowest() && reading.clamp_negative) {
@@ -139,7 +161,7 @@ void ReadPicture(const JsonValue& value, const PictureReading& reading, const Sc
     }
     size_t clamped = 0;
     float lowest = 0;
-    sky->picture = MakePicture(path.string(), file, reading, &clamped, &lowest);
+    sky->picture = MakePicture(path.string(), file, reading, context.threads, &clamped, &lowest);
     if (context.kept != nullptr) context.kept->skies[key] = sky->picture;
     if (clamped > 0 && context.on_warning) {
       context.on_warning(

@@ -60,15 +60,16 @@ Vec3d Turn(const Vec3d& v, double cosine, double sine) {
   return {v.x * cosine + v.z * sine, v.y, v.z * cosine - v.x * sine};
 }
 
-EnvironmentMap MakeMap(const SkyPicture& picture) {
+EnvironmentMap MakeMap(const SkyPicture& picture, int threads) {
   // Looked at in place: a copy would take as much memory as the picture.
   static_assert(sizeof(Vec3f) == 3 * sizeof(float));
   const std::span texels(reinterpret_cast<const Vec3f*>(picture.rgb.data()),
                          picture.rgb.size() / 3);
-  return MakeEnvironmentMap(picture.width, picture.height, texels);
+  return MakeEnvironmentMap(picture.width, picture.height, texels, threads);
 }
 
-void Prepare(const EnvironmentLight& environment, KeptTables* kept, SampledLight* light) {
+void Prepare(const EnvironmentLight& environment, int threads, KeptTables* kept,
+             SampledLight* light) {
   ShadingSky& to = light->sky;
   const double angle = environment.rotate_deg * M_PI / 180;
   to.cos_rotation = std::cos(angle);
@@ -99,7 +100,7 @@ void Prepare(const EnvironmentLight& environment, KeptTables* kept, SampledLight
                    light->form = SampledForm::kPictureSky;
                    light->color = sky.scale;
                    to.picture = TableOf(
-                       sky.picture, [&] { return MakeMap(*sky.picture); }, &kept->skies);
+                       sky.picture, [&] { return MakeMap(*sky.picture, threads); }, &kept->skies);
                  }},
       environment.sky);
 }
@@ -154,12 +155,14 @@ void SkyRadiance(const SampledLight& light, const Soa3<double>& directions, size
   scale(color.z, &radiance->z);
 }
 
-SampledLight PrepareSampledLight(const Light& light, const Vec3d& camera_position,
-                                 KeptTables* kept) {
+SampledLight PrepareSampledLight(const Light& light, const Vec3d& camera_position, KeptTables* kept,
+                                 int threads) {
   SampledLight prepared;
   std::visit(
       Overloaded{
-          [&](const EnvironmentLight& environment) { Prepare(environment, kept, &prepared); },
+          [&](const EnvironmentLight& environment) {
+            Prepare(environment, threads, kept, &prepared);
+          },
           [&](const SphereAreaLight& area) { Prepare(area, camera_position, &prepared); },
           [&](const RectangleAreaLight& area) { Prepare(area, camera_position, &prepared); },
           [&](const DiskAreaLight& area) { Prepare(area, camera_position, &prepared); },

@@ -56,8 +56,8 @@ struct SampledLight {
 };
 
 // `light` is neither ambient nor punctual. Its tables are looked for in `kept`, and left there.
-SampledLight PrepareSampledLight(const Light& light, const Vec3d& camera_position,
-                                 KeptTables* kept);
+SampledLight PrepareSampledLight(const Light& light, const Vec3d& camera_position, KeptTables* kept,
+                                 int threads = 1);
 
 inline bool IsSky(const SampledLight& light) { return light.form >= SampledForm::kConstantSky; }
 
