@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "base/parallel.h"
 #include "visibility/box_trees.h"
@@ -20,6 +21,7 @@ struct Intersector::State {
   TraceGeometry geometry;
   bool nested = false;
   std::vector<LightOccluders> occluders;  // by number of the light
+  std::vector<LightOccluders> forgotten;  // until the next FindOccluders
   CameraFrame camera;
   SphereBins bins;
   bool tree = false;              // BuildTree was called
@@ -59,7 +61,7 @@ bool Intersector::MoveTo(const Scene& scene, const Vec3d& camera_position) {
   if (camera_position == s.geometry.eye) return true;
   if (s.HasShells() || (s.boxes && !s.boxes->Serve(camera_position))) return false;
   MoveGeometry(scene, camera_position, s.settings.threads, &s.geometry);
-  s.occluders.clear();
+  ForgetOccluders();
   // Spheres that nearly are nested may be by the roundings of other coordinates.
   return !AreNested(s.geometry.spheres);
 }
@@ -121,13 +123,22 @@ void Intersector::FindOccluders(const std::vector<const Light*>& lights, bool ou
   const bool many = lights.size() >= 8;
   const int inner = many ? 1 : s.settings.threads;
   const size_t room = kBinEntryBudget / std::max<size_t>(lights.size(), 4);
+  std::vector<LightOccluders> forgotten = std::exchange(s.forgotten, {});
+  forgotten.resize(std::max(forgotten.size(), lights.size()));
   s.occluders.resize(lights.size());
   ParallelFor(lights.size(), many ? s.settings.threads : 1, [&](size_t i) {
     LightOccluders& occluders = s.occluders[i];
     const ShadowLight target = MakeShadowLight(*lights[i], s.geometry.eye);
     occluders.light = target;
+    occluders.light_in_world = MakeShadowLight(*lights[i], Vec3d(0));
     if (few) occluders.lists = ListOccluders(s.geometry, target, outward);
     if (few && occluders.lists.longest <= kMaxListLength) return;
+    LightOccluders& before = forgotten[i];
+    if (before.bins && before.light_in_world == occluders.light_in_world &&
+        MoveBins(s.geometry, &*before.bins)) {
+      occluders.bins = std::move(before.bins);
+      return;
+    }
     occluders.bins = BinForLight(s.geometry, target, room, inner);
   });
 }
@@ -135,10 +146,15 @@ void Intersector::FindOccluders(const std::vector<const Light*>& lights, bool ou
 void Intersector::FindOccludersOfBall(const std::optional<LightBall>& ball,
                                       const PrimitiveRange& target, bool outward) {
   State& s = *state_;
-  s.occluders.push_back({{}, {}, ListOccludersOfBall(s.geometry, ball, target, outward)});
+  s.occluders.emplace_back().lists = ListOccludersOfBall(s.geometry, ball, target, outward);
 }
 
-void Intersector::ForgetOccluders() { state_->occluders.clear(); }
+void Intersector::ForgetOccluders() {
+  State& s = *state_;
+  if (s.occluders.empty()) return;
+  s.forgotten = std::move(s.occluders);
+  s.occluders.clear();
+}
 
 const LightOccluders& Intersector::Occluders(uint32_t light) const {
   return state_->occluders[light];

@@ -34,7 +34,8 @@ struct IntersectorSettings {
 // What can come between the spheres and a light: bins, or else lists; in small scenes both may be
 // there.
 struct LightOccluders {
-  ShadowLight light;  // of FindOccluders
+  ShadowLight light;           // of FindOccluders
+  ShadowLight light_in_world;  // likewise, relative to the world's origin
   std::optional<LightBins> bins;
   OccluderLists lists;
 };
@@ -115,7 +116,8 @@ class Intersector {
   void FindOccludersOfBall(const std::optional<LightBall>& ball, const PrimitiveRange& target,
                            bool outward);
 
-  // Begins with the first light again.
+  // Begins with the first light again. The next FindOccluders may take what this one has found for
+  // the same light at the same place in the list.
   void ForgetOccluders();
 
   // What was found for a light. The reference holds until the next FindOccluders.

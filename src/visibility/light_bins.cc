@@ -343,7 +343,22 @@ class Binner {
 
 LightBins BinForLight(const TraceGeometry& geometry, const ShadowLight& light, size_t entry_budget,
                       int threads) {
-  return Binner(geometry, light, entry_budget, threads).Bin();
+  LightBins bins = Binner(geometry, light, entry_budget, threads).Bin();
+  bins.made_eye = geometry.eye;
+  bins.made_center = bins.center;
+  return bins;
+}
+
+// What is binned is relative to the centre. All else relative to the camera is rounded to 2^-53 of
+// numbers that are about max_distance at most, before the move and after it: to some 1e-16
+// max_distance, of which the margins have room for 40 times as much (kDoubleError of a thousandth).
+bool MoveBins(const TraceGeometry& geometry, LightBins* bins) {
+  const Vec3d moved = bins->made_eye - geometry.eye;
+  if (!(moved.length() <= bins->max_distance / 250)) return false;
+  bins->center = bins->made_center + moved;
+  // Those that nearly coincide may do so by the roundings of other coordinates.
+  bins->large_first = FindFirstCoincident(geometry.spheres, bins->large);
+  return true;
 }
 
 }  // namespace nacre

@@ -71,6 +71,7 @@ struct LightBins {
   // Spheres and rays that extend further than this from the camera are not binned: the margins
   // would be too small for their rounding errors.
   double max_distance = 0;
+  Vec3d made_eye{0, 0, 0}, made_center{0, 0, 0};  // TraceGeometry::eye and `center` of BinForLight
 
   std::vector<uint32_t> end;       // where each cell's list ends
   HugeArray<BinnedSphere> binned;  // cell by cell, padded by a vector
@@ -104,6 +105,10 @@ inline CubePoint ProjectToCube(const Vec3d& direction) {
 // entries.
 LightBins BinForLight(const TraceGeometry& geometry, const ShadowLight& light, size_t entry_budget,
                       int threads);
+
+// Makes them those of the same light as the geometry's camera has it now, which has moved. False:
+// too far, and they must be made again.
+bool MoveBins(const TraceGeometry& geometry, LightBins* bins);
 
 // Memory budget, in entries, for the bins of all lights together.
 inline constexpr size_t kBinEntryBudget = size_t{1} << 19;

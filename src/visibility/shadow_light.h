@@ -11,6 +11,7 @@ struct ShadowLight {
   bool positional = false;
   Vec3d position{0, 0, 0};  // if positional, relative to the camera
   Vec3d to_light{0, 0, 1};  // if directional: the unit direction towards it
+  friend bool operator==(const ShadowLight&, const ShadowLight&) = default;
 };
 
 // `light` is punctual.

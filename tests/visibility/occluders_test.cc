@@ -314,5 +314,42 @@ TEST_CASE("the lists leave out what cannot be in the way") {
   CHECK(lists(PointAt({0, 9, -5}), true) == Lists{{1}, {}, {0, 1}, {}});
 }
 
+// Of a camera that moves, bins are kept, unless it moves far.
+TEST_CASE("bins of a camera that has moved are those of a new one") {
+  Random random(57);
+  const Scene scene = RandomSpheres(&random, 3000);
+  const std::vector<Light> lights = {PointAt({1, 4, -2}), SunAlong({0.3, -1, 0.2})};
+  const std::vector<Ray> camera_rays = CameraRays(&random, 600);
+  ForEachTarget([&](Target) {
+    Intersector moving(scene, Vec3d(0), {.tree = false});
+    for (const Vec3d& eye : {Vec3d(0), Vec3d(0.3, 0.1, 0.5), Vec3d(-0.7, 0.4, 0), Vec3d(0, 0, 900),
+                             Vec3d(0.2, 0, 0), Vec3d(0)}) {
+      REQUIRE(moving.MoveTo(scene, eye));
+      moving.ForgetOccluders();
+      moving.FindOccluders({&lights[0], &lights[1]}, false);
+      const Intersector fresh(scene, eye);
+      const std::vector<Surface> surfaces = TraceSurfaces(fresh, camera_rays);
+      for (uint32_t light = 0; light < 2; ++light) {
+        const std::vector<ShadowRay> rays = RaysTo(lights[light], eye, surfaces);
+        REQUIRE(moving.Occluders(light).bins);
+        CHECK(TraceShadows(moving, rays, light) == TraceShadows(fresh, rays));
+      }
+    }
+  });
+}
+
+TEST_CASE("bins are those of the light that is asked for") {
+  Random random(58);
+  const Scene scene = RandomSpheres(&random, 3000);
+  const Light before = PointAt({1, 4, -2}), now = PointAt({-3, 2, 1});
+  Intersector changed(scene, Vec3d(0));
+  changed.FindOccluders({&before}, false);
+  changed.ForgetOccluders();
+  changed.FindOccluders({&now}, false);
+  const std::vector<Surface> surfaces = TraceSurfaces(changed, CameraRays(&random, 600));
+  const std::vector<ShadowRay> rays = RaysTo(now, Vec3d(0), surfaces);
+  CHECK(TraceShadows(changed, rays, 0) == TraceShadows(changed, rays));
+}
+
 }  // namespace
 }  // namespace nacre
