@@ -300,8 +300,8 @@ struct RenderSettings {
   std::string intersector = "auto";  // or embree, tiles, shells; the same bits
   // Told the share done in (0, 1], from any thread, one call at a time. Throwing ends the render.
   std::function<void(double)> on_progress;
-  // Set to true by any thread, it ends the render by Cancelled within some milliseconds. May be
-  // null.
+  // Set to true by any thread, it ends the render by Cancelled within some milliseconds; before
+  // the first pixel, between trees, bins and tables. May be null.
   const std::atomic<bool>* cancel = nullptr;
 };
 

@@ -103,14 +103,21 @@ FramePlan MakePlan(const Scene& given, const RenderSettings& settings, PreparedS
   Explanation* const why = &plan.why;
   PixelSampler sampler = MakePixelSampler(scene.image.filter, scene.image.spp, scene.image.seed);
 
+  // Between the steps that may take long.
+  const auto stop_if_cancelled = [&] { ThrowIfCancelled(settings.cancel); };
+  stop_if_cancelled();
   PlanLayers(scene, settings, &plan.film, why);
   plan.direct =
       PlanLights(scene, settings, plan.film.layers, plan.with_lights.get(), prepared, why);
+  stop_if_cancelled();
   plan.hits = PlanHits(scene, settings, plan.window, plan.camera, sampler, prepared, why);
+  stop_if_cancelled();
   const bool tree_for_shadows =
       PlanShadows(scene, settings, plan.hits, prepared, &plan.direct, why);
   if (settings.on_plan_progress) settings.on_plan_progress(0.8);
+  stop_if_cancelled();
   BuildTrees(tree_for_shadows, &plan.hits, why);
+  stop_if_cancelled();
   plan.surfaces =
       PlanSurfaces(scene, settings, plan.camera, SumAmbient(scene), &prepared->tables, why);
   plan.sampling = PlanSampling(scene, settings, std::move(sampler),

@@ -25,6 +25,9 @@ const char* TreeAskedFor(IntersectorChoice choice);
 
 // Thrown by a render that was ended by RenderSettings::cancel.
 struct Cancelled {};
+inline void ThrowIfCancelled(const std::atomic<bool>* cancel) {
+  if (cancel != nullptr && cancel->load(std::memory_order_relaxed)) throw Cancelled{};
+}
 
 // One of `count` horizontal bands that together hold every row of the frame once (--tile).
 struct FrameBand {
@@ -58,8 +61,8 @@ struct RenderSettings {
   // Measure how long each stage takes (RenderStats::stage_seconds). Costs some per cent of the time
   // of small frames. Output is always measured.
   bool time_stages = false;
-  // Setting it to true, from any thread, ends the render: Cancelled is thrown within milliseconds.
-  // May be null.
+  // Setting it to true, from any thread, ends the render: Cancelled is thrown within milliseconds,
+  // or while the plan is made at the end of one of its steps. May be null.
   const std::atomic<bool>* cancel = nullptr;
   // Called after every strip, from any thread, one call at a time, with the share of the work that
   // is done, in (0, 1]. An exception from it ends the render.

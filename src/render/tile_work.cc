@@ -5,7 +5,7 @@ namespace nacre {
 
 void ShadeSamples(const FramePlan& plan, TileWork* work, StageClock* clock, RenderStats* stats) {
   TileWork& w = *work;
-  if (w.cancel != nullptr && w.cancel->load(std::memory_order_relaxed)) throw Cancelled{};
+  ThrowIfCancelled(w.cancel);
   const FilmBatch& film = w.samples.film;
   stats->camera_rays += film.count;
   clock->Charge(Stage::kSample);

@@ -135,6 +135,31 @@ TEST_CASE("a render is cancelled from another thread, and the session lives on")
   CheckEqual(session.Render(Small()), nacre::Render(FirstScene(), Small()));
 }
 
+// Of several, the quickest counts: a busy machine may keep any thread waiting.
+TEST_CASE("a cancelled render ends within 10 ms") {
+  nacre::Session session(nacre::Scene::FromFile(NACRE_SOURCE_DIR "/scenes/material_grid.json"));
+  nacre::RenderSettings settings;
+  settings.width = 1920;
+  settings.height = 1080;
+  settings.samples = 256;
+  session.Render(Small());
+  using Clock = std::chrono::steady_clock;
+  Clock::duration quickest = std::chrono::hours(1);
+  for (int i = 0; i < 20 && quickest > std::chrono::milliseconds(10); ++i) {
+    Clock::time_point asked;
+    std::thread other([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      asked = Clock::now();
+      session.Cancel();
+    });
+    REQUIRE_THROWS_AS(session.Render(settings), nacre::Cancelled);
+    const Clock::time_point ended = Clock::now();
+    other.join();
+    quickest = std::min(quickest, ended - asked);
+  }
+  CHECK(quickest <= std::chrono::milliseconds(10));
+}
+
 TEST_CASE("a render ends when its settings say so") {
   std::atomic<bool> cancel = true;
   nacre::RenderSettings settings = Small();
