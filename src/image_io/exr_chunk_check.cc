@@ -13,6 +13,7 @@
 #include <zlib.h>
 
 #include "base/error.h"
+#include "base/huge_pages.h"
 #include "base/parallel.h"
 #include "image_io/image_file.h"
 
@@ -248,20 +249,20 @@ bool DecodeExrLines(const std::string& path, int part, uint64_t file_bytes,
       CheckLines(path, file, part, file_bytes, box, static_cast<uint64_t>(channels->num_channels));
   ForEachChunk(file, part, lines, [&](const exr_chunk_info_t& chunk, const std::string& name) {
     if (chunk.packed_size > chunk.unpacked_size) CheckChunk(path, file, part, chunk, name);
-    std::vector<uint8_t> packed(chunk.packed_size);
+    HugeArray<uint8_t> packed(chunk.packed_size);
     file.Check(exr_read_chunk(file.get(), part, &chunk, packed.data()), name);
-    std::vector<uint16_t> words(chunk.unpacked_size / 2);
+    HugeArray<uint16_t> words(chunk.unpacked_size / 2);
     if (packed.size() == chunk.unpacked_size) {  // stored: deflate made it no shorter
       std::memcpy(words.data(), packed.data(), packed.size());
     } else {
-      std::vector<uint8_t> bytes(chunk.unpacked_size);
-      if (!InflateWhole(packed, bytes)) {
+      HugeArray<uint8_t> bytes(chunk.unpacked_size);
+      if (!InflateWhole({packed.data(), packed.size()}, {bytes.data(), bytes.size()})) {
         CheckChunk(path, file, part, chunk, name);
         FailChunk(path, name + " is damaged");
       }
-      JoinPredicted(bytes, words);
+      JoinPredicted({bytes.data(), bytes.size()}, {words.data(), words.size()});
     }
-    use({chunk.start_y, chunk.height, words});
+    use({chunk.start_y, chunk.height, {words.data(), words.size()}});
   });
   return true;
 }

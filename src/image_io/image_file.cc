@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/huge_pages.h"
 #include "base/path.h"
 #include "image_io/exr_reader.h"
 #include "image_io/hdr_reader.h"
@@ -116,6 +117,8 @@ Image ReadImage(const ImageFile& file) {
   std::vector<SampleTarget> targets;
   for (size_t c = 0; c < image.channels.size(); ++c) {
     std::vector<float>& samples = image.channels[c].samples;
+    samples.reserve(image.data.pixel_count());
+    AdviseHugePages(samples.data(), image.data.pixel_count() * sizeof(float));
     samples.resize(image.data.pixel_count());
     targets.push_back({c, samples.data(), 1, image.data.width()});
   }
