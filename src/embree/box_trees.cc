@@ -62,29 +62,32 @@ void SphereBounds(const RTCBoundsFunctionArguments* args) {
 }
 
 void TriangleBounds(const RTCBoundsFunctionArguments* args) {
-  TakeOver(args->geometryUserPtr);
-  const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
-  const auto& corners = geometry.triangles[args->primID];
-  Vec3d lower = geometry.positions[corners[0]], upper = lower;
+  const auto& primitives = *static_cast<const TrianglePrimitives*>(args->geometryUserPtr);
+  const TraceGeometry& geometry = *primitives.geometry;
+  TakeOver(&geometry);
+  const uint32_t* const first = &primitives.first[args->primID];
+  Vec3d lower = geometry.positions[geometry.triangles[first[0]][0]], upper = lower;
   double max_distance = 0;
-  for (const uint32_t corner : corners) {
-    const Vec3d& position = geometry.positions[corner];
-    for (int i = 0; i < 3; ++i) {
-      lower[i] = std::min(lower[i], position[i]);
-      upper[i] = std::max(upper[i], position[i]);
+  for (uint32_t triangle = first[0]; triangle < first[1]; ++triangle) {
+    for (const uint32_t corner : geometry.triangles[triangle]) {
+      const Vec3d& position = geometry.positions[corner];
+      for (int i = 0; i < 3; ++i) {
+        lower[i] = std::min(lower[i], position[i]);
+        upper[i] = std::max(upper[i], position[i]);
+      }
+      max_distance = std::max(max_distance, position.length());
     }
-    max_distance = std::max(max_distance, position.length());
   }
   SetBounds(lower, upper, BoundsMargin(geometry, max_distance), args->bounds_o);
-  HandOver(args->geometryUserPtr);
+  HandOver(&geometry);
 }
 
-void Attach(RTCDevice device, RTCScene scene, const TraceGeometry* geometry, size_t count,
+void Attach(RTCDevice device, RTCScene scene, const void* user, size_t count,
             RTCBoundsFunction bounds, const PrimitiveCallbacks& callbacks) {
   if (count == 0) return;
   RTCGeometry shapes = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(shapes, static_cast<unsigned>(count));
-  rtcSetGeometryUserData(shapes, const_cast<TraceGeometry*>(geometry));
+  rtcSetGeometryUserData(shapes, const_cast<void*>(user));
   rtcSetGeometryBoundsFunction(shapes, bounds, nullptr);
   rtcSetGeometryIntersectFunction(shapes, callbacks.intersect);
   rtcSetGeometryOccludedFunction(shapes, callbacks.occluded);
@@ -102,6 +105,7 @@ struct BoxTrees::State {
     Vec3d origin{0, 0, 0};  // in the world: where the camera was when it was built
   };
   const TraceGeometry* geometry;
+  TrianglePrimitives triangle_primitives;  // once there is a tree
   EmbreeDevice device;
   Tree all, triangles;
 
@@ -136,7 +140,9 @@ void BoxTrees::Build(BoxTree tree, int threads) {
     Attach(device.get(), built.get(), geometry, geometry->spheres.size(), &SphereBounds,
            SphereCallbacks());
   }
-  Attach(device.get(), built.get(), geometry, geometry->triangles.size(), &TriangleBounds,
+  TrianglePrimitives& primitives = state_->triangle_primitives;
+  if (primitives.first.empty()) primitives = MakeTrianglePrimitives(geometry);
+  Attach(device.get(), built.get(), &primitives, primitives.size(), &TriangleBounds,
          TriangleCallbacks());
   HandOver(geometry);
   WithThreads(threads, [&] { rtcJoinCommitScene(built.get()); });

@@ -101,14 +101,12 @@ HWY_INLINE hn::Mask<D> StartsOnPlane(D d, const Packet& packet, int lane, const 
   return WithinOfPlane(d, plane, to_a, hn::Mul(hn::Set(d, 16 * kUnit), extent));
 }
 
-void IntersectTriangle(const RTCIntersectFunctionNArguments* args) {
-  EmbreePacket& embree = PacketOf(args->context);
-  Packet& packet = embree.packet;
-  const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
-  const Corners corners = CornersOf(geometry, args->primID);
-  const uint32_t primitive = geometry.SphereCount() + args->primID;
-  const uint32_t lanes = ActiveLanes(embree, args->valid, args->rayhit, args->N);
-  const CutOut* const holes = HolesOf(geometry, args->primID);
+HWY_INLINE void IntersectTriangle(const TraceGeometry& geometry, uint32_t triangle, uint32_t lanes,
+                                  Packet* to) {
+  Packet& packet = *to;
+  const Corners corners = CornersOf(geometry, triangle);
+  const uint32_t primitive = geometry.SphereCount() + triangle;
+  const CutOut* const holes = HolesOf(geometry, triangle);
   const hn::ScalableTag<double> d;
   const int step = static_cast<int>(hn::Lanes(d));
   for (int lane = 0; lane < packet.width; lane += step) {
@@ -119,13 +117,23 @@ void IntersectTriangle(const RTCIntersectFunctionNArguments* args) {
     if (holes != nullptr) {
       met = hn::And(met, hn::Le(hit.t, hn::Load(d, packet.best_t + lane)));
       if (hn::AllFalse(d, met)) continue;
-      met = OutsideHoles(d, geometry, *holes, args->primID, hit.weights, met);
+      met = OutsideHoles(d, geometry, *holes, triangle, hit.weights, met);
     }
     if (packet.from_surfaces) {
       const auto to_a = Sub(SetVec3(d, corners.a), Origin(d, packet, lane));
       met = hn::AndNot(StartsOnPlane(d, packet, lane, to_a, PlaneOf(corners)), met);
     }
     RecordClosest(d, &packet, lane, met, hit.t, primitive);
+  }
+}
+
+void IntersectTriangles(const RTCIntersectFunctionNArguments* args) {
+  EmbreePacket& embree = PacketOf(args->context);
+  const auto& primitives = *static_cast<const TrianglePrimitives*>(args->geometryUserPtr);
+  const uint32_t lanes = ActiveLanes(embree, args->valid, args->rayhit, args->N);
+  const uint32_t* const first = &primitives.first[args->primID];
+  for (uint32_t triangle = first[0]; triangle < first[1]; ++triangle) {
+    IntersectTriangle(*primitives.geometry, triangle, lanes, &embree.packet);
   }
   ReturnDepths(embree, args->valid, args->rayhit, args->N);
 }
@@ -156,13 +164,12 @@ HWY_INLINE hn::Mask<D> TouchesPlane(D d, const Packet& packet, int lane, const C
   return hn::Or(StartsOnPlane(d, packet, lane, to_a, plane), EndsOnPlane(d, rays, to_a, plane));
 }
 
-HWY_NOINLINE void OccludeByTriangle(const RTCOccludedFunctionNArguments* args,
-                                    const TraceGeometry& geometry, EmbreePacket& embree) {
-  Packet& packet = embree.packet;
-  const Corners corners = CornersOf(geometry, args->primID);
-  const uint32_t starting = StartingLanes(packet, geometry.SphereCount() + args->primID);
-  const uint32_t lanes = ActiveLanes(embree, args->valid, args->ray, args->N) & ~starting;
-  const CutOut* const holes = HolesOf(geometry, args->primID);
+HWY_NOINLINE void OccludeByTriangle(const TraceGeometry& geometry, uint32_t triangle,
+                                    uint32_t lanes, Packet* to) {
+  Packet& packet = *to;
+  const Corners corners = CornersOf(geometry, triangle);
+  lanes &= ~StartingLanes(packet, geometry.SphereCount() + triangle);
+  const CutOut* const holes = HolesOf(geometry, triangle);
   const hn::ScalableTag<double> d;
   const int step = static_cast<int>(hn::Lanes(d));
   uint32_t occluded = 0;
@@ -174,23 +181,30 @@ HWY_NOINLINE void OccludeByTriangle(const RTCOccludedFunctionNArguments* args,
     auto met = hn::And(active, within);
     if (hn::AllFalse(d, met)) continue;
     if (holes != nullptr) {
-      met = OutsideHoles(d, geometry, *holes, args->primID, hit.weights, met);
+      met = OutsideHoles(d, geometry, *holes, triangle, hit.weights, met);
     }
     occluded |= BitsOfMask(d, hn::AndNot(TouchesPlane(d, packet, lane, corners), met)) << lane;
   }
   RecordOccluded(&packet, occluded);
+}
+
+void OccludedByTriangles(const RTCOccludedFunctionNArguments* args) {
+  EmbreePacket& embree = PacketOf(args->context);
+  Packet& packet = embree.packet;
+  const auto& primitives = *static_cast<const TrianglePrimitives*>(args->geometryUserPtr);
+  const TraceGeometry& geometry = *primitives.geometry;
+  const uint32_t* const first = &primitives.first[args->primID];
+  // Early out for triangles of the light itself: where a mesh is the light, these are most of them.
+  // The two of a pair are of one mesh.
+  if (packet.target.Contains(geometry.SphereCount() + first[0])) return;
+  const uint32_t lanes = ActiveLanes(embree, args->valid, args->ray, args->N);
+  for (uint32_t triangle = first[0]; triangle < first[1]; ++triangle) {
+    OccludeByTriangle(geometry, triangle, lanes & ~packet.occluded, &packet);
+  }
   ReturnDepths(embree, args->valid, args->ray, args->N);
 }
 
-// Early out for triangles of the light itself: where a mesh is the light, these are most of them.
-void OccludedByTriangle(const RTCOccludedFunctionNArguments* args) {
-  EmbreePacket& embree = PacketOf(args->context);
-  const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
-  if (embree.packet.target.Contains(geometry.SphereCount() + args->primID)) return;
-  OccludeByTriangle(args, geometry, embree);
-}
-
-PrimitiveCallbacks Callbacks() { return {&IntersectTriangle, &OccludedByTriangle}; }
+PrimitiveCallbacks Callbacks() { return {&IntersectTriangles, &OccludedByTriangles}; }
 
 }  // namespace
 }  // namespace HWY_NAMESPACE
@@ -200,6 +214,25 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace nacre {
 HWY_EXPORT(Callbacks);
+
+TrianglePrimitives MakeTrianglePrimitives(const TraceGeometry* geometry) {
+  TrianglePrimitives primitives;
+  primitives.geometry = geometry;
+  const auto& triangles = geometry->triangles;
+  const auto share_an_edge = [](const auto& a, const auto& b) {
+    int common = 0;
+    for (const uint32_t corner : a) common += corner == b[0] || corner == b[1] || corner == b[2];
+    return common >= 2;
+  };
+  primitives.first.reserve(triangles.size() / 2 + 1);
+  for (size_t i = 0; i < triangles.size(); ++i) {
+    primitives.first.push_back(static_cast<uint32_t>(i));
+    if (i + 1 < triangles.size() && share_an_edge(triangles[i], triangles[i + 1])) ++i;
+  }
+  primitives.first.push_back(static_cast<uint32_t>(triangles.size()));
+  return primitives;
+}
+
 PrimitiveCallbacks TriangleCallbacks() { return HWY_DYNAMIC_DISPATCH(Callbacks)(); }
 }  // namespace nacre
 #endif

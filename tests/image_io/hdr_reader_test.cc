@@ -114,6 +114,19 @@ TEST_CASE("plain rows and coded ones") {
   CHECK(RgbOf(Header(5, 2) + Flat(MakePixels(10))) == Expected(MakePixels(10)));
 }
 
+// More than are converted at a time, and more bytes than are read at once.
+TEST_CASE("many rows, some plain and some coded") {
+  constexpr size_t kWidth = 3000, kRows = 37;
+  const Pixels pixels = MakePixels(kWidth * kRows);
+  std::string bytes = Header(kWidth, kRows);
+  for (size_t y = 0; y < kRows; ++y) {
+    const auto first = pixels.begin() + static_cast<std::ptrdiff_t>(y * kWidth);
+    const Pixels row(first, first + kWidth);
+    bytes += y % 3 == 0 ? Coded(row, kWidth) : Flat(row);
+  }
+  CHECK(RgbOf(bytes) == Expected(pixels));
+}
+
 // Codes up to 128 are bytes as they are, those above it are runs.
 TEST_CASE("a code of 128 is 128 bytes as they are") {
   Pixels pixels(130);

@@ -57,6 +57,21 @@ TEST_CASE("latitude and longitude are the inverse of the direction, also next to
   }
 }
 
+TEST_CASE("a map that several threads make is that of one") {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<float> unit(0, 1);
+  std::vector<Vec3f> texels;
+  for (int i = 0; i < 19 * 37; ++i) texels.emplace_back(unit(random), 1e-41f * unit(random), 0.0f);
+  const EnvironmentMap one = MakeEnvironmentMap(19, 37, texels);
+  const EnvironmentMap several = MakeEnvironmentMap(19, 37, texels, 3);
+  for (size_t i = 0; i < texels.size(); ++i) {
+    REQUIRE(several.texels[i].pdf == one.texels[i].pdf);
+    REQUIRE(several.texels[i].green == one.texels[i].green);
+    REQUIRE(several.column_tables[i].upper == one.column_tables[i].upper);
+    REQUIRE(several.column_tables[i].first == one.column_tables[i].first);
+  }
+}
+
 TEST_CASE("texels' solid angles add up to the sphere") {
   for (const int height : {1, 2, 7, 512}) {
     double sum = 0;
