@@ -196,8 +196,8 @@ Json LightJson(const Light& light, const ExplainedMaterial& material, const Poin
   if (!arrival) {
     // It comes from many directions, and the renderer samples it.
     const std::optional<Vec3d> middle = MiddleOf(light);
-    json["state"] = std::string(middle ? "has an extent; angles to its middle" : "all around") +
-                    "; mean of " + std::to_string(pixel.samples) + " samples";
+    json["state"] = std::string(middle ? "area light" : "all around") + ", mean of " +
+                    std::to_string(pixel.samples) + " samples";
     if (!middle) return json;
     const Vec3d way = *middle - point.position;
     const double distance = way.length();
