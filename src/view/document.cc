@@ -142,7 +142,9 @@ bool ViewDocument::CompleteLight(const std::string& pointer) {
 }
 
 void ViewDocument::Set(const std::string& pointer, const Json& value, uint64_t gesture) {
-  const std::string place = ExistingPart(live_.root(), pointer);
+  std::string place = ExistingPart(live_.root(), pointer);
+  // A value for all lights of a model would leave none of its own: the history keeps the whole.
+  if (place == "/lights" && place != pointer && is_model()) place.clear();
   if (place.empty() || place.starts_with("/shapes")) ListShapes();  // the history holds all of it
   Json before = live_.root().at(Json::json_pointer(place));
   const bool completed = CompleteLight(pointer);
@@ -291,13 +293,22 @@ void ViewDocument::ReadChangedFiles() {
     return found != tree.end() ? *found : Json();
   };
   kept_edits_ = false;
-  for (const auto& [name, value] : edited.items()) {
-    if (value == member(before, name) || member(original_, name) != member(before, name)) continue;
+  const auto put_again = [&](const Json::json_pointer& pointer, const Json& value) {
     try {
-      Put("/" + name, value);
+      Put(pointer.to_string(), value);
       kept_edits_ = true;
     } catch (const Error&) {  // it needs what the file no longer has
     }
+  };
+  for (const auto& [name, value] : edited.items()) {
+    if (value == member(before, name) || member(original_, name) != member(before, name)) continue;
+    const Json::json_pointer pointer = Json::json_pointer() / name;
+    if (name != "lights" || !is_model()) {
+      put_again(pointer, value);
+      continue;
+    }
+    // One by one: all of them at once would leave none of the model's own.
+    for (const auto& [light, own] : value.items()) put_again(pointer / light, own);
   }
   if (original_ == before) return;
   past_.clear();

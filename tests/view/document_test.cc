@@ -67,6 +67,14 @@ TEST_CASE("a model's lights are changed by their members") {
   CHECK(document.ModelLights()["rim"] == document.OriginalModelLights()["rim"]);
   CHECK(document.ModelLights()["key"] != document.OriginalModelLights()["key"]);
   document.Undo();
+  document.Set("/lights/rim/irradiance", 2, 4);
+  CHECK(document.Tree()["lights"].size() == before["lights"].size());
+  document.Undo();
+  CHECK(document.Tree()["lights"]["rim"] == before["lights"]["rim"]);
+  CHECK(document.Tree()["lights"]["key"]["irradiance"] == 5);
+  document.ReadChangedFiles();
+  CHECK(document.Tree()["lights"]["key"]["irradiance"] == 5);
+  CHECK(document.Tree()["lights"]["rim"] == before["lights"]["rim"]);
   document.Undo();
   CHECK(document.Tree() == before);
 }

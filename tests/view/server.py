@@ -44,7 +44,7 @@ class Server:
 
     def connect(self):
         connection = socket.create_connection((self.address, self.port), 10)
-        connection.settimeout(10)
+        connection.settimeout(60)  # machines that test are busy
         return connection
 
     def request(self, path, method='GET', **headers):

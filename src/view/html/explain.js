@@ -41,7 +41,8 @@ class Explanation {
     const total = [...parts.map(([name, v]) => [name, three(v)]), ['sum', three(sum3(parts.map(([, v]) => v)))],
                    ['of it diffuse', three(layers.diffuse)], ['of it specular', three(layers.specular)], ...end];
     this.body.replaceChildren(
-        el('p', {class: 'soft'}, `Pixel ${x}, ${y}, through its centre. Terms in double; radiances in linear units.`),
+        el('p', {class: 'soft'}, `Pixel ${x}, ${y}, through its centre. Terms in double; radiances in linear units.` +
+           (lights.some(l => l.to_light && !l.irradiance) ? ' Angles of area lights are to their middle.' : '')),
         el('div', {class: 'columns'}, el('div', {}, table(null, facts, {caption: 'What is there', words: true})),
            el('div', {}, table(null, total, {caption: 'How it adds up', words: true}))),
         el('div', {class: 'columns'}, el('div', {}, lights.length ? table(['light', ...names], rows, {caption: 'What each light brings'}) : null),
