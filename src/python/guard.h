@@ -61,9 +61,18 @@ class Use {
 // 500 numbers, and threads that hand it to one another each time are slower than one.
 class FunctionLock {
  public:
-  // Not for ever: a function may wait for another thread whose render calls a function as well.
-  FunctionLock()
-      : lock_(TheMutex(), std::chrono::seconds(1)), outer_(std::exchange(Held(), &lock_)) {}
+  FunctionLock() : lock_(TheMutex(), std::defer_lock), outer_(std::exchange(Held(), &lock_)) {
+    // Calls take some 50 us, and so does it to wake a thread that sleeps.
+    const auto start = std::chrono::steady_clock::now();
+    while (!lock_.try_lock()) {
+      if (std::chrono::steady_clock::now() - start > std::chrono::microseconds(200)) {
+        // Not for ever: a function may wait for another thread whose render calls one as well.
+        (void)lock_.try_lock_for(std::chrono::seconds(1));
+        break;
+      }
+      std::this_thread::yield();
+    }
+  }
   ~FunctionLock() { Held() = outer_; }
   FunctionLock(const FunctionLock&) = delete;
   FunctionLock& operator=(const FunctionLock&) = delete;

@@ -39,6 +39,8 @@ def test_kernels_agree_with_formulas(model, parameters):
     assert np.allclose(exact, fast, rtol=2e-4, atol=1e-6)
     diffuse, specular = brdf.evaluate(UP, view, light, components=True)
     assert np.array_equal(diffuse + specular, exact)
+    diffuse, specular = brdf.evaluate(UP, view[::-1], light, exact=False, components=True)
+    assert np.array_equal(diffuse + specular, brdf.evaluate(UP, view[::-1], light, exact=False))
 
 
 def test_shapes_broadcast():
@@ -82,6 +84,14 @@ def test_what_is_no_direction_is_refused(wrong, error):
                 arguments = (UP, wrong, np.array([UP, UP]))
             with pytest.raises(error):
                 brdf.evaluate(*arguments)
+
+
+def test_the_wrong_vector_is_named():
+    wrong = directions(60_000)
+    wrong[54_321] *= 2
+    for exact in True, False:
+        with pytest.raises(nacre.Error, match="to_view 54321 "):
+            nacre.Brdf("lambert").evaluate(UP, wrong, UP, exact=exact)
 
 
 def test_rows_of_different_lengths_are_refused():

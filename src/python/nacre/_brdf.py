@@ -5,7 +5,7 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple, Union
 import numpy as np
 
 from . import _nacre
-from ._errors import fault
+from ._errors import Error, fault
 from ._image import Array
 from ._json import to_json
 
@@ -29,13 +29,18 @@ def _vectors(values: Any, name: str, columns: int = 3) -> Array:
     return array
 
 
-def _broadcast(*arrays: Tuple[str, Array]) -> Tuple[Tuple[int, ...], List[Array]]:
-    """The common shape without the last axis, and the arrays as planes, of shape (columns, count)."""
+def _common_shape(*arrays: Tuple[str, Array]) -> Tuple[int, ...]:
+    """That of the arrays together, without their last axis."""
     try:
-        shape = np.broadcast_shapes(*(array.shape[:-1] for _, array in arrays))
+        return np.broadcast_shapes(*(array.shape[:-1] for _, array in arrays))
     except ValueError:
         shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays)
         raise ValueError(f"the shapes do not go together: {shapes}") from None
+
+
+def _broadcast(*arrays: Tuple[str, Array]) -> Tuple[Tuple[int, ...], List[Array]]:
+    """The common shape without the last axis, and the arrays as planes, of shape (columns, count)."""
+    shape = _common_shape(*arrays)
     planes = []
     for _, array in arrays:
         columns = array.shape[-1]
@@ -217,6 +222,8 @@ class Brdf:
             the SIMD kernels of the renderer, tens of times as fast. Of functions always in double.
         components: returns (diffuse, specular) instead of their sum.
         """
+        if not exact and self._evaluate is None:
+            return self._shade(normal, to_view, to_light, components)
         shape, planes = self._directions(normal, to_view, to_light)
         if self._evaluate is not None:
             values, n_dot_l = self._own(self._evaluate, planes)
@@ -225,11 +232,24 @@ class Brdf:
                 return result
             nothing = np.zeros_like(result)
             return (nothing, result) if self._sample else (result, nothing)
-        call = self._native.evaluate if exact else self._native.shade
-        diffuse, specular = call(*planes)
+        diffuse, specular = self._native.evaluate(*planes)
         if components:
             return _rows(diffuse, shape), _rows(specular, shape)
         return _rows(diffuse + specular, shape)
+
+    def _shade(self, normal: Any, to_view: Any, to_light: Any, components: bool) -> Any:
+        named = (("normal", _vectors(normal, "normal")), ("to_view", _vectors(to_view, "to_view")),
+                 ("to_light", _vectors(to_light, "to_light")))
+        shape = _common_shape(*named)
+        rows = [np.broadcast_to(array, shape + (3,)).reshape(-1, 3) for _, array in named]
+        try:
+            found = self._native.shade(*rows, components)
+        except Error:  # which counts vectors from a piece's beginning
+            _check_units({name: array.T for (name, _), array in zip(named, rows)})
+            raise
+        if components:
+            return tuple(part.reshape(shape + (3,)) for part in found)
+        return found.reshape(shape + (3,))
 
     def sample(self, normal: Any, to_view: Any, u: Any) -> Array:
         """Unit directions to light, (..., 3), by points u of shape (..., 2) in [0, 1)^2, chosen about
