@@ -5,6 +5,8 @@ of itself, or another program or library that does the same, where it is install
     scripts/bench --waiting
 """
 import json
+import pathlib
+import re
 import shutil
 
 import estimates
@@ -124,7 +126,18 @@ def measure(runner, root, folder, quick):
                 "seconds": [1e-3 * ns for ns in times[f"{kind}_ns"]],
                 "against": [1e-3 * ns for ns in times[f"embree_{other}_ns"]],
                 "what": f"Embree's {other}, in float"}
-    return rows
+    return rows | _python_rows(runner, tool, rounds)
+
+
+def _python_rows(runner, tool, rounds):
+    """Those of the Python package, if it is built: by the Python that it is for."""
+    build = runner.nacre.parent
+    found = re.search("^NACRE_PYTHON_EXECUTABLE:[A-Z]+=(.+)$", (build / "CMakeCache.txt").read_text(), re.M)
+    if not found or not (build / "python/nacre/__init__.py").exists():
+        return {}
+    say("Python")
+    script = pathlib.Path(__file__).with_name("python_bench.py")
+    return _tool(found[1], script, build, tool, 3 * rounds)
 
 
 def _cells(row):

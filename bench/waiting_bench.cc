@@ -11,6 +11,8 @@
 //                            the way; nanoseconds a ray, and Embree's for its own spheres in float
 //   spng FILE COUNT          decodes a PNG file by libspng alone
 //   jpeg IN OUT              writes a picture as JPEG
+//   brdf PAIRS COUNT         evaluates a model at pairs of directions, by the float kernels
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -319,6 +321,29 @@ void WriteJpeg(const char* from, const char* to) {
              static_cast<std::streamsize>(bytes.size()));
 }
 
+void EvaluateBrdf(size_t pairs, int count) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  std::vector<double> planes[9];
+  for (auto& plane : planes) plane.resize(pairs);
+  for (size_t i = 0; i < pairs; ++i) {
+    planes[2][i] = 1;
+    for (size_t vector = 1; vector < 3; ++vector) {
+      const double x = normal(random), y = normal(random), z = std::abs(normal(random));
+      const double length = std::sqrt(x * x + y * y + z * z);
+      planes[3 * vector][i] = x / length;
+      planes[3 * vector + 1][i] = y / length;
+      planes[3 * vector + 2][i] = z / length;
+    }
+  }
+  const auto vectors = [&](size_t first) {
+    return std::array<const double*, 3>{planes[first].data(), planes[first + 1].data(),
+                                        planes[first + 2].data()};
+  };
+  const api::Brdf brdf("conductor", {{"preset", "gold"}, {"roughness", 0.2}});
+  PrintSeconds(Time(count, [&] { brdf.Shade({pairs, vectors(0), vectors(3), vectors(6)}); }));
+}
+
 bool Run(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "";
   if (what == "session" && argc >= 8) {
@@ -331,6 +356,8 @@ bool Run(int argc, char** argv) {
     DecodePng(argv[2], std::atoi(argv[3]));
   } else if (what == "jpeg" && argc == 4) {
     WriteJpeg(argv[2], argv[3]);
+  } else if (what == "brdf" && argc == 4) {
+    EvaluateBrdf(static_cast<size_t>(std::atoi(argv[2])), std::atoi(argv[3]));
   } else {
     return false;
   }

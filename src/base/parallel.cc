@@ -10,6 +10,8 @@
 #include <system_error>
 #include <thread>
 
+#include <pthread.h>
+
 #include "base/float_mode.h"
 
 namespace nacre {
@@ -106,9 +108,13 @@ class Helpers {
   int started_ = 0;
 };
 
-// Never destroyed: helpers wait in it to the process's end.
+// Never destroyed: helpers wait in it to the process's end. A child after a fork has none of them,
+// and starts its own.
 Helpers& TheHelpers() {
-  static auto* const helpers = new Helpers;
+  static Helpers* helpers = [] {
+    pthread_atfork(nullptr, nullptr, [] { helpers = new Helpers; });
+    return new Helpers;
+  }();
   return *helpers;
 }
 

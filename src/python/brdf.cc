@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "python/brdf.h"
 
+#include <algorithm>
 #include <cstring>
 #include <memory>
 #include <optional>
@@ -16,6 +17,9 @@ namespace {
 
 // x, y and z of each vector: an array of shape (3, count).
 using Planes = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+// The same as an array of shape (count, 3), with any strides.
+using Rows = py::array_t<double, py::array::forcecast>;
 
 std::array<const double*, 3> VectorsOf(const Planes& planes) {
   const auto count = static_cast<size_t>(planes.shape(1));
@@ -60,6 +64,60 @@ class Function {
  private:
   std::shared_ptr<py::object> function_;
 };
+
+// Copies rows [begin, begin + count) to planes that are `stride` apart.
+void CopyRows(const Rows& rows, size_t begin, size_t count, double* planes, size_t stride) {
+  const auto step = rows.strides(0), across = rows.strides(1);
+  const char* row =
+      reinterpret_cast<const char*>(rows.data()) + static_cast<py::ssize_t>(begin) * step;
+  for (size_t i = 0; i < count; ++i, row += step) {
+    planes[i] = *reinterpret_cast<const double*>(row);
+    planes[stride + i] = *reinterpret_cast<const double*>(row + across);
+    planes[2 * stride + i] = *reinterpret_cast<const double*>(row + 2 * across);
+  }
+}
+
+// Brdf::Shade of rows of vectors, in pieces: large, because each call makes its own buffers, which
+// takes 0.1 ms, and bounded, so that memory is. Returns the sum, or both components.
+py::object ShadeRows(const nacre::Brdf& brdf, const Rows& normal, const Rows& to_view,
+                     const Rows& to_light, bool components) {
+  const auto count = static_cast<size_t>(normal.shape(0));
+  const size_t stride = std::min<size_t>(50000, count);
+  py::array_t<float> sum({count, size_t{3}}), specular({components ? count : 0, size_t{3}});
+  float* const to = sum.mutable_data();
+  float* const to_specular = specular.mutable_data();
+  {
+    const py::gil_scoped_release release;
+    std::vector<double> planes(9 * stride);
+    const auto vectors = [&](size_t first) {
+      const double* const x = planes.data() + first * stride;
+      return std::array<const double*, 3>{x, x + stride, x + 2 * stride};
+    };
+    for (size_t begin = 0; begin < count; begin += stride) {
+      const size_t size = std::min(stride, count - begin);
+      CopyRows(normal, begin, size, planes.data(), stride);
+      CopyRows(to_view, begin, size, planes.data() + 3 * stride, stride);
+      CopyRows(to_light, begin, size, planes.data() + 6 * stride, stride);
+      const nacre::Reflections found = brdf.Shade({size, vectors(0), vectors(3), vectors(6)});
+      for (size_t c = 0; c < 3; ++c) {
+        const float* const diffuse = found.diffuse[c].data();
+        const float* const lobe = found.specular[c].data();
+        float* const rows = to + 3 * begin + c;
+        if (components) {
+          float* const specular_rows = to_specular + 3 * begin + c;
+          for (size_t i = 0; i < size; ++i) {
+            rows[3 * i] = diffuse[i];
+            specular_rows[3 * i] = lobe[i];
+          }
+        } else {
+          for (size_t i = 0; i < size; ++i) rows[3 * i] = diffuse[i] + lobe[i];
+        }
+      }
+    }
+  }
+  if (components) return py::make_tuple(sum, specular);
+  return sum;
+}
 
 // Python keeps a state for each thread that calls it. The renderer's threads are not Python's: this
 // makes theirs, once. py::gil_scoped_acquire alone would make one for each call, which takes as
@@ -160,15 +218,7 @@ void BindBrdfs(py::module_* module) {
              }
              return py::make_tuple(ArrayOf(result.diffuse), ArrayOf(result.specular));
            })
-      .def("shade",
-           [](const nacre::Brdf& brdf, const Planes& n, const Planes& v, const Planes& l) {
-             nacre::Reflections result;
-             {
-               const py::gil_scoped_release release;
-               result = brdf.Shade(DirectionsOf(n, v, l));
-             }
-             return py::make_tuple(ArrayOf(result.diffuse), ArrayOf(result.specular));
-           })
+      .def("shade", &ShadeRows)
       .def("sample",
            [](const nacre::Brdf& brdf, const Planes& n, const Planes& v, const Planes& points) {
              std::array<std::vector<double>, 3> result;

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <functional>
+#include <list>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -54,21 +56,35 @@ class Use {
   Kind kind_;
 };
 
-// Held where a render calls a function of the user's: one call at a time in the process. The
-// interpreter lock alone would not do: numpy drops it in every operation on more than 500 numbers,
-// and threads that hand it to one another each time are slower than one.
+// Held where a render calls a function of the user's, so that there is one call at a time in the
+// process. The interpreter lock alone would not do: numpy drops it in every operation on more than
+// 500 numbers, and threads that hand it to one another each time are slower than one.
 class FunctionLock {
  public:
-  FunctionLock() : lock_(TheMutex()), outer_(std::exchange(Held(), &lock_)) {}
+  FunctionLock() : lock_(TheMutex(), std::defer_lock), outer_(std::exchange(Held(), &lock_)) {
+    // Calls take some 50 us, and so does it to wake a thread that sleeps.
+    const auto start = std::chrono::steady_clock::now();
+    while (!lock_.try_lock()) {
+      if (std::chrono::steady_clock::now() - start > std::chrono::microseconds(200)) {
+        // Not for ever: a function may wait for another thread whose render calls one as well.
+        (void)lock_.try_lock_for(std::chrono::seconds(1));
+        break;
+      }
+      std::this_thread::yield();
+    }
+  }
   ~FunctionLock() { Held() = outer_; }
   FunctionLock(const FunctionLock&) = delete;
   FunctionLock& operator=(const FunctionLock&) = delete;
 
+  // Of a child after a fork, in which no function runs.
+  static void Reset() { new (&TheMutex()) std::timed_mutex; }
+
   // Lets go of the lock that this thread holds, if any, while a function of the user's waits for a
-  // render. Not to be made or destroyed with the interpreter lock.
+  // render of its own. Not to be made or destroyed with the interpreter lock.
   class Pause {
    public:
-    Pause() : held_(Held()) {
+    Pause() : held_(Held() != nullptr && Held()->owns_lock() ? Held() : nullptr) {
       if (held_ != nullptr) held_->unlock();
     }
     ~Pause() {
@@ -78,21 +94,59 @@ class FunctionLock {
     Pause& operator=(const Pause&) = delete;
 
    private:
-    std::unique_lock<std::mutex>* held_;
+    std::unique_lock<std::timed_mutex>* held_;
   };
 
  private:
-  static std::mutex& TheMutex() {
-    static std::mutex mutex;
+  static std::timed_mutex& TheMutex() {
+    static std::timed_mutex mutex;
     return mutex;
   }
-  static std::unique_lock<std::mutex>*& Held() {
-    static thread_local std::unique_lock<std::mutex>* held = nullptr;
+  static std::unique_lock<std::timed_mutex>*& Held() {
+    static thread_local std::unique_lock<std::timed_mutex>* held = nullptr;
     return held;
   }
 
-  std::unique_lock<std::mutex> lock_;
-  std::unique_lock<std::mutex>* outer_;
+  std::unique_lock<std::timed_mutex> lock_;
+  std::unique_lock<std::timed_mutex>* outer_;
+};
+
+// What ends the renders that run, for the interpreter's end: a thread that comes back to an
+// interpreter that is gone ends the process by std::terminate. Protected by the interpreter lock.
+class Running {
+ public:
+  explicit Running(const std::function<void()>* stop) {
+    if (Ending()) Refuse("render", "Python is about to end", "render before that");
+    place_ = Stops().insert(Stops().end(), stop);
+  }
+  ~Running() { Stops().erase(place_); }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+  // Ends them all, and waits for that.
+  static void StopAll() {
+    Ending() = true;
+    for (const std::function<void()>* stop : Stops()) (*stop)();
+    for (int i = 0; i < 1000 && !Stops().empty(); ++i) {
+      const py::gil_scoped_release release;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  }
+  // Of a child after a fork, in which no render runs.
+  static void Reset() { Stops().clear(); }
+
+  static bool& Ending() {
+    static bool ending = false;
+    return ending;
+  }
+
+ private:
+  static std::list<const std::function<void()>*>& Stops() {
+    static std::list<const std::function<void()>*> stops;
+    return stops;
+  }
+
+  std::list<const std::function<void()>*>::iterator place_;
 };
 
 // Calls body() on a thread of its own, without the interpreter lock, while this thread looks for
@@ -104,6 +158,7 @@ auto Interruptibly(const std::function<void()>& stop, const Body& body) {
   std::optional<Result> result;
   std::exception_ptr error;
   std::optional<py::error_already_set> signal;
+  const Running running(&stop);
   {
     const py::gil_scoped_release release;
     const FunctionLock::Pause pause;
@@ -135,6 +190,10 @@ auto Interruptibly(const std::function<void()>& stop, const Body& body) {
     worker.join();
   }
   if (signal) throw *std::move(signal);
+  if (error && Running::Ending()) {  // ends the thread, and prints nothing
+    PyErr_SetNone(PyExc_SystemExit);
+    throw py::error_already_set();
+  }
   if (error) std::rethrow_exception(error);
   return *std::move(result);
 }

@@ -6,6 +6,7 @@
 
 #include "nacre.h"
 #include "python/brdf.h"
+#include "python/guard.h"
 #include "python/image.h"
 #include "python/scene.h"
 
@@ -26,6 +27,8 @@ void Translate(std::exception_ptr thrown) {
       faults.append(py::make_tuple(fault.where, fault.what, fault.hint));
     }
     Throw("Error", py::make_tuple(error.what(), faults, error.exit_code()));
+  } catch (const py::cast_error&) {
+    PyErr_SetString(PyExc_TypeError, "nacre: an argument is of the wrong type");
   } catch (const nacre::Cancelled&) {
     Throw("Cancelled", py::make_tuple("the render was cancelled"));
   }
@@ -42,6 +45,11 @@ PYBIND11_MODULE(_nacre, module) {
   module.def("active_target", &nacre::ActiveTarget);
   module.def("set_target", &nacre::SetTarget);
   module.def("scene_schema", &nacre::SceneSchema);
+  module.def("stop_all", &Running::StopAll);
+  module.def("after_fork", [] {
+    FunctionLock::Reset();
+    Running::Reset();
+  });
   BindImages(&module);
   BindScenes(&module);
   BindBrdfs(&module);

@@ -18,8 +18,9 @@ import re
 # ctests that are no folder of tests/ with a program of its own, and what to build for them.
 OTHER_TESTS = {"cli": "nacre", "references": "nacre", "report_browser": "nacre",
                "scene_schema": None, "tiles": "nacre", "farm_local": "nacre", "cli_options": "nacre",
-                "cli_security": "nacre", "cli_images": "nacre", "cli_watch": "nacre",
-                "view_attack": "nacre", "view_protocol": "nacre", "view_browser": "nacre"}
+               "cli_security": "nacre", "cli_images": "nacre", "cli_watch": "nacre",
+               "view_attack": "nacre", "view_protocol": "nacre", "view_browser": "nacre",
+               "python": "nacre nacre_python"}
 
 
 class ListError(Exception):

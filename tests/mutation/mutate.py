@@ -99,7 +99,7 @@ class Workshop:
 
     def compile(self, tests):
         targets = {fault_list.OTHER_TESTS.get(test, f"nacre_{test}_test") for test in tests}
-        names = sorted(target for target in targets if target)
+        names = sorted({name for target in targets for name in (target or "").split()})
         return not names or self.run(["ninja", "-C", self.build, f"-j{self.jobs}", *names])[0]
 
     def commands(self, test):
@@ -113,6 +113,8 @@ class Workshop:
         for command in commands:
             if command[0].endswith("_test"):
                 command.append("--abort")
+            elif "pytest" in command:
+                command.append("-x")
             elif command[1].endswith(("cli_test.py", "tiles_test.py")):
                 command.append("--failfast")
         return commands[::-1]
@@ -137,7 +139,7 @@ def first_failure(output):
                        re.MULTILINE)
     if named:
         return named[-1]
-    for pattern in (r"^(?:FAIL|ERROR): (\S+)", r"^(\S+) +(?:FAIL|ERROR)\b", r"(took too long)"):
+    for pattern in (r"^FAILED \S*::(\S+)", r"^(?:FAIL|ERROR): (\S+)", r"^(\S+) +(?:FAIL|ERROR)\b", r"(took too long)"):
         found = re.search(pattern, output, re.MULTILINE)
         if found:
             return found[1]

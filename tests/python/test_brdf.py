@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import nacre
+from conftest import not_sanitized
 from models import WHITE_METAL, ggx, lambert
 
 UP = [0.0, 0, 1]
@@ -38,6 +39,8 @@ def test_kernels_agree_with_formulas(model, parameters):
     assert np.allclose(exact, fast, rtol=2e-4, atol=1e-6)
     diffuse, specular = brdf.evaluate(UP, view, light, components=True)
     assert np.array_equal(diffuse + specular, exact)
+    diffuse, specular = brdf.evaluate(UP, view[::-1], light, exact=False, components=True)
+    assert np.array_equal(diffuse + specular, brdf.evaluate(UP, view[::-1], light, exact=False))
 
 
 def test_shapes_broadcast():
@@ -83,6 +86,22 @@ def test_what_is_no_direction_is_refused(wrong, error):
                 brdf.evaluate(*arguments)
 
 
+def test_the_wrong_vector_is_named():
+    wrong = directions(60_000)
+    wrong[54_321] *= 2
+    for exact in True, False:
+        with pytest.raises(nacre.Error, match="to_view 54321 "):
+            nacre.Brdf("lambert").evaluate(UP, wrong, UP, exact=exact)
+
+
+def test_rows_of_different_lengths_are_refused():
+    for brdf in nacre.Brdf("lambert"), nacre.Brdf(lambert(0.5)):
+        with pytest.raises(ValueError, match="to_view is no array"):
+            brdf.evaluate(UP, [[0, 0, 1], [0, 1]], UP)
+    with pytest.raises(nacre.Error, match="returned no array"):
+        nacre.Brdf(lambda n, v, l: [[1, 2, 3], [4]]).evaluate(UP, UP, UP)
+
+
 def test_models_and_parameters_are_checked():
     with pytest.raises(nacre.Error, match='did you mean "conductor"'):
         nacre.Brdf("conductr")
@@ -95,12 +114,16 @@ def test_models_and_parameters_are_checked():
             wrong()
     with pytest.raises(nacre.Error, match="microfacet"):
         nacre.Brdf("lambert").terms(UP, UP, UP)
-    for cosine in 0, -1, 1.5, np.nan:
-        with pytest.raises(nacre.Error):
-            nacre.Brdf("lambert").albedo(cosine)
-    for points in [1.0, 0], [-0.1, 0], [np.nan, 0]:
-        with pytest.raises((nacre.Error, ValueError)):
-            nacre.Brdf("lambert").sample(UP, UP, points)
+    for brdf in nacre.Brdf("lambert"), nacre.Brdf(lambert(1)):
+        for cosine in 0, -1, 1.5, np.nan:
+            with pytest.raises(nacre.Error):
+                brdf.albedo(cosine)
+        for wrong in None, "a":
+            with pytest.raises(TypeError):
+                brdf.albedo(wrong)
+        for points in [1.0, 0], [-0.1, 0], [np.nan, 0]:
+            with pytest.raises(nacre.Error, match="point 0"):
+                brdf.sample(UP, UP, points)
 
 
 def test_the_material_of_a_scene(scenes):
@@ -148,6 +171,17 @@ def test_a_function_is_a_model():
     assert np.array_equal(mine.pdf(UP, view, light), cosine_law.pdf(UP, view, light))
 
 
+def test_functions_may_write_to_their_arrays():
+    def brdf(n, v, l):
+        l *= 2
+        return np.full((len(n), 3), 0.5)
+    light = np.asfortranarray(directions(5))
+    kept = light.copy()
+    assert np.allclose(nacre.Brdf(brdf).evaluate(UP, UP, light), 0.5 * light[:, 2:])
+    assert np.array_equal(light, kept)
+
+
+@not_sanitized
 def test_memory_is_flat():
     def resident():
         with open("/proc/self/statm", encoding="ascii") as file:

@@ -11,6 +11,14 @@ def verdicts(found):
     return {name for name, verdict in found.verdicts.items() if not verdict.ok}
 
 
+def clamped(f):
+    """As if its 4 n.l n.v were kept above 0.01."""
+    def brdf(n, v, l):
+        denominator = 4 * (n * l).sum(axis=1, keepdims=True) * (n * v).sum(axis=1, keepdims=True)
+        return f(n, v, l) * denominator / np.maximum(denominator, 0.01)
+    return brdf
+
+
 def test_a_right_model_passes(capsys):
     found = nacre.check(ggx(0.16), against="metallic_roughness", roughness=0.4, size=64, **WHITE_METAL)
     page = capsys.readouterr().out
@@ -23,8 +31,9 @@ def test_a_right_model_passes(capsys):
 @pytest.mark.parametrize("wrong, hint", [
     (lambda f: lambda n, v, l: np.pi * f(n, v, l), "pi: the 1/pi"),
     (lambda f: lambda n, v, l: 4 * f(n, v, l), "4: the 1/4"),
-    (lambda f: lambda n, v, l: f(n, v, l) * (n * l).sum(axis=1, keepdims=True), "without it"),
+    (lambda f: lambda n, v, l: f(n, v, l) * (n * l).sum(axis=1, keepdims=True), "n.l is not part"),
     (lambda f: lambda n, v, l: 1.25 * f(n, v, l), "times 1.25"),
+    (lambda f: ggx(0.4), "alpha is the square"), (lambda f: clamped(f), "only grazing angles"),
     (lambda f: ggx(0.17), None)])
 def test_wrong_models_do_not(wrong, hint):
     found = nacre.check(wrong(ggx(0.16)), against="metallic_roughness", roughness=0.4, size=32,
@@ -41,6 +50,31 @@ def test_properties_are_judged():
     def leaning(n, v, l):  # depends on the world's x axis
         return 0.1 + 0.05 * l[:, :1]
     assert "isotropic" in verdicts(nacre.check(leaning, size=32, quiet=True))
+
+
+def test_single_precision_is_no_fault():
+    def rounded(n, v, l):
+        return ggx(0.16)(*(array.astype(np.float32) for array in (n, v, l)))
+    assert nacre.check(rounded, against="metallic_roughness", roughness=0.4, size=32, quiet=True,
+                       **WHITE_METAL)
+
+
+def test_a_factor_n_dot_l_is_found_without_a_reference():
+    found = nacre.check(lambda n, v, l: (n * l).sum(axis=1, keepdims=True) * ggx(0.16)(n, v, l), size=32,
+                        quiet=True)
+    assert "reciprocal" in verdicts(found) and "n.l is not part" in found.hints[0]
+
+
+def test_functions_of_single_vectors_are_made_to_take_arrays():
+    def one(n, v, l):
+        half = (v + l) / np.linalg.norm(v + l)
+        return 0.2 / np.pi + 0.1 * np.dot(n, half)**30
+    with pytest.raises(ValueError) as caught:
+        nacre.check(one, quiet=True)
+    assert not hasattr(caught.value, "__notes__") or "np.vectorize" in caught.value.__notes__[0]
+    many = np.vectorize(one, signature="(k),(k),(k)->()")
+    found = nacre.check(lambda n, v, l: many(n, v, l)[:, None], size=16, quiet=True)
+    assert verdicts(found) == set() and "loop over the samples" in found.hints[0]
 
 
 def test_samplers_are_judged():

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import nacre
+from conftest import not_sanitized
 
 
 @pytest.fixture
@@ -70,7 +71,9 @@ def test_an_image_of_arrays():
     (np.ones((4, 4)), ValueError), (np.ones((0, 4, 3)), ValueError), ({}, ValueError),
     ({"R": np.ones((2, 2)), "G": np.ones((2, 3))}, ValueError),
     ({"R": np.ones((2, 2), complex)}, TypeError), ("abc", ValueError),
-    ({"R": np.array([["a", "b"]])}, TypeError)])
+    ({"R": np.array([["a", "b"]])}, TypeError), ({1: np.ones((2, 2))}, TypeError),
+    ({"": np.ones((2, 2))}, ValueError), ({"R\0": np.ones((2, 2))}, ValueError),
+    ({"id.object": np.full((2, 2), -1)}, ValueError), ({"id.object": np.full((2, 2), 1.5)}, ValueError)])
 def test_arrays_that_are_no_image_are_refused(channels, error):
     with pytest.raises(error):
         nacre.Image(channels)
@@ -82,6 +85,9 @@ def test_tone_mapping_is_that_of_png_files(image):
     assert nacre.Image(np.full((2, 2, 3), np.nan)).tone_map()[0, 0].tolist() == [255, 0, 255]
     for wrong in {"tonemap": "acse"}, {"exposure": 99}, {"layer": "difuse"}:
         with pytest.raises(nacre.Error):
+            image.tone_map(**wrong)
+    for wrong in {"tonemap": 3}, {"exposure": "high"}, {"layer": None}:
+        with pytest.raises(TypeError, match="tone_map"):
             image.tone_map(**wrong)
 
 
@@ -104,8 +110,10 @@ def test_metrics(image):
     with pytest.raises(nacre.Error) as caught:
         nacre.compare(image, nacre.Image(np.ones((4, 4, 3))), layers=["beauty"])
     assert caught.value.exit_code == 2
-    with pytest.raises(TypeError):
-        nacre.compare(image, image["beauty"])
+    for wrong in nacre.compare, nacre.heat_map, nacre.difference:
+        with pytest.raises(TypeError, match="nacre.Image"):
+            wrong(image, image["beauty"])
+    assert nacre.compare(image, image, layers="beauty")
 
 
 def test_notebooks_show_pictures(image):
@@ -118,6 +126,10 @@ def test_notebooks_show_pictures(image):
         nacre.side_by_side(image["beauty"])
     with pytest.raises(ValueError):
         nacre.side_by_side()
+    with pytest.raises(ValueError, match="gap"):
+        nacre.side_by_side(image, image, gap=-1)
+    with pytest.raises(nacre.Error, match="no notebook"):
+        nacre.show(image)
 
 
 def test_pictures_are_written(image, tmp_path):
@@ -135,6 +147,7 @@ def test_pictures_are_written(image, tmp_path):
     assert caught.value.exit_code == 74
 
 
+@not_sanitized
 def test_memory_is_flat():
     def resident():
         with open("/proc/self/statm", encoding="ascii") as file:

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from conftest import SOURCE
+from conftest import SOURCE, module, not_sanitized
 
 NOTEBOOKS = sorted((SOURCE / "scenes/notebooks").glob("*.ipynb"))
 
@@ -21,12 +21,12 @@ def test_outputs_are_stripped(path):
             assert cell["outputs"] == [] and cell["execution_count"] is None
 
 
+@not_sanitized
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 def test_notebooks_run(path, tmp_path):
-    nbclient = pytest.importorskip("nbclient")
-    nbformat = pytest.importorskip("nbformat")
-    pytest.importorskip("matplotlib")
-    pytest.importorskip("ipykernel")
+    nbclient, nbformat = module("nbclient"), module("nbformat")
+    module("matplotlib")
+    module("ipykernel")
     notebook = nbformat.read(path, as_version=4)
     nbclient.NotebookClient(notebook, timeout=300, kernel_name="python3",
                             resources={"metadata": {"path": str(tmp_path)}}).execute()

@@ -76,6 +76,7 @@ def test_functions_are_called_one_at_a_time():
         if not busy.acquire(blocking=False):
             clashes.append(1)
         sizes.append(len(n))
+        np.sqrt(np.abs(n @ np.eye(3)))  # numpy lets go of the interpreter
         assert n.shape == v.shape == l.shape == (len(n), 3) and n.dtype == np.float64
         busy.release()
         return np.full((len(n), 1), 0.3)
@@ -125,8 +126,64 @@ def test_wrong_samplers_are_told():
     brdf = nacre.Brdf(lambert(0.5), sample=lambda n, v, u: n, pdf=lambda n, v, l: -np.ones(len(n)))
     with pytest.raises(nacre.Error, match="its pdf is -1"):
         render("sky", brdf)
-    with pytest.raises(TypeError, match="by name"):
-        nacre.Scene().add_material("ball", nacre.Brdf("lambert"))
+
+
+def test_functions_may_render():
+    inner = spheres("point")
+    inner.add_material("ball", lambert(0.5))
+
+    def brdf(n, v, l):
+        inner.render(width=8, height=6)
+        return np.full((len(n), 1), 0.3)
+
+    def waiting(n, v, l):
+        thread = threading.Thread(target=brdf, args=(n, v, l))
+        thread.start()
+        thread.join()
+        return np.full((len(n), 1), 0.3)
+    expected = render("point", lambert(0.3))
+    assert np.allclose(render("point", brdf), np.pi * expected, rtol=1e-5)
+    assert np.isclose(render("point", waiting, samples=1).max(), np.pi * expected.max(), rtol=0.1)
+
+
+def test_models_of_nacre_are_materials():
+    gold = nacre.Brdf("conductor", preset="gold", roughness=0.3)
+    assert np.array_equal(render("sky", gold), render("sky", "conductor", preset="gold", roughness=0.3))
+    coated = render("point", nacre.Brdf("metallic_roughness", roughness=0.3), coat=1)
+    assert np.array_equal(coated, render("point", "metallic_roughness", roughness=0.3, coat=1))
+    with pytest.raises(TypeError, match="another scene"):
+        scene = spheres("point")
+        scene.add_material("ball", gold)
+        scene.add_material("other", nacre.Brdf.from_scene(scene, "ball"))
+
+
+def test_adaptive_sampling_treats_a_function_as_the_model_that_it_is():
+    def adaptive(model, **parameters):
+        scene = spheres("point")
+        scene.add_material("ball", model, **parameters)
+        return scene.render(width=48, height=36, max_error=0.05)["beauty"]
+    mine = adaptive(ggx(0.04))
+    other = adaptive("metallic_roughness", roughness=0.2, **WHITE_METAL)
+    assert (np.abs(mine - other) <= 0.05 * np.maximum(other, 0.05)).mean() > 0.95
+
+
+def test_grids_over_parameters():
+    def make(roughness, albedo=1):
+        def brdf(n, v, l):
+            return albedo * ggx(roughness**2)(n, v, l)
+        return brdf
+    scene = nacre.grid(make, roughness=[0.4, 0.8], albedo=np.array([1, 0.5, 0.25]))
+    assert scene.material_names[:2] == ["roughness=0.4 albedo=1", "roughness=0.8 albedo=1"]
+    image = scene.render()["beauty"]
+    assert image.shape == (480, 320, 3)
+    # Each ball is half as bright as the one above: the light is far away.
+    balls = image.reshape(3, 160, 2, 160, 3).mean(axis=(1, 3, 4))
+    assert np.allclose(balls[:-1] / balls[1:], 2, rtol=0.02)
+    other = nacre.grid("metallic_roughness", roughness=[0.4, 0.8], **WHITE_METAL).render()["beauty"]
+    assert np.abs(nacre.grid(make, roughness=[0.4, 0.8]).render()["beauty"] - other).max() < 1e-3
+    for wrong in ({}, {"roughness": 0.4}, {"roughness": []}, {"roughness": [1], "b": [1], "c": [1]}):
+        with pytest.raises(ValueError, match="grid"):
+            nacre.grid(make, **wrong)
 
 
 def test_a_scene_lives_as_long_as_its_functions_are_needed():

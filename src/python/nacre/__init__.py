@@ -14,6 +14,7 @@ What there is:
     Scene, Session      what is rendered, once or again and again
     Brdf                a reflection model over arrays, nacre's or a function of your own
     check               is a BRDF right? one page of verdicts, errors and curves
+    grid                spheres over one or two parameters of a model
     Image, Picture      channels as numpy arrays, files, tone mapping
     read                an image file
     compare, heat_map   metrics between images, and where they differ
@@ -26,6 +27,8 @@ have any numeric type and strides; they are converted to float64 where direction
 float32 in images. `nacre.Error` says what of a scene or file is wrong; TypeError and ValueError say
 that an argument is of the wrong type or shape.
 """
+import atexit as _atexit
+import os as _os
 from typing import List
 
 from . import _nacre
@@ -34,9 +37,12 @@ from ._check import Check, Verdict, check
 from ._errors import Cancelled, Error, Fault
 from ._image import (Comparison, Image, LayerMetrics, Picture, Window, compare, difference, heat_map,
                      read, show, side_by_side)
-from ._scene import Scene, Session, render
+from ._scene import Scene, Session, grid, render
 
 __version__: str = _nacre.version()
+
+_atexit.register(_nacre.stop_all)
+_os.register_at_fork(after_in_child=_nacre.after_fork)
 
 
 def supported_targets() -> List[str]:
@@ -61,6 +67,6 @@ def scene_schema() -> str:
 
 
 __all__ = [
-    "Brdf", "Cancelled", "Check", "Comparison", "Error", "Fault", "Image", "LayerMetrics", "Picture", "Scene", "Session",
-    "Verdict", "Window", "active_target", "check", "compare", "difference", "heat_map", "read", "render", "scene_schema",
-    "set_target", "show", "side_by_side", "supported_targets"]
+    "Brdf", "Cancelled", "Check", "Comparison", "Error", "Fault", "Image", "LayerMetrics", "Picture",
+    "Scene", "Session", "Verdict", "Window", "active_target", "check", "compare", "difference", "grid", "heat_map", "read", "render",
+    "scene_schema", "set_target", "show", "side_by_side", "supported_targets"]

@@ -5,34 +5,47 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple, Union
 import numpy as np
 
 from . import _nacre
-from ._errors import fault
+from ._errors import Error, fault
 from ._image import Array
 from ._json import to_json
 
 Function = Callable[[Array, Array, Array], Any]
 
 
-def _vectors(values: Any, name: str, columns: int = 3) -> Array:
-    array = np.asarray(values)
+def _numbers(values: Any, name: str) -> Array:
+    try:
+        array = np.asarray(values)
+    except ValueError as error:  # rows of different lengths
+        raise ValueError(f"{name} is no array: {error}") from None
     if array.dtype.kind not in "fiu":
         raise TypeError(f"{name} is an array of {array.dtype}, not of real numbers")
+    return array
+
+
+def _vectors(values: Any, name: str, columns: int = 3) -> Array:
+    array = _numbers(values, name)
     if array.ndim == 0 or array.shape[-1] != columns:
         raise ValueError(f"{name} has the shape {array.shape}, not (..., {columns})")
     return array
 
 
-def _broadcast(*arrays: Tuple[str, Array]) -> Tuple[Tuple[int, ...], List[Array]]:
-    """The common shape without the last axis, and the arrays as planes, of shape (columns, count)."""
+def _common_shape(*arrays: Tuple[str, Array]) -> Tuple[int, ...]:
+    """That of the arrays together, without their last axis."""
     try:
-        shape = np.broadcast_shapes(*(array.shape[:-1] for _, array in arrays))
+        return np.broadcast_shapes(*(array.shape[:-1] for _, array in arrays))
     except ValueError:
         shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays)
         raise ValueError(f"the shapes do not go together: {shapes}") from None
+
+
+def _broadcast(*arrays: Tuple[str, Array]) -> Tuple[Tuple[int, ...], List[Array]]:
+    """The common shape without the last axis, and the arrays as planes, of shape (columns, count)."""
+    shape = _common_shape(*arrays)
     planes = []
     for _, array in arrays:
         columns = array.shape[-1]
         whole = np.broadcast_to(array, shape + (columns,)).reshape(-1, columns)
-        planes.append(np.ascontiguousarray(whole.T, np.float64))
+        planes.append(np.array(whole.T, np.float64, order="C"))  # a copy: functions may write to it
     return shape, planes
 
 
@@ -62,7 +75,7 @@ class _Own:
     def __call__(self, *arrays: Array) -> Array:
         count = len(arrays[0])
         try:
-            result = np.asarray(self.function(*arrays))
+            returned = self.function(*arrays)
         except Exception as error:
             if hasattr(error, "add_note"):  # Python 3.11
                 error.add_note(f"{self.what} was called with arrays of the shapes "
@@ -70,6 +83,10 @@ class _Own:
                                "of many points. np.vectorize(f, signature=\"(k),(k),(k)->(k)\") makes "
                                "such a function of one for single vectors.")
             raise
+        try:
+            result = np.asarray(returned)
+        except ValueError as error:
+            raise fault(self.what, f"returned no array: {error}") from None
         if result.dtype.kind not in "fiub":
             raise fault(self.what, f"returned an array of {result.dtype}, not of real numbers")
         wanted = (count,) if self.columns is None else (count, self.columns)
@@ -152,6 +169,8 @@ class Brdf:
     @classmethod
     def from_scene(cls, scene: Any, material: str) -> "Brdf":
         """The model of a scene's material."""
+        if not hasattr(scene, "_native"):
+            raise TypeError(f"a nacre.Scene is wanted, not {type(scene).__name__}")
         brdf = cls.__new__(cls)
         brdf.name = material
         brdf._evaluate = brdf._sample = brdf._pdf = brdf._albedo = brdf._material = None
@@ -200,9 +219,11 @@ class Brdf:
         light, an array of shape (..., 3). Unlike the BRDF itself it is finite for every model.
 
         exact: in double, by the formulas of the papers in their stable form; else in float32 through
-            the SIMD kernels of the renderer, tens of times as fast.
+            the SIMD kernels of the renderer, tens of times as fast. Of functions always in double.
         components: returns (diffuse, specular) instead of their sum.
         """
+        if not exact and self._evaluate is None:
+            return self._shade(normal, to_view, to_light, components)
         shape, planes = self._directions(normal, to_view, to_light)
         if self._evaluate is not None:
             values, n_dot_l = self._own(self._evaluate, planes)
@@ -211,11 +232,24 @@ class Brdf:
                 return result
             nothing = np.zeros_like(result)
             return (nothing, result) if self._sample else (result, nothing)
-        call = self._native.evaluate if exact else self._native.shade
-        diffuse, specular = call(*planes)
+        diffuse, specular = self._native.evaluate(*planes)
         if components:
             return _rows(diffuse, shape), _rows(specular, shape)
         return _rows(diffuse + specular, shape)
+
+    def _shade(self, normal: Any, to_view: Any, to_light: Any, components: bool) -> Any:
+        named = (("normal", _vectors(normal, "normal")), ("to_view", _vectors(to_view, "to_view")),
+                 ("to_light", _vectors(to_light, "to_light")))
+        shape = _common_shape(*named)
+        rows = [np.broadcast_to(array, shape + (3,)).reshape(-1, 3) for _, array in named]
+        try:
+            found = self._native.shade(*rows, components)
+        except Error:  # which counts vectors from a piece's beginning
+            _check_units({name: array.T for (name, _), array in zip(named, rows)})
+            raise
+        if components:
+            return tuple(part.reshape(shape + (3,)) for part in found)
+        return found.reshape(shape + (3,))
 
     def sample(self, normal: Any, to_view: Any, u: Any) -> Array:
         """Unit directions to light, (..., 3), by points u of shape (..., 2) in [0, 1)^2, chosen about
@@ -226,8 +260,11 @@ class Brdf:
         if self._evaluate is None:
             return _rows(self._native.sample(n, v, points), shape)
         _check_units({"normal": n, "to_view": v})
-        if not ((points >= 0) & (points < 1)).all():
-            raise ValueError("u lies in [0, 1)^2")
+        wrong = ~((points >= 0) & (points < 1)).all(axis=0)
+        if wrong.any():
+            i = int(np.argmax(wrong))
+            raise fault("Brdf.sample", f"point {i} is {tuple(points[:, i].tolist())}",
+                        "points lie in [0, 1)^2")
         if self._sample is not None:
             directions = self._sample(n.T, v.T, points.T)
             _check_units({"a sampled direction": directions})
@@ -248,7 +285,7 @@ class Brdf:
         """The directional albedo: what is seen at n.v, an array of cosines in (0, 1], of light of
         radiance 1 from everywhere, of shape (..., 3). By quadrature; of functions to about 3e-4, if
         they are isotropic, without edges, and their lobes no narrower than GGX's at roughness 0.05."""
-        cosines = np.asarray(n_dot_v, np.float64)
+        cosines = _numbers(n_dot_v, "n_dot_v").astype(np.float64)
         flat = cosines.reshape(-1)
         if not ((flat > 0) & (flat <= 1)).all():
             raise fault("Brdf.albedo", "n.v is not above 0 and up to 1")

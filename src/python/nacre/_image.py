@@ -136,6 +136,10 @@ class Image:
             channels = dict(zip("RGBA", np.moveaxis(array, 2, 0)))
         planes: Dict[str, Array] = {}
         for name, values in channels.items():
+            if not isinstance(name, str):
+                raise TypeError(f"image: the name of a channel is a text, not {name!r}")
+            if not name.isprintable() or not name.rpartition(".")[2]:
+                raise ValueError(f"image: {name!r} is no name of a channel")
             array = np.asarray(values)
             if array.dtype.kind not in "fiub":
                 raise TypeError(f"image: {name} is an array of {array.dtype}, not of real numbers")
@@ -160,10 +164,15 @@ class Image:
         types = ["uint" if name.startswith("id.") else "float" for name in planes]
         block = np.empty((len(planes), height, width), np.float32)
         for i, plane in enumerate(planes.values()):
-            view = block[i].view(np.uint32) if types[i] == "uint" else block[i]
-            view[...] = plane
+            if types[i] == "uint":
+                if not ((plane >= 0) & (plane < 2**32) & (plane == np.floor(plane))).all():
+                    raise ValueError("image: ids are whole numbers from 0 to 2^32 - 1")
+                block[i].view(np.uint32)[...] = plane
+            else:
+                block[i] = plane
         window = (0, 0, width, height)
-        self._init(block, list(planes), types, window, window, dict(metadata or {}))
+        self._init(block, list(planes), types, window, window,
+                   {str(key): str(value) for key, value in (metadata or {}).items()})
 
     def _init(self, block: Array, names: List[str], types: List[str],
               frame: Sequence[int], data: Sequence[int], metadata: Dict[str, str]) -> None:
@@ -257,7 +266,11 @@ class Image:
         Pixels that hold a NaN are magenta.
         """
         of_layer = "" if layer == "beauty" else layer
-        return _nacre.tone_map(self, of_layer, tonemap, exposure)[:, :, :3]
+        try:
+            return _nacre.tone_map(self, of_layer, tonemap, exposure)[:, :, :3]
+        except TypeError:
+            raise TypeError("tone_map: layer and tonemap are texts, and exposure is a number, not "
+                            f"{layer!r}, {tonemap!r} and {exposure!r}") from None
 
     def picture(self, layer: str = "beauty", *, tonemap: str = "neutral",
                 exposure: float = 0) -> Picture:
@@ -284,7 +297,13 @@ def read(path: PathLike) -> Image:
     return _nacre.read(os.fspath(path))
 
 
-def compare(image: Image, reference: Image, *, layers: Sequence[str] = (), max_abs: float = 0,
+def _want_images(*values: object) -> None:
+    for value in values:
+        if not isinstance(value, Image):
+            raise TypeError(f"a nacre.Image is wanted, not {type(value).__name__}")
+
+
+def compare(image: Image, reference: Image, *, layers: Union[str, Sequence[str]] = (), max_abs: float = 0,
             max_rel: float = 0, exceeding_fraction: float = 0, max_rmse: float = math.inf,
             perceptual: bool = False, crop: bool = False) -> Comparison:
     """How far an image is from a reference, layer by layer, and whether they match.
@@ -296,10 +315,9 @@ def compare(image: Image, reference: Image, *, layers: Sequence[str] = (), max_a
     perceptual: measures SSIM, FLIP and HDR-FLIP, too, which takes longer.
     crop: compares only the pixels that both have; else windows that differ are a difference.
     """
-    for value in (image, reference):
-        if not isinstance(value, Image):
-            raise TypeError(f"compare: a nacre.Image is wanted, not {type(value).__name__}")
-    names = ["" if name == "beauty" else name for name in layers]
+    _want_images(image, reference)
+    names = ["" if name == "beauty" else name for name in
+             ([layers] if isinstance(layers, str) else layers)]
     match, reason, pixels, exceeding, measured = _nacre.compare(
         image, reference, names, max_abs, max_rel, exceeding_fraction, max_rmse, perceptual, crop)
     return Comparison(match, reason, pixels, exceeding,
@@ -314,6 +332,7 @@ def heat_map(image: Image, reference: Image, layer: str = "beauty", *, relative:
     (`high`) by its logarithm. Equal pixels are black; magenta are those that are not finite in one
     image only. relative: errors relative to the reference's magnitude.
     """
+    _want_images(image, reference)
     of_layer = "" if layer == "beauty" else layer
     return _nacre.heat_map(image, reference, of_layer, relative, low, high)[:, :, :3]
 
@@ -332,6 +351,8 @@ def side_by_side(*pictures: Showable, gap: int = 4) -> Picture:
     tone-mapped; arrays are uint8 of shape (height, width, 3)."""
     if not pictures:
         raise ValueError("side_by_side: there is no picture")
+    if gap < 0:
+        raise ValueError(f"side_by_side: the gap is {gap}")
     parts = [_pixels(picture) for picture in pictures]
     height = max(part.shape[0] for part in parts)
     width = sum(part.shape[1] for part in parts) + gap * (len(parts) - 1)
@@ -346,6 +367,7 @@ def side_by_side(*pictures: Showable, gap: int = 4) -> Picture:
 def difference(image: Image, reference: Image, layer: str = "beauty", *, relative: bool = False,
                low: float = 1e-6, high: float = 1) -> Picture:
     """Both images and the map of their differences (`heat_map`), side by side."""
+    _want_images(image, reference)
     return side_by_side(image.tone_map(layer), reference.tone_map(layer),
                         heat_map(image, reference, layer, relative=relative, low=low, high=high))
 
@@ -354,7 +376,11 @@ def show(*pictures: Showable) -> None:
     """Shows pictures in a notebook, side by side. Elsewhere there is no display: write them to
     files."""
     try:
+        from IPython import get_ipython
         from IPython.display import display
+        shell = get_ipython()
     except ImportError:
+        shell = None
+    if shell is None:
         raise fault("show", "there is no notebook", "image.write(\"picture.png\") writes a file")
     display(side_by_side(*pictures))

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Scenes, sessions, and renders of them."""
 import json
+import operator
 import os
 import sys
 from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
@@ -24,6 +25,8 @@ def _report(progress: Progress) -> Tuple[Optional[Callable[[float], object]], Ca
         return None, nothing
     if callable(progress):
         return progress, nothing
+    if progress is not True:
+        raise TypeError(f"progress is a function, True or False, not {progress!r}")
     try:
         from tqdm.auto import tqdm
     except ImportError:
@@ -37,14 +40,49 @@ def _report(progress: Progress) -> Tuple[Optional[Callable[[float], object]], Ca
     return update, bar.close
 
 
+def _whole(value: Optional[int], name: str) -> int:
+    try:
+        number = operator.index(0 if value is None else value)
+    except TypeError:
+        raise TypeError(f"{name} is a whole number, not {value!r}") from None
+    if abs(number) >= 2**31:
+        raise ValueError(f"{name} is out of range: {number}")
+    return number
+
+
+def _text(value: Any, name: str) -> str:
+    if not isinstance(value, str):
+        raise TypeError(f"{name} is a text, not {value!r}")
+    return value
+
+
+def _real(value: Any, name: str) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} is a number, not {value!r}") from None
+
+
 def _settings(width: Optional[int], height: Optional[int], samples: Optional[int],
               max_error: Optional[float], seed: Optional[int], region: Optional[Sequence[int]],
               layers: Union[str, Sequence[str]], threads: Optional[int],
               intersector: str) -> Dict[str, Any]:
-    return {"width": width or 0, "height": height or 0, "samples": samples or 0,
-            "max_error": max_error or 0, "seed": seed, "region": tuple(region or (0, 0, 0, 0)),
-            "layers": [layers] if isinstance(layers, str) else list(layers),
-            "threads": threads or 0, "intersector": intersector}
+    window = (0, 0, 0, 0) if region is None else tuple(_whole(x, "region") for x in region)
+    if len(window) != 4:
+        raise ValueError(f"region is (x0, y0, x1, y1), not {region!r}")
+    if seed is not None:
+        try:
+            seed = operator.index(seed)
+        except TypeError:
+            raise TypeError(f"seed is a whole number, not {seed!r}") from None
+        if not 0 <= seed < 2**32:
+            raise ValueError(f"seed is out of range: {seed}")
+    return {"width": _whole(width, "width"), "height": _whole(height, "height"),
+            "samples": _whole(samples, "samples"),
+            "max_error": _real(0 if max_error is None else max_error, "max_error"), "seed": seed,
+            "region": window, "layers": [_text(layer, "a layer") for layer in
+                                         ([layers] if isinstance(layers, str) else layers)],
+            "threads": _whole(threads, "threads"), "intersector": _text(intersector, "intersector")}
 
 
 class _Values:
@@ -54,21 +92,21 @@ class _Values:
 
     def __getitem__(self, pointer: str) -> Any:
         """The value at a JSON pointer, as the file and what was set since say it."""
-        text = self._native.get(pointer)
+        text = self._native.get(_text(pointer, "a JSON pointer"))
         if text is None:
             raise KeyError(f"nothing is set at {pointer!r}: there a default holds, or nothing")
         return json.loads(text)
 
     def __setitem__(self, pointer: str, value: Any) -> None:
-        self._native.set(pointer, to_json(value, pointer))
+        self._native.set(_text(pointer, "a JSON pointer"), to_json(value, pointer))
 
     def get(self, pointer: str, default: Any = None) -> Any:
         """The value at a JSON pointer, or `default` where nothing is set."""
-        text = self._native.get(pointer)
+        text = self._native.get(_text(pointer, "a JSON pointer"))
         return default if text is None else json.loads(text)
 
-    def __contains__(self, pointer: str) -> bool:
-        return self._native.get(pointer) is not None
+    def __contains__(self, pointer: object) -> bool:
+        return isinstance(pointer, str) and self._native.get(pointer) is not None
 
     def to_dict(self) -> Dict[str, Any]:
         """The scene as a scene file has it, without the shapes of add_spheres and add_mesh."""
@@ -112,6 +150,12 @@ class Scene(_Values):
         """Another scene of the same values."""
         return Scene._of(self._native.copy())
 
+    def __copy__(self) -> "Scene":
+        return self.copy()
+
+    def __deepcopy__(self, memo: Any) -> "Scene":
+        return self.copy()
+
     def set_camera(self, **camera: Any) -> None:
         """set_camera(position=(0, 1, 5), look_at=(0, 1, 0), fov_y_deg=40)"""
         self["/camera"] = camera
@@ -121,7 +165,7 @@ class Scene(_Values):
         self["/background"] = radiance
 
     def _add(self, part: str, name: str, value: Dict[str, Any]) -> None:
-        self[f"/{part}/" + name.replace("~", "~0").replace("/", "~1")] = value
+        self[f"/{part}/" + _text(name, "a name").replace("~", "~0").replace("/", "~1")] = value
 
     def add_material(self, name: str, model: Union[str, Brdf, Function], **parameters: Any) -> None:
         """add_material("gold", "conductor", preset="gold", roughness=0.2)
@@ -147,7 +191,7 @@ class Scene(_Values):
             raise TypeError("the material of another scene is added by its values: "
                             "add_material(name, model, ...)")
         members = {"model": parameters.pop("rest", "lambert"), **parameters}
-        self._native.add_user_material(name, *brdf._functions(), [
+        self._native.add_user_material(_text(name, "a name"), *brdf._functions(), [
             (key, to_json(value, key)) for key, value in members.items()])
 
     def add_light(self, name: str, type: str, **parameters: Any) -> None:
@@ -302,6 +346,45 @@ class Session(_Values):
 
     def __repr__(self) -> str:
         return "<nacre.Session>"
+
+
+def grid(model: Union[str, Callable[..., Any]], **parameters: Any) -> Scene:
+    """Spheres over one or two parameters of a model: the first that is a list or array varies to the
+    right, the second downwards.
+
+        def ggx(roughness, f0): ...        # returns a function of directions, or a nacre.Brdf
+        nacre.grid(ggx, roughness=np.linspace(0.2, 1, 5), f0=[0.04, 0.5, 1]).render()
+        nacre.grid("conductor", preset=["gold", "copper"], roughness=[0.1, 0.2, 0.4]).render()
+
+    model: a function that makes one of parameters, or the name of one of nacre's. A colour that does
+        not vary is a tuple.
+
+    The scene has a camera, the size of its image and the point light "key", all of which may be set
+    anew; its materials are named by their values, "roughness=0.2 f0=0.04".
+    """
+    axes = [(name, list(values)) for name, values in parameters.items()
+            if isinstance(values, (list, range, np.ndarray))]
+    if not 1 <= len(axes) <= 2 or not all(values for _, values in axes):
+        raise ValueError("grid: one or two parameters are lists or arrays of values; here, "
+                         f"{len(axes)} are" if len(axes) not in (1, 2) else
+                         "grid: a parameter has no values")
+    fixed = {name: value for name, value in parameters.items() if name not in dict(axes)}
+    (across, columns), (down, rows) = axes[0], axes[1] if len(axes) == 2 else ("", [None])
+    scene = Scene()
+    scene.set_camera(type="orthographic", position=(0, 0, 100), height=len(rows))
+    scene["/image"] = {"width": 160 * len(columns), "height": 160 * len(rows), "spp": 4}
+    scene.add_light("key", "point", position=(120, 135, 165), intensity=180000)
+    for j, row in enumerate(rows):
+        for i, column in enumerate(columns):
+            values = {across: column, **({down: row} if down else {})}
+            name = " ".join(f"{key}={value:g}" if isinstance(value, (int, float)) else f"{key}={value}"
+                            for key, value in values.items())
+            if isinstance(model, str):
+                scene.add_material(name, model, **fixed, **values)
+            else:
+                scene.add_material(name, model(**fixed, **values))
+            scene.add_sphere((i - (len(columns) - 1) / 2, (len(rows) - 1) / 2 - j, 0), 0.42, name)
+    return scene
 
 
 def render(scene: Scene, **settings: Any) -> Image:
