@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // hit/batch.h: the batches that flow through the renderer, as structure-of-arrays: rays, their
 // closest hits, shaded hits and shadow rays. Data only: render and visibility write them, and
-// shading reads them.
+// shading reads them; it turns their normals where maps do.
 //
 // All positions are doubles relative to the camera's position ("camera space without rotation"):
 // world position minus camera position, rounded once. Arrays have room for kBatchCapacity entries

@@ -15,12 +15,12 @@ namespace {
 struct LayerValues {
   const Soa3<float>* values = nullptr;  // null: zeros
   Rgb constant{0, 0, 0}, constant2{0, 0, 0};
-  // In place of the constants where materials have maps.
+  // In place of the constants where materials are mapped.
   const Soa3<float>* ambient = nullptr;
   const Soa3<float>* emission = nullptr;
 };
 
-// The values of a layer where maps give each hit its own ambient, emission and albedo.
+// The values of a layer where each hit has its own ambient, emission and albedo.
 LayerValues MappedValuesShown(const Layer& layer, const ShadedBatch& s) {
   switch (layer.kind) {
     case LayerKind::kBeauty: {

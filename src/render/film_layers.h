@@ -79,7 +79,7 @@ void AddNearest(const FilmPlan& plan, const ShadedBatch& batch, const PixelOf& p
 void AddToFilm(const FilmPlan& plan, const ShadedBatch& batch, LayerRoom* room, TileFilm* film);
 
 // For FilmPlan::one_sample: writes the only round of a tile to the strip directly, with the bits
-// that sums would give. False, and nothing is written, if materials have maps.
+// that sums would give. False, and nothing is written, if materials are mapped.
 bool StoreOnlySamples(const FilmPlan& plan, const ShadedBatch& batch, const Window& tile,
                       LayerRoom* room, Strip* strip);
 

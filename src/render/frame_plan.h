@@ -28,12 +28,11 @@ struct FramePlan {
   Window frame;                                        // all pixels: 0, 0, width, height
   Window window;                                       // those to render
   CameraFrame camera{};
-  FilmPlan film;         // layers, image settings, camera; sky and background of `direct`
-  HitsPlan hits;         // shapes, camera, image settings; shadows and readers of hits
-  SurfacePlan surfaces;  // materials, textures, ambient lights, shapes; camera for footprints
-  DirectPlan direct;     // lights, layers, shapes, camera; `hits` for shadows
-  SamplingPlan
-      sampling;  // image settings; what `direct`, `surfaces`, `hits`, `film` need of samples
+  FilmPlan film;          // layers, image settings, sampler, camera; sky and background of `direct`
+  HitsPlan hits;          // shapes, camera, image settings; shadows and readers of hits
+  SurfacePlan surfaces;   // materials, textures, ambient lights, shapes; camera for footprints
+  DirectPlan direct;      // lights, layers, shapes, camera; `hits` for shadows
+  SamplingPlan sampling;  // image settings; whether lights are sampled and materials textured
   AdaptivePlan adaptive;  // max_error; all of the above
   Explanation why;        // of all stages
 };

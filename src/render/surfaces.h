@@ -27,7 +27,7 @@ struct SurfacePlan {
   bool splits = false;                     // some material depends on the film position
   bool one_sided = false;                  // some material emits in front only
   bool interpolates = false;  // some mesh interpolates radiance, not normals (mesh_radiance.h)
-  bool textured = false;      // some shape's material has a map
+  bool textured = false;      // some shape's material is ShadingMaterial::textured
   TextureScene textures;      // empty unless `textured`
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/kernels.h: the SIMD kernels behind shade.h, one file per reflection model, and the
-// uniforms that they take.
+// shading/kernels.h: the SIMD kernels behind shade.h, and the uniforms that they take. One file
+// per reflection model, and of microfacet models one per Fresnel curve: those by Schlick and F82 of
+// all models are in metallic_roughness_kernel.cc.
 #pragma once
 
 #include "shading/shade.h"

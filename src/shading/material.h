@@ -103,10 +103,11 @@ struct ShadingMaterial {
   Rgb emission{0, 0, 0};
   // For the albedo layer: diffuse reflectance, or base colour, or F0 of a conductor.
   Rgb albedo{0, 0, 0};
-  // Of materials with maps: the scene's, which outlives this; else null. The model is then that of
-  // the maps' factors.
+  // Of materials whose numbers depend on the hit: the scene's, which outlives this; else null. The
+  // model is then that of the maps' factors. They depend on it where there are maps, and where a
+  // coat or a layer covers ambient light or emission.
   const Material* textured = nullptr;
-  bool mapped = false;        // maps give each hit numbers of its own
+  bool mapped = false;        // each hit has numbers of its own
   bool mapped_model = false;  // of its reflection, not of its emission alone
   bool mapped_width = false;  // of the width of its lobe
   bool turned = false;        // maps turn the normal

@@ -7,7 +7,7 @@
 // Between the last two the renderer removes the light from the hits that lie in shadow. A light
 // without shadow rays, of the forms that EvaluatedInPlace names, needs no EvaluateLight: ShadeRun
 // does the same arithmetic on the way, with the same bits.
-// Each is one call of a Highway kernel (2.4 ns of dispatch), so batches, never packets.
+// Each is a few calls of Highway kernels (2.4 ns of dispatch), so batches, never packets.
 #pragma once
 
 #include <memory>
