@@ -94,6 +94,13 @@ def test_the_wrong_vector_is_named():
             nacre.Brdf("lambert").evaluate(UP, wrong, UP, exact=exact)
 
 
+def test_a_function_returns_finite_numbers():
+    def brdf(n, v, l):
+        return np.where(l[:, 2:] < 0.5, np.nan, 1)
+    with pytest.raises(nacre.Error, match="returned .nan, nan, nan. for sample 1 of 2"):
+        nacre.Brdf(brdf).evaluate(UP, UP, [[0, 0, 1], [np.sqrt(0.84), 0, 0.4]])
+
+
 def test_rows_of_different_lengths_are_refused():
     for brdf in nacre.Brdf("lambert"), nacre.Brdf(lambert(0.5)):
         with pytest.raises(ValueError, match="to_view is no array"):

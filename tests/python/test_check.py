@@ -45,6 +45,7 @@ def test_wrong_models_do_not(wrong, hint):
 def test_properties_are_judged():
     assert {"reciprocal", "energy"} <= verdicts(nacre.check(phong(1, 1.0), size=32, quiet=True))
     assert verdicts(nacre.check(lambert(0.9), size=32, quiet=True)) == set()
+    assert verdicts(nacre.check(lambert(1.05), size=32, quiet=True)) == {"energy"}
     assert "positive" in verdicts(nacre.check(lambert(-0.1), size=32, quiet=True))
 
     def leaning(n, v, l):  # depends on the world's x axis

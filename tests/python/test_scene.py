@@ -188,6 +188,7 @@ def test_cancel_ends_a_render():
 
 
 def test_control_c_ends_a_render():
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # jobs in the background ignore it
     start = time.monotonic()
     threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
     with pytest.raises(KeyboardInterrupt):
@@ -281,6 +282,14 @@ scene.add_material("mine", lambda n, v, l: n * 0 + 0.3)
 scene.add_sphere((0, 0, 0), 1, "mine")
 threading.Thread(target=lambda: scene.render(width=1920, height=1080, samples=65536), daemon=True).start()
 time.sleep(0.2)
+
+
+class Late:
+    def __del__(self, sleep=time.sleep):
+        sleep(0.3)  # while the interpreter ends, threads may come back to it
+
+
+late = Late()
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, timeout=60, check=False)
     assert (done.returncode, done.stdout, done.stderr) == (0, b"", b"")
