@@ -116,7 +116,7 @@ class FunctionLock {
 class Running {
  public:
   explicit Running(const std::function<void()>* stop) {
-    if (Ending()) Refuse("render", "Python is about to end", "render before that");
+    if (Ending()) ExitThread();
     place_ = Stops().insert(Stops().end(), stop);
   }
   ~Running() { Stops().erase(place_); }
@@ -134,6 +134,12 @@ class Running {
   }
   // Of a child after a fork, in which no render runs.
   static void Reset() { Stops().clear(); }
+
+  // Ends a thread of Python's, and prints nothing.
+  [[noreturn]] static void ExitThread() {
+    PyErr_SetNone(PyExc_SystemExit);
+    throw py::error_already_set();
+  }
 
   static bool& Ending() {
     static bool ending = false;
@@ -190,10 +196,7 @@ auto Interruptibly(const std::function<void()>& stop, const Body& body) {
     worker.join();
   }
   if (signal) throw *std::move(signal);
-  if (error && Running::Ending()) {  // ends the thread, and prints nothing
-    PyErr_SetNone(PyExc_SystemExit);
-    throw py::error_already_set();
-  }
+  if (error && Running::Ending()) Running::ExitThread();
   if (error) std::rethrow_exception(error);
   return *std::move(result);
 }
