@@ -50,6 +50,8 @@ def test_files_are_written_and_read(image, tmp_path, name):
         for channel in image.channels:
             assert np.array_equal(again[channel], image[channel], equal_nan=True), channel
         assert again["id.object"].dtype == np.uint32
+        for layer in "beauty", "diffuse", "N":
+            assert np.array_equal(again[layer], image[layer], equal_nan=True), layer
     else:
         codes = np.rint(again["beauty"] * 255).astype(np.uint8)
         assert np.array_equal(codes, image.tone_map())

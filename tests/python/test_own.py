@@ -70,13 +70,13 @@ def test_a_sampler_is_used():
 
 
 def test_functions_are_called_one_at_a_time():
-    busy, clashes, sizes = threading.Lock(), [], []
+    busy, clashes, sizes, large = threading.Lock(), [], [], np.ones(500_000)
 
     def brdf(n, v, l):
         if not busy.acquire(blocking=False):
             clashes.append(1)
         sizes.append(len(n))
-        np.sqrt(np.abs(n @ np.eye(3)))  # numpy lets go of the interpreter
+        np.sqrt(large, out=large)  # numpy lets go of the interpreter
         assert n.shape == v.shape == l.shape == (len(n), 3) and n.dtype == np.float64
         busy.release()
         return np.full((len(n), 1), 0.3)
