@@ -2,6 +2,8 @@
 // scene_io/read_shapes.cc: the part "shapes". Meshes: read_meshes.cc. Grids, pairs and clouds:
 // read_generators.cc.
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -135,13 +137,20 @@ void ReadRun(const SphereRun& run, const PlainSpheres& plain, const std::vector<
   }
 }
 
+// As people write it: 1, not 1.0.
+Json AsWritten(double number) {
+  const bool whole = std::abs(number) < 1e15 && number == std::trunc(number);
+  return whole && !(number == 0 && std::signbit(number)) ? Json(static_cast<int64_t>(number))
+                                                         : Json(number);
+}
+
 }  // namespace
 
 Json JsonOf(const Sphere& sphere, const std::string& material) {
   const Vec3d& center = sphere.center;
   return {{"type", "sphere"},
-          {"center", {center.x, center.y, center.z}},
-          {"radius", sphere.radius},
+          {"center", {AsWritten(center.x), AsWritten(center.y), AsWritten(center.z)}},
+          {"radius", AsWritten(sphere.radius)},
           {"material", material}};
 }
 
