@@ -21,7 +21,7 @@ import pictures  # noqa: E402
 import webdriver  # noqa: E402
 from server import Server  # noqa: E402
 
-PROGRAM, SOURCE = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2])
+PROGRAM, SOURCE = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2]).resolve()
 PHONE, DESK = (390, 844), (1280, 900)
 # The shipped sphere scenes with their first slider to move. The first two are measured always, and all
 # with as many pictures as NACRE_VIEW_PICTURES says.
