@@ -22,8 +22,8 @@ PROGRAM, SOURCE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
 BLOCK = re.compile(r'^```(\w*)\n(.*?)^```$', re.M | re.S)
 READMES = sorted(path for path in SOURCE.rglob('README.md')
                  if not re.match(r'build|out/|\.git', path.relative_to(SOURCE).as_posix()))
-# Options in the text that belong to other programs: cmake, ctest.
-OTHERS = {'--install', '--prefix', '--preset'}
+# Options in the text that belong to other programs: cmake, ctest, pip.
+OTHERS = {'--install', '--prefix', '--preset', '--no-build-isolation', '--no-deps'}
 
 
 def blocks(path, kind):
