@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Builds the wheel of nacre: a PEP 517 backend that needs CMake and what scripts/setup installs, and
-no network. `pip wheel --no-build-isolation --no-deps .`
+no network. `pip wheel --no-build-isolation --no-deps ./src/python`
 
 The wheel holds the package with libnacre.so; the libraries of Debian that this needs are not in it.
 Of an existing build: `--config-settings build-folder=build`.
