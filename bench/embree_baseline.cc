@@ -11,31 +11,13 @@
 #include <benchmark/benchmark.h>
 
 #include "base/parallel.h"
-#include "embree/embree_api.h"
+#include "embree_tree.h"
 #include "float_visibility.h"
 #include "render/camera.h"
 #include "visibility_scenes.h"
 
 namespace nacre {
 namespace {
-
-struct ReleaseDevice {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct ReleaseScene {
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-using DevicePointer = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
-using ScenePointer = std::unique_ptr<RTCSceneTy, ReleaseScene>;
-
-ScenePointer BuildTree(RTCGeometry spheres, RTCDevice device) {
-  ScenePointer tree(rtcNewScene(device));
-  rtcCommitGeometry(spheres);
-  rtcAttachGeometry(tree.get(), spheres);
-  rtcReleaseGeometry(spheres);
-  rtcCommitScene(tree.get());
-  return tree;
-}
 
 ScenePointer BuildSpherePoints(const Scene& scene, const std::vector<FloatSphere>& spheres,
                                RTCDevice device) {
@@ -121,7 +103,7 @@ using MakeTree = ScenePointer (*)(const Scene&, const std::vector<FloatSphere>&,
 
 void BenchEmbree(benchmark::State& state, const SphereScene& which, MakeTree make_tree) {
   const FlushDenormals flush;
-  const DevicePointer device(rtcNewDevice("verbose=0,set_affinity=0"));
+  const DevicePointer device = MakeDevice();
   const Scene scene = MakeSphereScene(which);
   const std::vector<FloatSphere> spheres = FloatSpheres(scene);
   const ScenePointer tree = make_tree(scene, spheres, device.get());

@@ -12,6 +12,9 @@ import time
 
 import numpy as np
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tests/python"))
+from models import ggx  # noqa: E402 pylint: disable=wrong-import-position
+
 PAIRS = 100_000
 
 
@@ -19,26 +22,6 @@ def seconds(work):
     start = time.perf_counter()
     work()
     return time.perf_counter() - start
-
-
-def dot(a, b):
-    return (a * b).sum(axis=1)
-
-
-def ggx(alpha):
-    """White metal, in the form in which textbooks have it."""
-    a2 = alpha * alpha
-
-    def brdf(normal, to_view, to_light):
-        half = to_view + to_light
-        half /= np.linalg.norm(half, axis=1, keepdims=True)
-        n_l, n_v, n_h = dot(normal, to_light), dot(normal, to_view), dot(normal, half)
-        d = a2 / (np.pi * (n_h * n_h * (a2 - 1) + 1)**2)
-
-        def g1(c):
-            return 2 * c / (c + np.sqrt(a2 + (1 - a2) * c * c))
-        return (d * g1(n_l) * g1(n_v) / (4 * n_l * n_v))[:, None]
-    return brdf
 
 
 def rendered_function(nacre, rounds):

@@ -6,9 +6,8 @@
 //       sets the values one after the other, COUNT times, and renders after each: seconds from Set
 //       to the picture, and those of the render part alone
 //   embree TRIANGLES COUNT   builds a bare Embree tree of a square of triangles
-//   rays SPHERES COUNT       incoherent rays, one thread: nearest sphere, and whether anything is
-//   in
-//                            the way; nanoseconds a ray, and Embree's for its own spheres in float
+//   rays SPHERES COUNT       incoherent rays, one thread: nearest sphere, and whether one is in the
+//                            way; nanoseconds a ray, and Embree's for its own spheres in float
 //   spng FILE COUNT          decodes a PNG file by libspng alone
 //   jpeg IN OUT              writes a picture as JPEG
 //   brdf PAIRS COUNT         evaluates a model at pairs of directions, by the float kernels
@@ -30,7 +29,7 @@
 
 #include "base/parallel.h"
 #include "base/seconds_since.h"
-#include "embree/embree_api.h"
+#include "embree_tree.h"
 #include "hit/batch.h"
 #define NACRE_OWN_SOURCE  // the renderer's own types are here as well
 #include "nacre.h"
@@ -96,29 +95,9 @@ void RunSession(char** arguments, int count) {
 
 // ---- Embree -------------------------------------------------------------------------------------
 
-struct ReleaseDevice {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct ReleaseScene {
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-using DevicePointer = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
-using ScenePointer = std::unique_ptr<RTCSceneTy, ReleaseScene>;
-
-DevicePointer MakeDevice() { return DevicePointer(rtcNewDevice("verbose=0,set_affinity=0")); }
-
-ScenePointer Build(RTCGeometry geometry, RTCDevice device) {
-  ScenePointer tree(rtcNewScene(device));
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(tree.get(), geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(tree.get());
-  return tree;
-}
-
 void BuildTriangles(int triangles, int count) {
   const auto side = static_cast<unsigned>(std::lround(std::sqrt(triangles / 2.0)));
-  const DevicePointer device = MakeDevice();
+  const nacre::DevicePointer device = nacre::MakeDevice();
   // The buffers are given to Embree with the tree, as whoever reads a file has to.
   PrintSeconds(Time(count, [&] {
     RTCGeometry mesh = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -141,7 +120,7 @@ void BuildTriangles(int triangles, int count) {
         for (const unsigned corner : {a, b, a + 1, a + 1, b, b + 1}) *index++ = corner;
       }
     }
-    Build(mesh, device.get());
+    nacre::BuildTree(mesh, device.get());
   }));
 }
 
@@ -243,7 +222,7 @@ void TraceRays(int spheres, int count) {
     }
   });
 
-  const DevicePointer device = MakeDevice();
+  const nacre::DevicePointer device = nacre::MakeDevice();
   RTCGeometry points = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_SPHERE_POINT);
   auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(points, RTC_BUFFER_TYPE_VERTEX, 0,
                                                              RTC_FORMAT_FLOAT4, 4 * sizeof(float),
@@ -253,7 +232,7 @@ void TraceRays(int spheres, int count) {
       *vertex++ = static_cast<float>(value);
     }
   }
-  const ScenePointer tree = Build(points, device.get());
+  const nacre::ScenePointer tree = nacre::BuildTree(points, device.get());
   const auto make_ray = [&](size_t i) {
     RTCRayHit ray = {};
     ray.ray.org_x = static_cast<float>(rays.origins[i].x);

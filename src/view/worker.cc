@@ -117,8 +117,8 @@ std::vector<const Channel*> ChannelsOf(const Image& image, const std::string& la
 
 }  // namespace
 
-Worker::Worker(OpenDocument open, const WorkerOptions& options)
-    : open_(std::move(open)), options_(options), document_(open_()), display_(options.display) {}
+Worker::Worker(const OpenDocument& open, const WorkerOptions& options)
+    : options_(options), document_(open()), display_(options.display) {}
 
 Worker::~Worker() { Stop(); }
 

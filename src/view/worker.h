@@ -42,13 +42,13 @@ struct WorkerSinks {
   std::function<void(ClientId, SharedBytes)> send;  // samples and files, to one
 };
 
-// Makes the document, when the worker starts and when its files have changed. Throws Error.
+// Makes the document. Throws Error.
 using OpenDocument = std::function<std::unique_ptr<ViewDocument>()>;
 
 class Worker {
  public:
   // Opens the document in this thread, whose errors come out.
-  Worker(OpenDocument open, const WorkerOptions& options);
+  Worker(const OpenDocument& open, const WorkerOptions& options);
   ~Worker();  // ends it, whatever it does
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
@@ -99,7 +99,6 @@ class Worker {
   void Publish(bool done);
   RenderSettings Settings();
 
-  const OpenDocument open_;
   const WorkerOptions options_;
   WorkerSinks sinks_;
 

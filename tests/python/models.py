@@ -17,7 +17,7 @@ def ggx(alpha):
 
     def brdf(normal, to_view, to_light):
         half = to_view + to_light
-        half = half / np.linalg.norm(half, axis=1, keepdims=True)
+        half /= np.linalg.norm(half, axis=1, keepdims=True)
         n_l, n_v, n_h = dot(normal, to_light), dot(normal, to_view), dot(normal, half)
         d = a2 / (np.pi * (n_h * n_h * (a2 - 1) + 1)**2)
 
