@@ -61,7 +61,7 @@ void ForEachTile(const Intersector& intersector, TileCandidates* candidates, con
 class ExactTiles {
  public:
   const HitBatch& Trace(const Intersector& intersector, const TileCandidates& candidates) {
-    film_.count = candidates.tile.pixel_count();
+    film_.count = film_.pixels = candidates.tile.pixel_count();
     PlaceCenters(candidates.tile, film_.x.data(), film_.y.data());
     intersector.HitsInTile(candidates, film_, {&hits_, &directions_, false});
     return hits_;

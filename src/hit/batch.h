@@ -81,11 +81,11 @@ Pointers3<T> PointersTo(Soa3<T>* soa) {
   return {soa->all.data()};
 }
 
-// Film positions, in pixels from the top left corner of the full frame, and the indices of the rays
-// through them. Those of a tile's samples are ordered by sample, and within a sample by the tile's
-// pixels row by row.
+// Film positions, in pixels from the top left corner of the full frame. Those of a tile's samples
+// are ordered by sample, and within a sample by the tile's sampled pixels row by row.
 struct FilmBatch {
   size_t count = 0;
+  size_t pixels = 0;  // of a tile's samples: the sampled pixels, of which each has count / pixels
   AlignedArray<double> x{kBatchCapacity}, y{kBatchCapacity};
 };
 
@@ -119,7 +119,7 @@ struct HitDirections {
 struct HitBatch {
   size_t count = 0;
   bool one_primitive = false;                        // all hits are known to be on the same one
-  AlignedArray<uint32_t> ray{kBatchCapacity};        // FilmBatch::ray
+  AlignedArray<uint32_t> ray{kBatchCapacity};        // index in FilmBatch
   AlignedArray<uint32_t> primitive{kBatchCapacity};  // for excluding itself from its shadow rays
   // Filled on request only (HitOutput).
   Soa3<double> position;  // on the surface

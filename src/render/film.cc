@@ -126,7 +126,28 @@ Rgb BackgroundOf(const Layer& layer, const FilmPlan& plan) {
   return shows ? RoundToFloat(plan.background) : Rgb(0, 0, 0);
 }
 
+void FillBackground(const FilmPlan& plan, const Window& tile, Strip* strip) {
+  size_t color = 0;
+  for (const Layer& layer : plan.layers) {
+    const Rgb background = IsAveraged(layer.kind) ? BackgroundOf(layer, plan) : Rgb(0, 0, 0);
+    const Rgb mean = background * plan.weight * (1.0 / plan.spp);  // as of sums that are 0
+    for (int c = 0; c < FloatChannels(layer.kind); ++c) {
+      FillPixels(static_cast<float>(mean[c]), RowsIn(strip->window, tile, &strip->colors[color++]));
+    }
+  }
+  for (AlignedArray<uint32_t>& channel : strip->ids) {
+    const PixelRows<uint32_t> rows = RowsIn(strip->window, tile, &channel);
+    for (size_t y = 0; y < rows.height; ++y) {
+      std::fill_n(rows.first + y * rows.stride, rows.width, 0u);
+    }
+  }
+}
+
 void ResolveTile(const FilmPlan& plan, const TileFilm& film, Strip* strip) {
+  size_t pixels = 0;
+  for (const PixelRun& run : film.runs) pixels += static_cast<size_t>(run.count);
+  if (pixels < film.window.pixel_count()) FillBackground(plan, film.window, strip);
+  if (pixels == 0) return;
   const double* const coverage = film.sums[kAlphaSum].data();
   size_t sum = 0, nearest = 0, color = 0;
   for (const Layer& layer : plan.layers) {
@@ -135,7 +156,7 @@ void ResolveTile(const FilmPlan& plan, const TileFilm& film, Strip* strip) {
       const PixelRows<float> rows = RowsIn(strip->window, film.window, &strip->colors[color++]);
       if (IsAveraged(layer.kind)) {
         RoundSums(film.sums[sum++].data(), coverage, {background[c], plan.weight, 1.0 / plan.spp},
-                  rows);
+                  film.runs, film.window, rows);
       } else {
         CopyTile(film.nearest[nearest++], rows);
       }

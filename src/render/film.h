@@ -37,12 +37,15 @@ void PlanLayers(const Scene& scene, const RenderSettings& settings, FilmPlan* pl
 void PlanSums(const Scene& scene, const RenderSettings& settings, const PixelSampler& sampler,
               FilmPlan* plan, Explanation* why);
 
-// The pixels of a tile, one array per channel, row by row. Averaged channels are summed in double
-// and rounded to float once, however many samples there are and however their weights cancel, so
-// that the layers add up to the beauty. Only hits are summed. The sum of the alpha layer is the
-// weight of the hits; the remaining weight shows the background.
+// The sampled pixels of a tile, one array per channel, row by row. Averaged channels are summed in
+// double and rounded to float once, however many samples there are and however their weights
+// cancel, so that the layers add up to the beauty. Only hits are summed. The sum of the alpha layer
+// is the weight of the hits; the remaining weight shows the background.
 struct TileFilm {
   Window window;
+  // The pixels. All others of the window show the background alone. What AddToFilm adds is theirs,
+  // and ResolveTile reads them.
+  std::vector<PixelRun> runs;
   std::vector<AlignedArray<double>> sums;    // averaged channels, in layer order
   std::vector<AlignedArray<float>> nearest;  // P and Z channels, in layer order
   std::vector<AlignedArray<uint32_t>> ids;   // id channels, in layer order
@@ -92,6 +95,9 @@ bool ShowsBackground(const Layer& layer);
 // Layers are stored as float. The beauty is computed from the rounded values, so that it is exactly
 // their sum.
 Rgb RoundToFloat(const Rgb& value);
+
+// Fills a tile in which nothing is hit with the bits that its film would give.
+void FillBackground(const FilmPlan& plan, const Window& tile, Strip* strip);
 
 // Adds the background to the sums, divides by the number of samples, rounds to float and writes the
 // tile to its strip.

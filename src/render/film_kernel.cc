@@ -32,7 +32,7 @@ void AddSamplesT(const double* values, const double* weights, int samples, size_
   }
 }
 
-// One row of RoundSums.
+// One run of RoundSums.
 HWY_INLINE void RoundRow(const double* sums, const double* coverage, const Resolution& by,
                          size_t width, float* out) {
   const D d;
@@ -52,9 +52,13 @@ HWY_INLINE void RoundRow(const double* sums, const double* coverage, const Resol
 }
 
 void RoundSumsT(const double* sums, const double* coverage, const Resolution& by,
-                const PixelRows<float>& rows) {
-  for (size_t y = 0; y < rows.height; ++y, sums += rows.width, coverage += rows.width) {
-    RoundRow(sums, coverage, by, rows.width, rows.first + y * rows.stride);
+                std::span<const PixelRun> runs, const Window& tile, const PixelRows<float>& rows) {
+  for (const PixelRun& run : runs) {
+    const auto x = static_cast<size_t>(run.x - tile.x0), y = static_cast<size_t>(run.y - tile.y0);
+    const auto width = static_cast<size_t>(run.count);
+    RoundRow(sums, coverage, by, width, rows.first + y * rows.stride + x);
+    sums += width;
+    coverage += width;
   }
 }
 
@@ -311,8 +315,8 @@ void StoreHits(const HitValues& values, std::span<const HitSpan> spans,
 }
 
 void RoundSums(const double* sums, const double* coverage, const Resolution& by,
-               const PixelRows<float>& rows) {
-  HWY_DYNAMIC_DISPATCH(RoundSumsT)(sums, coverage, by, rows);
+               std::span<const PixelRun> runs, const Window& tile, const PixelRows<float>& rows) {
+  HWY_DYNAMIC_DISPATCH(RoundSumsT)(sums, coverage, by, runs, tile, rows);
 }
 
 void FillPixels(float value, const PixelRows<float>& rows) {

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "base/image.h"
+
 namespace nacre {
 
 // Adds the samples of one channel to the sums of its pixels: values[s * pixels + p] is sample s of
@@ -66,9 +68,10 @@ struct Resolution {
   double background, weight, scale;
 };
 
-// float((sum + background (weight - coverage)) scale) for each pixel of a tile.
+// float((sum + background (weight - coverage)) scale) for each pixel of the runs, which lie in the
+// tile that the rows are of.
 void RoundSums(const double* sums, const double* coverage, const Resolution& by,
-               const PixelRows<float>& rows);
+               std::span<const PixelRun> runs, const Window& tile, const PixelRows<float>& rows);
 
 // Sets all pixels of a tile to one value.
 void FillPixels(float value, const PixelRows<float>& rows);

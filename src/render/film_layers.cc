@@ -214,7 +214,7 @@ Soa3<double>& GatherLayer(const FilmPlan& plan, const Layer& layer, size_t light
 }
 
 void AddToFilm(const FilmPlan& plan, const ShadedBatch& batch, LayerRoom* room, TileFilm* film) {
-  const size_t hits = batch.hits().count, pixels = film->window.pixel_count();
+  const size_t hits = batch.hits().count, pixels = batch.samples.film.pixels;
   if (hits == 0 && !plan.sky) return;
   const std::vector<MaterialRun>& runs = batch.surfaces.runs;
   // A pixel's samples must be added in their order, whichever materials they hit: with several runs
@@ -264,25 +264,6 @@ bool StoreOnlySamples(const FilmPlan& plan, const ShadedBatch& batch, const Wind
     }
   }
   return true;
-}
-
-void FillBackground(const FilmPlan& plan, const Window& tile, Strip* strip) {
-  const double spp = plan.spp;
-  size_t color = 0;
-  for (const Layer& layer : plan.layers) {
-    const Rgb background = IsAveraged(layer.kind) ? BackgroundOf(layer, plan) : Rgb(0, 0, 0);
-    // As the film averages it. The sum of spp equal floats is exact for spp of up to 2^16.
-    const Rgb mean = background * spp * (1.0 / spp);
-    for (int c = 0; c < FloatChannels(layer.kind); ++c) {
-      FillPixels(static_cast<float>(mean[c]), RowsIn(strip->window, tile, &strip->colors[color++]));
-    }
-  }
-  for (AlignedArray<uint32_t>& channel : strip->ids) {
-    const PixelRows<uint32_t> rows = RowsIn(strip->window, tile, &channel);
-    for (size_t y = 0; y < rows.height; ++y) {
-      std::fill_n(rows.first + y * rows.stride, rows.width, 0u);
-    }
-  }
 }
 
 }  // namespace nacre

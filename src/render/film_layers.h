@@ -83,8 +83,4 @@ void AddToFilm(const FilmPlan& plan, const ShadedBatch& batch, LayerRoom* room, 
 bool StoreOnlySamples(const FilmPlan& plan, const ShadedBatch& batch, const Window& tile,
                       LayerRoom* room, Strip* strip);
 
-// Fills a tile in which nothing is hit, and whose samples have weight 1, with the same bits that
-// its film would give: the background is representable in float, so that its sums are exact.
-void FillBackground(const FilmPlan& plan, const Window& tile, Strip* strip);
-
 }  // namespace nacre

@@ -30,6 +30,18 @@ Rgb SumAmbient(const Scene& scene) {
   return sum;
 }
 
+// Why pixels that no sphere's outline reaches are sampled all the same; null if they are not.
+// (Tiles in which triangles may be visible always sample all pixels.)
+const char* WhyEveryPixel(const FramePlan& plan, const RenderSettings& settings) {
+  return settings.max_error > 0       ? "adaptive sampling makes its own samples"
+         : !plan.hits.trace_by_bins   ? "which pixels these are is not known without bins"
+         : plan.direct.sky            ? "they see the sky"
+         : plan.scene->image.spp == 1 ? "the only sample of a pixel is at its centre"
+         : ShowsNearest(plan.film)    ? "some layers show the hit nearest to the pixel's centre"
+         : settings.general_path      ? "the general path is asked for"
+                                      : nullptr;
+}
+
 void PlanShadowOrigins(const Scene& scene, DirectPlan* plan, Explanation* why) {
   const auto casts = [](const auto& light) { return light.shadow_rays; };
   const bool shadows = std::any_of(plan->lights.begin(), plan->lights.end(), casts) ||
@@ -120,8 +132,10 @@ FramePlan MakePlan(const Scene& given, const RenderSettings& settings, PreparedS
   stop_if_cancelled();
   plan.surfaces =
       PlanSurfaces(scene, settings, plan.camera, SumAmbient(scene), &prepared->tables, why);
-  plan.sampling = PlanSampling(scene, settings, std::move(sampler),
-                               {!plan.direct.sampled_lights.empty(), plan.surfaces.textured}, why);
+  plan.sampling = PlanSampling(
+      scene, settings, std::move(sampler),
+      {!plan.direct.sampled_lights.empty(), plan.surfaces.textured, WhyEveryPixel(plan, settings)},
+      why);
   PlanFarLights(scene, settings, &plan.direct, why);
   if (settings.max_error > 0) plan.adaptive = PlanAdaptiveSampling(plan, settings, why);
   if (!scene.meshes.empty() && plan.hits.intersector != nullptr) {

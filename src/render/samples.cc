@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,19 +14,35 @@
 namespace nacre {
 namespace {
 
-void ListPixels(const SamplingPlan& plan, const Window& tile, CameraSamples* s) {
-  if (plan.sampler.centered) return;  // PlaceCenters does all pixels
-  s->runs.clear();
-  for (int y = tile.y0; y < tile.y1; ++y) s->runs.push_back({tile.x0, y, tile.width()});
-  PreparePixels(plan.sampler, s->runs, &s->pixels);
+void ListRows(const Window& tile, std::vector<PixelRun>* runs) {
+  for (int y = tile.y0; y < tile.y1; ++y) runs->push_back({tile.x0, y, tile.width()});
 }
 
-// Numbers the tile's pixels, for sampling of lights.
-void NumberPixels(const SamplingPlan& plan, const Window& tile, SampleNumbers* numbers) {
+void ListSpans(const TileCandidates& candidates, std::vector<PixelRun>* runs) {
+  const Window& tile = candidates.tile;
+  const auto width = static_cast<uint32_t>(tile.width());
+  uint32_t row = 0;  // index of the row's first pixel in the tile
+  int y = tile.y0;
+  for (const PixelSpan& span : candidates.spans) {
+    for (; span.first >= row + width; row += width) ++y;
+    runs->push_back(
+        {tile.x0 + static_cast<int>(span.first - row), y, static_cast<int>(span.count)});
+  }
+}
+
+size_t CountPixels(std::span<const PixelRun> runs) {
+  size_t pixels = 0;
+  for (const PixelRun& run : runs) pixels += static_cast<size_t>(run.count);
+  return pixels;
+}
+
+// Numbers the sampled pixels, for sampling of lights.
+void NumberPixels(const SamplingPlan& plan, std::span<const PixelRun> runs,
+                  SampleNumbers* numbers) {
   numbers->pixel_count = 0;
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    for (int x = tile.x0; x < tile.x1; ++x) {
-      numbers->seeds[numbers->pixel_count++] = PixelSeed(x, y, plan.sampler.seed);
+  for (const PixelRun& run : runs) {
+    for (int x = run.x; x < run.x + run.count; ++x) {
+      numbers->seeds[numbers->pixel_count++] = PixelSeed(x, run.y, plan.sampler.seed);
     }
   }
   for (int k = 0; k < plan.samples_per_round; ++k) {
@@ -66,12 +83,25 @@ SamplingPlan PlanSampling(const Scene& scene, const RenderSettings& settings, Pi
                           spp > 1 ? fmt::format("{} Owen-scrambled Sobol samples a pixel", spp)
                                   : "the only sample of a pixel goes through its centre"});
   }
+  plan.every_pixel = needs.every_pixel != nullptr;
+  why->items.push_back(
+      {"samples beside outlines", plan.every_pixel,
+       plan.every_pixel ? needs.every_pixel : "pixels that no sphere reaches show the background"});
   return plan;
 }
 
-void EnterPixels(const SamplingPlan& plan, const Window& tile, CameraSamples* samples) {
-  ListPixels(plan, tile, samples);
-  if (plan.numbered) NumberPixels(plan, tile, &EnsureNumbers(samples));
+void EnterPixels(const SamplingPlan& plan, const Window& tile, const TileShapes& shapes,
+                 CameraSamples* samples) {
+  std::vector<PixelRun>& runs = samples->runs;
+  runs.clear();
+  if (plan.every_pixel || shapes.triangles) {
+    ListRows(tile, &runs);
+  } else {
+    ListSpans(shapes.spheres, &runs);
+  }
+  samples->film.pixels = CountPixels(runs);
+  if (!plan.sampler.centered) PreparePixels(plan.sampler, runs, &samples->pixels);
+  if (plan.numbered) NumberPixels(plan, runs, &EnsureNumbers(samples));
 }
 
 void MakeSamples(const SamplingPlan& plan, const Window& tile, int first, int count,
@@ -82,7 +112,7 @@ void MakeSamples(const SamplingPlan& plan, const Window& tile, int first, int co
   } else {
     SamplePixels(plan.sampler, samples->pixels, first, count, film.x.data(), film.y.data());
   }
-  film.count = tile.pixel_count() * static_cast<size_t>(count);
+  film.count = film.pixels * static_cast<size_t>(count);
   samples->weights.resize(static_cast<size_t>(count));
   for (int i = 0; i < count; ++i) {
     samples->weights[static_cast<size_t>(i)] = SampleWeight(plan.sampler, first + i);

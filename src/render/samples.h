@@ -11,6 +11,7 @@
 #include "hit/batch.h"
 #include "render/explanation.h"
 #include "render/settings.h"
+#include "render/tile_shapes.h"
 #include "sampling/pair_sampler.h"
 #include "sampling/pixel_sampler.h"
 #include "scene/scene.h"
@@ -25,6 +26,7 @@ struct SamplingPlan {
   PixelSampler sampler;
   int tile_width = 16;        // in pixels; tiles are as high as strips
   int samples_per_round = 1;  // samples of each of a tile's pixels in one batch
+  bool every_pixel = true;    // also those in which no ray hits anything
   bool numbered = false;      // lights are sampled: CameraSamples::numbers is filled
 };
 
@@ -32,6 +34,7 @@ struct SamplingPlan {
 struct SamplingNeeds {
   bool sampled_lights;
   bool textured;
+  const char* every_pixel;  // why pixels in which no ray hits anything are sampled; or null
 };
 
 SamplingPlan PlanSampling(const Scene& scene, const RenderSettings& settings, PixelSampler sampler,
@@ -42,9 +45,8 @@ struct CameraSamples {
   FilmBatch film;
   std::vector<double> weights;           // by sample of a pixel
   std::optional<SampleNumbers> numbers;  // made for the first batch if lights are sampled
-  // Buffers: the pixels of a tile.
-  std::vector<PixelRun> runs;
-  PixelBatch pixels{kBatchCapacity};
+  std::vector<PixelRun> runs;            // the sampled pixels of a tile, row by row
+  PixelBatch pixels{kBatchCapacity};     // the same, prepared; not for centred samplers
 };
 
 // The numbers, which are made if there are none yet.
@@ -53,11 +55,12 @@ inline SampleNumbers& EnsureNumbers(CameraSamples* samples) {
   return *samples->numbers;
 }
 
-// Prepares for sampling the pixels of a tile, before its first round.
-void EnterPixels(const SamplingPlan& plan, const Window& tile, CameraSamples* samples);
+// Chooses the pixels of a tile that are sampled, before its first round: all of them, or those
+// whose rays may hit something. `shapes`: FindTileShapes has found some.
+void EnterPixels(const SamplingPlan& plan, const Window& tile, const TileShapes& shapes,
+                 CameraSamples* samples);
 
-// Makes samples [first, first + count) of each of the tile's pixels, ordered by sample, then by
-// row.
+// Makes samples [first, first + count) of each of these pixels, ordered by sample, then by row.
 void MakeSamples(const SamplingPlan& plan, const Window& tile, int first, int count,
                  CameraSamples* samples);
 

@@ -23,6 +23,7 @@ void RenderOnce(const FramePlan& plan, const Window& tile, TileWork* work, Strip
     *blank = 0;
     if (!StoreOnlySamples(plan.film, batch, tile, &work->layer_room, strip)) {
       StartTile(plan.film, tile, kBatchCapacity, &work->film);
+      work->film.runs = work->samples.runs;
       AddToFilm(plan.film, batch, &work->layer_room, &work->film);
       ResolveTile(plan.film, work->film, strip);
     }
@@ -30,10 +31,11 @@ void RenderOnce(const FramePlan& plan, const Window& tile, TileWork* work, Strip
   clock->Charge(Stage::kFilm);
 }
 
-// Adds the samples in rounds.
+// Adds the samples of the pixels that EnterPixels has chosen, in rounds.
 void AddRounds(const FramePlan& plan, const Window& tile, int first, int end, TileWork* work,
                TileFilm* film, StageClock* clock, RenderStats* stats) {
   const int per_round = plan.sampling.samples_per_round;
+  film->runs = work->samples.runs;
   for (; first < end; first += per_round) {
     MakeSamples(plan.sampling, tile, first, std::min(per_round, end - first), &work->samples);
     ShadeSamples(plan, work, clock, stats);
@@ -54,12 +56,12 @@ bool EnterTile(const FramePlan& plan, const Window& tile, TileWork* work, StageC
 
 void RenderTile(const FramePlan& plan, const Window& tile, TileWork* work, Strip* strip,
                 uint8_t* blank, StageClock* clock, RenderStats* stats) {
-  if (!EnterTile(plan, tile, work, clock) && HasUnitWeights(plan.sampling.sampler)) {
+  if (!EnterTile(plan, tile, work, clock)) {
     ShowBackground(plan, tile, strip, blank);
     clock->Charge(Stage::kFilm);
     return;
   }
-  EnterPixels(plan.sampling, tile, &work->samples);
+  EnterPixels(plan.sampling, tile, work->shapes, &work->samples);
   if (plan.film.one_sample) return RenderOnce(plan, tile, work, strip, blank, clock, stats);
   *blank = 0;
   clock->Charge(Stage::kSample);
@@ -74,7 +76,7 @@ void AddTileSamples(const FramePlan& plan, const Window& tile, int first, int en
                     TileFilm* film, StageClock* clock, RenderStats* stats) {
   // Films are sums over hits, so a tile without any has nothing to add.
   if (!EnterTile(plan, tile, work, clock)) return;
-  EnterPixels(plan.sampling, tile, &work->samples);
+  EnterPixels(plan.sampling, tile, work->shapes, &work->samples);
   clock->Charge(Stage::kSample);
   AddRounds(plan, tile, first, end, work, film, clock, stats);
 }

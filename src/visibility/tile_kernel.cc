@@ -107,27 +107,39 @@ template <bool kPerspective>
 HWY_INLINE void TraceSamples(const CameraFrame& frame, const SphereBins& bins,
                              const TileCandidates& candidates, const FilmBatch& film,
                              SingleSphereBlock* block, const HitOutput& to) {
-  const size_t pixels = candidates.tile.pixel_count();
   const Window& tile = candidates.tile;
+  const bool every_pixel = film.pixels == tile.pixel_count();
   const auto width = static_cast<uint32_t>(tile.width());
   const auto first_row = static_cast<uint32_t>((tile.y0 - bins.window.y0) % kCellSize);
   std::optional<CameraPacket> packet;  // large, and few tiles need it
-  for (size_t sample = 0; sample < film.count; sample += pixels) {
+  SingleSphereRays rays{nullptr, 0, 0};
+  const auto trace_single = [&]() HWY_ATTR {
+    if (rays.count > 0) AddSingleSphereRays(frame, film, rays, block, to);
+    rays.count = 0;
+  };
+  for (size_t sample = 0; sample < film.count; sample += film.pixels) {
+    auto next = static_cast<uint32_t>(sample);
     for (const PixelSpan& span : candidates.spans) {
-      const uint32_t begin = static_cast<uint32_t>(sample) + span.first;
-      const auto x = static_cast<int>(span.first % width);
-      const uint32_t row = span.first / width;
+      const uint32_t begin = every_pixel ? static_cast<uint32_t>(sample) + span.first : next;
+      next += span.count;
       if (kPerspective && span.single_sphere != nullptr) {
-        AddSingleSphereRays(frame, film, {span.single_sphere, begin, span.count}, block, to);
+        if (span.single_sphere != rays.candidate || begin != rays.first + rays.count) {
+          trace_single();
+          rays = {span.single_sphere, begin, 0};
+        }
+        rays.count += span.count;
         continue;
       }
+      trace_single();
       TraceBlock(frame, film, block, to);
       if (!packet) packet.emplace();
-      packet->pixel_rows = 1u << (first_row + row);
+      const auto x = static_cast<int>(span.first % width);
+      packet->pixel_rows = 1u << (first_row + span.first / width);
       TraceRow<kPerspective>(frame, bins, candidates, film, begin, x,
                              x + static_cast<int>(span.count), &*packet, to);
     }
   }
+  trace_single();
   TraceBlock(frame, film, block, to);
 }
 

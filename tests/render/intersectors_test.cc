@@ -339,15 +339,15 @@ std::vector<uint32_t> HitsOf(const Intersector& intersector, const Window& tile)
       film.y[film.count++] = y + 0.5;
     }
   }
+  film.pixels = film.count;
   HitBatch hits;
   HitDirections directions;
   intersector.HitsInTile(candidates, film, {&hits, &directions, false});
   return {hits.primitive.begin(), hits.primitive.begin() + hits.count};
 }
 
-// Which the general path, which places all, does not.
-TEST_CASE(
-    "a narrow tile leaves the next one no numbers of a tile whose samples are not all placed") {
+// Which the general path, which samples all, does not.
+TEST_CASE("a narrow tile leaves the next one nothing of a tile whose pixels are not all sampled") {
   // Tiles are 16, 16 and 4 pixels wide. Of the first row of them one sphere covers the last and
   // half of the one before; of the second row another one covers the first.
   Scene scene = OneSphere(LambertMaterial{}, 32, 16);

@@ -211,7 +211,7 @@ const Window kTile{0, 0, kBatchCapacity / kFilmHeight, kFilmHeight};
 
 FilmBatch CentersOfTile() {
   FilmBatch film;
-  film.count = kTile.pixel_count();
+  film.count = film.pixels = kTile.pixel_count();
   for (size_t i = 0; i < film.count; ++i) {
     film.x[i] = static_cast<double>(i % static_cast<size_t>(kTile.width())) + 0.5;
     film.y[i] = static_cast<double>(i / static_cast<size_t>(kTile.width())) + 0.5;
