@@ -69,6 +69,29 @@ TEST_CASE("a filter's negative lobes ring at edges") {
   CHECK(*highest > 1.015f);
 }
 
+// A layer of depths samples all pixels of a tile that shows anything.
+TEST_CASE("pixels that no outline reaches have the bits of sampled ones") {
+  for (const PixelFilter filter :
+       {PixelFilter{FilterKind::kBox, 1}, PixelFilter{FilterKind::kGaussian, 3},
+        PixelFilter{FilterKind::kMitchell, 4}}) {
+    Scene scene = MakeScene(50, 7);
+    scene.image.filter = filter;
+    scene.background = {0.1, 0.7, 1e-3};
+    const MaterialId material = AddLambert({1, 1, 1}, &scene);
+    scene.spheres = {{{-0.8, 0.7, -5}, 0.4, material}, {{0.6, 0.5, -5}, 0.7, material}};
+    RenderSettings settings = OneThread();
+    RenderStats few, all;
+    const Image image = RenderImage(scene, settings, &few);
+    settings.layers = {"Z"};
+    const Image sampled = RenderImage(scene, settings, &all);
+    CHECK(few.hits == all.hits);
+    CHECK(few.camera_rays < all.camera_rays);
+    for (const char* channel : {"R", "G", "B", "A"}) {
+      CHECK(image.Find(channel)->samples == sampled.Find(channel)->samples);
+    }
+  }
+}
+
 TEST_CASE("all samples of a pixel differ, also where they take several batches") {
   Scene scene = MakeScene(24, 64);
   scene.spheres = {{{0, 0, -5}, 1, AddLambert({1, 1, 1}, &scene)}};
