@@ -81,11 +81,14 @@ HWY_INLINE uint32_t IntersectBoxes(const MeshLightNode& node, const LightBoxRays
     auto far = hn::Set(d, std::numeric_limits<float>::infinity());
     for (int c = 0; c < 3; ++c) {
       const auto inverse = hn::Set(d, rays.inverse[c][lane]);
-      const auto low = hn::Sub(hn::Load(d, node.low[c] + i), hn::Set(d, rays.plus[c][lane]));
-      const auto high = hn::Sub(hn::Load(d, node.high[c] + i), hn::Set(d, rays.minus[c][lane]));
-      const auto a = hn::Mul(low, inverse), b = hn::Mul(high, inverse);
-      near = hn::Max(near, hn::Min(a, b));
-      far = hn::Min(far, hn::Max(a, b));
+      const float plus = rays.plus[c][lane], minus = rays.minus[c][lane];
+      const bool back = rays.inverse[c][lane] < 0;
+      const auto enter = hn::Sub(hn::Load(d, (back ? node.high[c] : node.low[c]) + i),
+                                 hn::Set(d, back ? minus : plus));
+      const auto leave = hn::Sub(hn::Load(d, (back ? node.low[c] : node.high[c]) + i),
+                                 hn::Set(d, back ? plus : minus));
+      near = hn::Max(near, hn::Mul(enter, inverse));
+      far = hn::Min(far, hn::Mul(leave, inverse));
     }
     alignas(8) uint8_t bytes[8] = {};
     hn::StoreMaskBits(d, hn::Le(near, far), bytes);
@@ -154,6 +157,17 @@ template <class Found>
 HWY_INLINE void ForEachMeshLightHit(const MeshLight& light, const LightBoxRays& rays, size_t lane,
                                     const Vec3d& point, const Vec3d& direction,
                                     const Found& found) {
+  if (light.is_flat_list) {
+    uint64_t leaves = 0;
+    for (size_t i = 0; i < light.nodes.size(); ++i) {
+      leaves |= uint64_t{IntersectBoxes(light.nodes[i], rays, lane)} << (i * kMeshLightWidth);
+    }
+    for (; leaves != 0; leaves &= leaves - 1) {
+      ForEachLeafHit(light.leaves[hwy::Num0BitsBelowLS1Bit_Nonzero64(leaves)], point, direction,
+                     found);
+    }
+    return;
+  }
   uint32_t stack[kMeshLightStack];
   size_t size = 0;
   stack[size++] = 0;
