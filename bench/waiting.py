@@ -18,7 +18,7 @@ from processes import Failed, output_of, say
 
 # Rounds; every round runs each case once.
 ROUNDS, QUICK_ROUNDS = 5, 2
-SESSION_TURNS, RAY_TURNS = 15, 5
+SESSION_TURNS, RAY_TURNS, CANCELLED_TURNS = 15, 5, 12
 
 # Of sessions: the scene, size and samples, and what is set.
 _SESSIONS = {
@@ -118,6 +118,8 @@ def measure(runner, root, folder, quick):
         times = _tool(tool, "session", files[scene], size, samples, SESSION_TURNS, pointer, *values)
         rows[row] = {"seconds": times["seconds"], "against": times["render"], "what": "its render part",
                      "first": times["first"]}
+    rows["session: cancelled while a tree of a million triangles is built"] = _tool(
+        tool, "cancel", files["ball.json"], CANCELLED_TURNS)
     say("incoherent rays")
     for count, name in ((100_000, "1e5"), (1_000_000, "1e6")):
         times = _tool(tool, "rays", count, RAY_TURNS)

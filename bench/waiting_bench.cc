@@ -5,6 +5,9 @@
 //   session SCENE WIDTHxHEIGHT SAMPLES COUNT POINTER VALUE...
 //       sets the values one after the other, COUNT times, and renders after each: seconds from Set
 //       to the picture, and those of the render part alone
+//   cancel SCENE COUNT
+//       cancels a session's first render COUNT times, each a hundredth of a second later than the
+//       one before: seconds from Cancel to the render's end
 //   embree TRIANGLES COUNT   builds a bare Embree tree of a square of triangles
 //   rays SPHERES COUNT       incoherent rays, one thread: nearest sphere, and whether one is in the
 //                            way; nanoseconds a ray, and Embree's for its own spheres in float
@@ -23,6 +26,7 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <spng.h>
@@ -91,6 +95,30 @@ void RunSession(char** arguments, int count) {
   std::printf("{\"first\": %.9g, ", first);
   PrintList("seconds", whole, ", ");
   PrintList("render", render, "}\n");
+}
+
+void CancelRenders(const char* scene, int count) {
+  api::Session session(api::Scene::FromFile(scene));
+  std::vector<double> seconds;
+  for (int i = 0; i < count; ++i) {
+    Clock::time_point asked;
+    std::thread other([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10 * (i + 1)));
+      asked = Clock::now();
+      session.Cancel();
+    });
+    bool cancelled = false;
+    try {
+      session.Render();
+    } catch (const api::Cancelled&) {
+      cancelled = true;
+    }
+    const Clock::time_point ended = Clock::now();
+    other.join();
+    if (!cancelled) break;  // the render was faster
+    seconds.push_back(std::chrono::duration<double>(ended - asked).count());
+  }
+  PrintSeconds(seconds);
 }
 
 // ---- Embree -------------------------------------------------------------------------------------
@@ -327,6 +355,8 @@ bool Run(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "";
   if (what == "session" && argc >= 8) {
     RunSession(argv + 2, argc - 2);
+  } else if (what == "cancel" && argc == 4) {
+    CancelRenders(argv[2], std::atoi(argv[3]));
   } else if (what == "embree" && argc == 4) {
     BuildTriangles(std::atoi(argv[2]), std::atoi(argv[3]));
   } else if (what == "rays" && argc == 4) {

@@ -65,12 +65,12 @@ std::shared_ptr<const nacre::Scene> Adjusted(std::shared_ptr<const nacre::Scene>
 
 }  // namespace
 
-Image Finish(const FramePlan& plan, nacre::Image rendered, const nacre::RenderStats& counted,
-             double plan_seconds, RenderStats* stats) {
+Image Finish(const FramePlan& plan, PreparedScene* prepared, nacre::Image rendered,
+             const nacre::RenderStats& counted, double plan_seconds, RenderStats* stats) {
   // In files, colours and normals are of half floats.
   const std::vector<ChannelSpec> in_files = StripChannels(plan.film.layers, PixelType::kHalf);
   for (size_t i = 0; i < in_files.size(); ++i) rendered.channels[i].type = in_files[i].type;
-  nacre::ExrHeader header = MakeExrHeader(plan, false);
+  nacre::ExrHeader header = MakeExrHeader(plan, false, {}, prepared);
   header.attributes[kRenderTimeAttribute] = static_cast<float>(counted.render_seconds);
   AddMetadata(header, &rendered);
   if (stats != nullptr) {
@@ -92,7 +92,7 @@ Image Render(const Scene& scene, const RenderSettings& settings, RenderStats* st
     const std::chrono::duration<double> plan_time = std::chrono::steady_clock::now() - start;
     nacre::RenderStats counted;
     nacre::Image rendered = RenderImage(plan, own, &counted);
-    return Finish(plan, std::move(rendered), counted, plan_time.count(), stats);
+    return Finish(plan, nullptr, std::move(rendered), counted, plan_time.count(), stats);
   });
 }
 

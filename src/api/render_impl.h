@@ -25,8 +25,9 @@ nacre::RenderSettings ToOwn(const RenderSettings& settings);
 // With the size, samples and seed that the settings have.
 nacre::ImageSettings Adjusted(nacre::ImageSettings image, const RenderSettings& settings);
 
-// The picture of a plan for the caller, with its metadata; `stats` may be null.
-Image Finish(const FramePlan& plan, nacre::Image rendered, const nacre::RenderStats& counted,
-             double plan_seconds, RenderStats* stats);
+// The picture of a plan for the caller, with its metadata; `prepared`, as MakeExrHeader's, and
+// `stats` may be null.
+Image Finish(const FramePlan& plan, PreparedScene* prepared, nacre::Image rendered,
+             const nacre::RenderStats& counted, double plan_seconds, RenderStats* stats);
 
 }  // namespace nacre::v0

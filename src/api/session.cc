@@ -56,7 +56,7 @@ Image Session::RenderProgressively(const RenderSettings& settings,
     const std::chrono::duration<double> plan_time = std::chrono::steady_clock::now() - start;
     nacre::RenderStats counted;
     const auto finish = [&](nacre::Image rendered) {
-      return Finish(plan, std::move(rendered), counted, plan_time.count(), stats);
+      return Finish(plan, &s.prepared, std::move(rendered), counted, plan_time.count(), stats);
     };
     if (!show || own.max_error > 0 || image.spp == 1) {
       Image whole = finish(RenderImage(plan, own, &counted));

@@ -8,6 +8,8 @@
 #include <memory>
 #include <new>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace nacre {
 
@@ -46,5 +48,36 @@ class HugeArray {
   std::unique_ptr<T[], Free> data_;
   size_t size_ = 0;
 };
+
+// An allocator of vectors of numbers in such pages, which leaves new elements as they are unless
+// they are given a value: resize() writes nothing.
+template <typename T>
+struct HugeAllocator {
+  using value_type = T;
+  HugeAllocator() = default;
+  template <typename U>
+  HugeAllocator(const HugeAllocator<U>&) {
+  }  // NOLINT(google-explicit-constructor): as allocators do
+
+  T* allocate(size_t count) {
+    T* const data = std::allocator<T>().allocate(count);
+    AdviseHugePages(data, count * sizeof(T));
+    return data;
+  }
+  void deallocate(T* data, size_t count) { std::allocator<T>().deallocate(data, count); }
+  template <typename U>
+  void construct(U* place) {
+    static_assert(std::is_trivially_default_constructible_v<U>);
+    ::new (static_cast<void*>(place)) U;
+  }
+  template <typename U, typename... Arguments>
+  void construct(U* place, Arguments&&... arguments) {
+    ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
+  }
+  friend bool operator==(const HugeAllocator&, const HugeAllocator&) { return true; }
+};
+
+template <typename T>
+using HugeVector = std::vector<T, HugeAllocator<T>>;
 
 }  // namespace nacre

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -85,8 +86,9 @@ void CheckOutputsAreNoInputs(const std::vector<std::string>& outputs,
   }
 }
 
-ExrHeader MakeOutputHeader(const RenderOptions& options, const FramePlan& plan) {
-  ExrHeader header = MakeExrHeader(plan, options.reproducible, options.tile);
+ExrHeader MakeOutputHeader(const RenderOptions& options, const FramePlan& plan,
+                           PreparedScene* prepared) {
+  ExrHeader header = MakeExrHeader(plan, options.reproducible, options.tile, prepared);
   const PixelType color_type = options.depth == "float" ? PixelType::kFloat : PixelType::kHalf;
   for (const ChannelSpec& channel : StripChannels(plan.film.layers, color_type)) {
     header.channels.push_back({channel.name, channel.type});
@@ -94,24 +96,25 @@ ExrHeader MakeOutputHeader(const RenderOptions& options, const FramePlan& plan) 
   return header;
 }
 
-Outputs::Outputs(const RenderOptions& options, const FramePlan& plan,
+Outputs::Outputs(const RenderOptions& options, const FramePlan& plan, PreparedScene* prepared,
                  const std::vector<TextItem>& captions)
     : options_(options), plan_(plan), captions_(captions) {
   display_.tone = ParseToneOperator(options.tonemap);
   display_.exposure_ev = options.exposure;
-  const ExrHeader header = MakeOutputHeader(options, plan);
+  std::optional<ExrHeader> header;  // with the scene's hash, which only EXR files hold
   const ExrOptions exr_options{.compression = ParseCompression(options.compression),
                                .small = options.small,
                                .reproducible = options.reproducible};
   PngHeader png_header;
   png_header.width = plan.window.width();
   png_header.height = plan.window.height();
-  png_header.text = {{"Software", std::get<std::string>(header.attributes.at("Software"))},
+  png_header.text = {{"Software", SoftwareName()},
                      {"nacre:shadowing", ShadowingForms(*plan.scene)},
                      {"nacre:tonemap", options.tonemap}};
   for (const std::string& path : FilesAmong(options.outputs)) {
     if (IsExr(path)) {
-      exr_.push_back(std::make_unique<ExrWriter>(path, header, exr_options));
+      if (!header) header = MakeOutputHeader(options, plan, prepared);
+      exr_.push_back(std::make_unique<ExrWriter>(path, *header, exr_options));
     } else {
       png_.push_back(std::make_unique<PngWriter>(
           path, png_header,

@@ -42,7 +42,8 @@ void CheckOutputsAreNoInputs(const std::vector<std::string>& outputs,
                              const std::vector<std::string>& inputs);
 
 // The header of the EXR files of a render.
-ExrHeader MakeOutputHeader(const RenderOptions& options, const FramePlan& plan);
+ExrHeader MakeOutputHeader(const RenderOptions& options, const FramePlan& plan,
+                           PreparedScene* prepared = nullptr);
 
 // Samples that the files do not hold as they were computed.
 struct OutputCounts {
@@ -52,8 +53,9 @@ struct OutputCounts {
 
 class Outputs {
  public:
-  // Opens all files. What it is given must outlive this. `captions`: as RunRenderJob's.
-  Outputs(const RenderOptions& options, const FramePlan& plan,
+  // Opens all files. What it is given must outlive this. `prepared`: as MakeExrHeader's.
+  // `captions`: as RunRenderJob's.
+  Outputs(const RenderOptions& options, const FramePlan& plan, PreparedScene* prepared,
           const std::vector<TextItem>& captions);
 
   // From any thread, in any order.

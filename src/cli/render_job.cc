@@ -132,7 +132,7 @@ void RenderJob::Render(const Scene& scene, PreparedScene* prepared,
                         MaxBands(plan.frame, settings_.band_rows)));
     return;
   }
-  Outputs outputs(options, plan, captions);
+  Outputs outputs(options, plan, prepared, captions);
   RenderStats stats;
   {
     const double samples = static_cast<double>(plan.window.pixel_count()) * scene.image.spp;

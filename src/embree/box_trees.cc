@@ -3,8 +3,10 @@
 #include "visibility/box_trees.h"
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
+#include "base/cancel.h"
 #include "base/error.h"
 #include "base/handover.h"
 #include "embree/embree_api.h"
@@ -82,6 +84,19 @@ void TriangleBounds(const RTCBoundsFunctionArguments* args) {
   HandOver(&geometry);
 }
 
+// What a build is ended by, and whether it was: the flag may be taken back.
+struct BuildMonitor {
+  CancelPointer cancel;
+  std::atomic<bool> ended = false;
+
+  // Called by Embree's threads time and again; false ends the build.
+  static bool GoesOn(void* self, double /*done*/) {
+    auto* const monitor = static_cast<BuildMonitor*>(self);
+    if (IsCancelled(monitor->cancel)) monitor->ended = true;
+    return !monitor->ended;
+  }
+};
+
 void Attach(RTCDevice device, RTCScene scene, const void* user, size_t count,
             RTCBoundsFunction bounds, const PrimitiveCallbacks& callbacks) {
   if (count == 0) return;
@@ -128,7 +143,7 @@ BoxTrees::BoxTrees(const TraceGeometry* geometry) : state_(std::make_unique<Stat
 }
 BoxTrees::~BoxTrees() = default;
 
-void BoxTrees::Build(BoxTree tree, int threads) {
+void BoxTrees::Build(BoxTree tree, int threads, CancelPointer cancel) {
   EmbreeDevice& device = state_->device;
   const TraceGeometry* const geometry = state_->geometry;
   State::Tree& to = state_->TreeOf(tree);
@@ -144,9 +159,12 @@ void BoxTrees::Build(BoxTree tree, int threads) {
   if (primitives.first.empty()) primitives = MakeTrianglePrimitives(geometry);
   Attach(device.get(), built.get(), &primitives, primitives.size(), &TriangleBounds,
          TriangleCallbacks());
+  BuildMonitor monitor{cancel};
+  rtcSetSceneProgressMonitorFunction(built.get(), &BuildMonitor::GoesOn, &monitor);
   HandOver(geometry);
   WithThreads(threads, [&] { rtcJoinCommitScene(built.get()); });
   TakeOver(geometry);
+  rtcSetSceneProgressMonitorFunction(built.get(), nullptr, nullptr);
   try {
     device.ThrowIfFailed();
   } catch (const Error&) {
@@ -155,6 +173,7 @@ void BoxTrees::Build(BoxTree tree, int threads) {
     [[maybe_unused]] const RTCScene left = built.release();
     throw;
   }
+  if (monitor.ended) throw Cancelled{};
   to = {std::move(built), geometry->eye};
 }
 

@@ -60,6 +60,7 @@ class ErrorRecord {
  private:
   void Remember(RTCError code, const char* text) {
     const std::lock_guard lock(mutex_);
+    if (code == RTC_ERROR_CANCELLED) return;  // it was asked for
     if (code_ != RTC_ERROR_NONE) return;
     code_ = code;
     text_ = text != nullptr ? text : "unknown error";

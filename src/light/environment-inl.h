@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // light/environment-inl.h: an environment's image on SIMD vectors. Scalar twin: environment.h.
 //
-// Look-ups are done lane by lane: a texel is one load of four floats, and a sampled one takes three
-// random reads, which gathers do not speed up.
+// Look-ups are done lane by lane: a texel is three floats side by side, and a sampled one takes
+// random reads of tables, which gathers do not speed up.
 #if defined(NACRE_LIGHT_ENVIRONMENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_LIGHT_ENVIRONMENT_INL_H_
 #undef NACRE_LIGHT_ENVIRONMENT_INL_H_
 #else
 #define NACRE_LIGHT_ENVIRONMENT_INL_H_
 #endif
+
+#include <cstddef>
+#include <limits>
 
 #include "base/trig-inl.h"
 #include "base/vec3-inl.h"
@@ -44,19 +47,36 @@ struct EnvironmentTexelV {
   V red, green, blue, pdf;
 };
 
-// Loads what StoreTexel has stored for all lanes.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE EnvironmentTexelV<V> LoadTexels(D d, const float (*lanes)[kMaxEnvironmentLanes]) {
-  return {hn::Load(d, lanes[0]), hn::Load(d, lanes[1]), hn::Load(d, lanes[2]),
-          hn::Load(d, lanes[3])};
+using EnvironmentLanes = float[4][kMaxEnvironmentLanes];  // red, green, blue and pdf
+
+HWY_INLINE void StoreTexel(const EnvironmentMap& map, size_t index, size_t lane,
+                           EnvironmentLanes& lanes) {
+  const Vec3f& texel = map.texels[static_cast<ptrdiff_t>(index)];
+  lanes[0][lane] = texel.x;
+  lanes[1][lane] = texel.y;
+  lanes[2][lane] = texel.z;
 }
 
-HWY_INLINE void StoreTexel(const EnvironmentTexel& texel, size_t lane,
-                           float (*lanes)[kMaxEnvironmentLanes]) {
-  lanes[0][lane] = texel.red;
-  lanes[1][lane] = texel.green;
-  lanes[2][lane] = texel.blue;
-  lanes[3][lane] = texel.pdf;
+// As TexelOf has it, of what StoreTexel has stored for all lanes.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE EnvironmentTexelV<V> LoadTexels(D d, const EnvironmentMap& map,
+                                           EnvironmentLanes& lanes) {
+  using DD = hn::ScalableTag<double>;
+  const DD dd;
+  const hn::Rebind<float, DD> df;
+  const auto smallest = hn::Set(df, std::numeric_limits<float>::min());
+  for (size_t i = 0; i < hn::Lanes(d); i += hn::Lanes(dd)) {
+    const auto term = [&](size_t c) HWY_ATTR {
+      const auto value = hn::Load(df, lanes[c] + i);
+      const auto seen = hn::IfThenElseZero(hn::Ge(value, smallest), value);
+      return hn::Mul(hn::Set(dd, kLuminanceWeights[c]), hn::PromoteTo(dd, seen));
+    };
+    const auto luminance = hn::Add(hn::Add(term(0), term(1)), term(2));
+    const auto rounded = hn::PromoteTo(dd, hn::DemoteTo(df, luminance));
+    hn::Store(hn::DemoteTo(df, hn::Div(rounded, hn::Set(dd, map.sum))), df, lanes[3] + i);
+  }
+  return {hn::Load(d, lanes[0]), hn::Load(d, lanes[1]), hn::Load(d, lanes[2]),
+          map.is_black ? hn::Zero(d) : hn::Load(d, lanes[3])};
 }
 
 // Radiance and sampling pdf of these directions.
@@ -66,15 +86,15 @@ HWY_INLINE EnvironmentTexelV<V> TexelAt(D d, const EnvironmentMap& map, const Ve
   alignas(64) float u[kMaxEnvironmentLanes], v[kMaxEnvironmentLanes];
   hn::Store(hn::Mul(at.u, hn::Set(d, static_cast<float>(map.width))), d, u);
   hn::Store(hn::Mul(at.v, hn::Set(d, static_cast<float>(map.height))), d, v);
-  alignas(64) float lanes[4][kMaxEnvironmentLanes];
+  alignas(64) EnvironmentLanes lanes;
   for (size_t i = 0; i < hn::Lanes(d); ++i) {
     const int x = HWY_MIN(static_cast<int>(u[i]), map.width - 1);
     const int y = HWY_MIN(static_cast<int>(v[i]), map.height - 1);
     const auto texel =
         static_cast<size_t>(y) * static_cast<size_t>(map.width) + static_cast<size_t>(x);
-    StoreTexel(map.texels[texel], i, lanes);
+    StoreTexel(map, texel, i, lanes);
   }
-  return LoadTexels(d, lanes);
+  return LoadTexels(d, map, lanes);
 }
 
 template <class V>
@@ -94,10 +114,15 @@ HWY_INLINE EnvironmentSampleV<V> SampleEnvironment(D d, const EnvironmentMap& ma
   if (map.is_black) return {{zero, one, zero}, {zero, zero, zero, zero}};
   alignas(64) float u[kMaxEnvironmentLanes], heights[kMaxEnvironmentLanes];
   alignas(64) float signs[kMaxEnvironmentLanes];
-  alignas(64) float lanes[4][kMaxEnvironmentLanes];
+  alignas(64) EnvironmentLanes lanes;
+  EnvironmentSearch searches[kMaxEnvironmentLanes];
   for (size_t i = 0; i < hn::Lanes(d); ++i) {
-    const EnvironmentPick pick = PickTexel(map, bits0[i] * 0x1p-32, bits1[i] * 0x1p-32);
-    StoreTexel(pick.texel, i, lanes);
+    searches[i] = FindRow(map, bits0[i] * 0x1p-32, bits1[i] * 0x1p-32);
+  }
+  for (size_t i = 0; i < hn::Lanes(d); ++i) FindBlock(map, &searches[i]);
+  for (size_t i = 0; i < hn::Lanes(d); ++i) {
+    const EnvironmentPick pick = PickTexel(map, searches[i]);
+    StoreTexel(map, pick.texel, i, lanes);
     u[i] = static_cast<float>(pick.u);
     heights[i] = static_cast<float>(pick.one_minus_cos);
     signs[i] = static_cast<float>(pick.sign);
@@ -107,7 +132,7 @@ HWY_INLINE EnvironmentSampleV<V> SampleEnvironment(D d, const EnvironmentMap& ma
   const SinCosV<V> phi = SinCosTurns(d, hn::Load(d, u));
   return {{hn::Mul(phi.sin, sin), hn::Mul(hn::Load(d, signs), hn::Sub(one, t)),
            hn::Neg(hn::Mul(phi.cos, sin))},
-          LoadTexels(d, lanes)};
+          LoadTexels(d, map, lanes)};
 }
 
 }  // namespace HWY_NAMESPACE

@@ -2,11 +2,12 @@
 // light/environment.cc: prepares an environment image for sampling.
 #include "light/environment.h"
 
+#include <algorithm>
 #include <numeric>
+#include <span>
+#include <utility>
 
-#include "base/float_mode.h"
 #include "base/parallel.h"
-#include "color/luminance.h"
 
 namespace nacre {
 namespace {
@@ -22,6 +23,26 @@ EnvironmentRow RowEdges(int height, int row) {
   return {one_minus_cos(row), one_minus_cos(row + 1), upper ? 1.0f : -1.0f};
 }
 
+// Returns the sum of the row's luminances.
+double FillBlocks(std::span<const Vec3f> row, std::span<EnvironmentBlock> blocks) {
+  double sum = 0;
+  for (size_t i = 0; i < blocks.size(); ++i) {
+    const size_t first = i * kEnvironmentBlock;
+    for (const Vec3f& texel : row.subspan(first, std::min(kEnvironmentBlock, row.size() - first))) {
+      sum += TexelLuminance(texel);
+    }
+    blocks[i].sum = sum;
+  }
+  // Of a black row, which is never chosen, every quotient is NaN.
+  size_t block = 0;
+  for (size_t cell = 0; cell < blocks.size(); ++cell) {
+    const double begin = static_cast<double>(cell) / static_cast<double>(blocks.size());
+    while (block + 1 < blocks.size() && blocks[block].sum / sum <= begin) ++block;
+    blocks[cell].first = static_cast<uint32_t>(block);
+  }
+  return sum;
+}
+
 }  // namespace
 
 double TexelSolidAngle(int width, int height, int row) {
@@ -29,47 +50,31 @@ double TexelSolidAngle(int width, int height, int row) {
   return 4 * M_PI / width * std::sin(M_PI * (row + 0.5) / height) * std::sin(M_PI / height / 2);
 }
 
-EnvironmentMap MakeEnvironmentMap(int width, int height, std::span<const Vec3f> texels,
+EnvironmentMap MakeEnvironmentMap(int width, int height, std::shared_ptr<const Vec3f[]> texels,
                                   int threads) {
+  const auto columns = static_cast<size_t>(width), rows = static_cast<size_t>(height);
   EnvironmentMap map;
   map.width = width;
   map.height = height;
-  map.texels = HugeArray<EnvironmentTexel>(texels.size());
-  map.column_tables = HugeArray<CdfEntry>(texels.size());
-  const auto columns = static_cast<size_t>(width), rows = static_cast<size_t>(height);
+  map.texels = std::move(texels);
+  map.row_blocks = (columns + kEnvironmentBlock - 1) / kEnvironmentBlock;
+  map.blocks = HugeArray<EnvironmentBlock>(rows * map.row_blocks);
+  map.row_sums.resize(rows);
   std::vector<double> row_weights(rows);
   constexpr size_t kRows = 16;  // at a time
-  // Calls body(y, luminances) for all rows, on several threads.
-  const auto for_each_row = [&](const auto& body) {
-    ParallelFor((rows + kRows - 1) / kRows, threads, [&](size_t block) {
-      const DefaultFloatMode mode;  // texels may be denormal
-      std::vector<double> luminances(columns);
-      for (size_t y = block * kRows; y < std::min(rows, (block + 1) * kRows); ++y) {
-        for (size_t x = 0; x < columns; ++x) {
-          const Vec3f& t = texels[y * columns + x];
-          luminances[x] = Luminance(Rgb(t.x, t.y, t.z));
-        }
-        body(y, luminances);
-      }
-    });
-  };
-  for_each_row([&](size_t y, const std::vector<double>& luminances) {
-    const double row_sum = std::accumulate(luminances.begin(), luminances.end(), 0.0);
-    row_weights[y] = row_sum * TexelSolidAngle(width, height, static_cast<int>(y));
-    FillInverseCdf(luminances, &map.column_tables[y * columns]);
-  });
-  const double sum = std::accumulate(row_weights.begin(), row_weights.end(), 0.0);
-  map.row_table = MakeInverseCdf(row_weights);
-  map.is_black = !(sum > 0);
-  for (int y = 0; y < height; ++y) map.rows.push_back(RowEdges(height, y));
-  for_each_row([&](size_t y, const std::vector<double>& luminances) {
-    for (size_t x = 0; x < columns; ++x) {
-      const Vec3f& t = texels[y * columns + x];
-      // Luminance times solid angle over its sum, per solid angle.
-      const double pdf = map.is_black ? 0 : static_cast<float>(luminances[x]) / sum;
-      map.texels[y * columns + x] = {t.x, t.y, t.z, static_cast<float>(pdf)};
+  ParallelFor((rows + kRows - 1) / kRows, threads, [&](size_t some) {
+    for (size_t y = some * kRows; y < std::min(rows, (some + 1) * kRows); ++y) {
+      EnvironmentBlock* const blocks = &map.blocks[y * map.row_blocks];
+      const double sum = FillBlocks({&map.texels[static_cast<ptrdiff_t>(y * columns)], columns},
+                                    {blocks, map.row_blocks});
+      map.row_sums[y] = sum;
+      row_weights[y] = sum * TexelSolidAngle(width, height, static_cast<int>(y));
     }
   });
+  map.sum = std::accumulate(row_weights.begin(), row_weights.end(), 0.0);
+  map.row_table = MakeInverseCdf(row_weights);
+  map.is_black = !(map.sum > 0);
+  for (int y = 0; y < height; ++y) map.rows.push_back(RowEdges(height, y));
   return map;
 }
 

@@ -13,12 +13,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <span>
+#include <limits>
+#include <memory>
 #include <vector>
 
 #include "base/huge_pages.h"
 #include "base/vec.h"
+#include "color/luminance.h"
 #include "sampling/inverse_cdf.h"
 
 namespace nacre {
@@ -37,19 +40,51 @@ struct EnvironmentRow {
   float sign;
 };
 
-struct EnvironmentMap {
-  int width = 0, height = 0;
-  HugeArray<EnvironmentTexel> texels;  // row by row
-  std::vector<EnvironmentRow> rows;
-  std::vector<CdfEntry> row_table;
-  HugeArray<CdfEntry> column_tables;  // `width` entries a row
-  bool is_black = true;               // nothing to sample
+// So many texels of a row, or what is left of it, are a block.
+inline constexpr size_t kEnvironmentBlock = 16;
+
+// Block i of a row and, for the search, the i-th of as many equal cells of the unit interval as the
+// row has blocks. A table of texels would be larger than the image, and a search among the texels
+// of a block reads fewer lines of memory than one in such a table.
+struct EnvironmentBlock {
+  double sum;      // of the row's luminances up to the end of the block
+  uint32_t first;  // the block in whose part cell i begins, where the search starts
 };
 
-// Texels in rows from +y on; radiances >= 0 and finite. The map takes 32 bytes a texel. On up to
-// `threads` threads (0: as many as the machine has).
-EnvironmentMap MakeEnvironmentMap(int width, int height, std::span<const Vec3f> texels,
+struct EnvironmentMap {
+  int width = 0, height = 0;
+  std::shared_ptr<const Vec3f[]> texels;  // the image's own, row by row
+  std::vector<EnvironmentRow> rows;
+  std::vector<CdfEntry> row_table;
+  std::vector<double> row_sums;        // of luminances
+  size_t row_blocks = 0;               // of a row
+  HugeArray<EnvironmentBlock> blocks;  // row by row
+  double sum = 0;                      // of luminance times solid angle of all texels
+  bool is_black = true;                // nothing to sample
+
+  size_t size() const { return static_cast<size_t>(width) * static_cast<size_t>(height); }
+};
+
+// Texels in rows from +y on; radiances >= 0 and finite. The map takes a byte a texel, beside the
+// texels themselves. On up to `threads` threads (0: as many as the machine has).
+EnvironmentMap MakeEnvironmentMap(int width, int height, std::shared_ptr<const Vec3f[]> texels,
                                   int threads = 1);
+
+// The luminance that texels are chosen by. Denormals count as 0 in whatever mode of floats, as they
+// do in renders.
+inline double TexelLuminance(const Vec3f& texel) {
+  const auto seen = [](float x) {
+    return x >= std::numeric_limits<float>::min() ? double{x} : 0.0;
+  };
+  return Luminance(Rgb(seen(texel.x), seen(texel.y), seen(texel.z)));
+}
+
+// The texel with its pdf: luminance times solid angle over its sum, per solid angle.
+inline EnvironmentTexel TexelOf(const EnvironmentMap& map, size_t index) {
+  const Vec3f& t = map.texels[static_cast<ptrdiff_t>(index)];
+  const double pdf = map.is_black ? 0 : static_cast<float>(TexelLuminance(t)) / map.sum;
+  return {t.x, t.y, t.z, static_cast<float>(pdf)};
+}
 
 // The solid angle of each texel in a row of an image of this size.
 double TexelSolidAngle(int width, int height, int row);
@@ -76,30 +111,86 @@ LatLong<Real> LatLongFromDirection(const Imath::Vec3<Real>& direction) {
 }
 
 template <typename Real>
-const EnvironmentTexel& TexelAt(const EnvironmentMap& map, const Imath::Vec3<Real>& direction) {
+size_t TexelIndexAt(const EnvironmentMap& map, const Imath::Vec3<Real>& direction) {
   const LatLong<Real> at = LatLongFromDirection(direction);
   const int x = std::min(static_cast<int>(at.u * static_cast<Real>(map.width)), map.width - 1);
   const int y = std::min(static_cast<int>(at.v * static_cast<Real>(map.height)), map.height - 1);
-  return map
-      .texels[static_cast<size_t>(y) * static_cast<size_t>(map.width) + static_cast<size_t>(x)];
+  return static_cast<size_t>(y) * static_cast<size_t>(map.width) + static_cast<size_t>(x);
+}
+
+template <typename Real>
+EnvironmentTexel TexelAt(const EnvironmentMap& map, const Imath::Vec3<Real>& direction) {
+  return TexelOf(map, TexelIndexAt(map, direction));
 }
 
 // A texel chosen by its luminance times its solid angle, and the sample's position in it.
 struct EnvironmentPick {
-  EnvironmentTexel texel;
+  size_t texel;
   double u;              // image coordinate
   double one_minus_cos;  // 1 - |cos(theta)|, as in EnvironmentRow
   double sign;
 };
 
-inline EnvironmentPick PickTexel(const EnvironmentMap& map, double u0, double u1) {
+// A search for a texel, in steps: tables and texels lie far apart in memory, and while one search
+// waits for them, others go on.
+struct EnvironmentSearch {
+  CdfPick row;
+  double u;  // where in the row
+  size_t block;
+};
+
+// The row, which is not black. `block`: where the search of it starts.
+inline EnvironmentSearch FindRow(const EnvironmentMap& map, double u0, double u1) {
   const CdfPick row = PickIndex(map.row_table, u1);
+  const size_t last = map.row_blocks - 1;
+  const size_t cell = std::min(static_cast<size_t>(u0 * static_cast<double>(last + 1)), last);
+  __builtin_prefetch(&map.blocks[row.index * map.row_blocks + cell]);
+  return {row, u0, cell};
+}
+
+// Whether the CDF of a row is above u at a texel up to which luminances have this sum. Mostly a
+// product tells that it is not: two roundings are less than 2^-51 of it.
+inline bool IsAbove(double sum, double total, double u) {
+  return !(sum < u * total * (1 - 0x1p-51)) && sum / total > u;
+}
+
+inline void FindBlock(const EnvironmentMap& map, EnvironmentSearch* search) {
+  const size_t row = search->row.index, last = map.row_blocks - 1;
+  const EnvironmentBlock* const blocks = &map.blocks[row * map.row_blocks];
+  const double total = map.row_sums[row], u = search->u;
+  size_t i = blocks[search->block].first;
+  while (i > 0 && IsAbove(blocks[i - 1].sum, total, u)) --i;
+  while (i < last && !IsAbove(blocks[i].sum, total, u)) ++i;
+  search->block = i;
+  const size_t first = row * static_cast<size_t>(map.width) + i * kEnvironmentBlock;
+  const float* const values = &map.texels[static_cast<ptrdiff_t>(first)].x;
+  for (const size_t k : {0, 16, 32, 47}) __builtin_prefetch(values + k);  // all lines of it
+}
+
+// The texel of the row: as PickIndex has it of a table of the row's luminances, to the bit.
+inline CdfPick FindColumn(const EnvironmentMap& map, const EnvironmentSearch& search) {
+  const size_t row = search.row.index, width = static_cast<size_t>(map.width);
+  const double total = map.row_sums[row], u = search.u;
+  const Vec3f* const texels = &map.texels[static_cast<ptrdiff_t>(row * width)];
+  double before = search.block > 0 ? map.blocks[row * map.row_blocks + search.block - 1].sum : 0;
+  size_t x = search.block * kEnvironmentBlock;
+  double sum = before + TexelLuminance(texels[x]);
+  while (x + 1 < width && !IsAbove(sum, total, u)) {
+    before = sum;
+    sum += TexelLuminance(texels[++x]);
+  }
+  const double lower = before / total;
+  return {static_cast<uint32_t>(x),
+          std::clamp((u - lower) / (sum / total - lower), 0.0, 1 - 0x1p-53)};
+}
+
+inline EnvironmentPick PickTexel(const EnvironmentMap& map, const EnvironmentSearch& search) {
+  const CdfPick column = FindColumn(map, search);
   const auto width = static_cast<size_t>(map.width);
-  const CdfPick column = PickIndex({map.column_tables.data() + row.index * width, width}, u0);
-  const EnvironmentRow& edges = map.rows[row.index];
-  return {map.texels[row.index * width + column.index],
+  const EnvironmentRow& edges = map.rows[search.row.index];
+  return {search.row.index * width + column.index,
           (column.index + column.remapped) / static_cast<double>(width),
-          edges.first + row.remapped * (double{edges.last} - edges.first), edges.sign};
+          edges.first + search.row.remapped * (double{edges.last} - edges.first), edges.sign};
 }
 
 template <typename Real>
@@ -113,12 +204,14 @@ struct EnvironmentSample {
 template <typename Real>
 EnvironmentSample<Real> SampleEnvironment(const EnvironmentMap& map, double u0, double u1) {
   if (map.is_black) return {};
-  const EnvironmentPick pick = PickTexel(map, u0, u1);
+  EnvironmentSearch search = FindRow(map, u0, u1);
+  FindBlock(map, &search);
+  const EnvironmentPick pick = PickTexel(map, search);
   const double sin = std::sqrt(pick.one_minus_cos * (2 - pick.one_minus_cos));
   const double phi = 2 * M_PI * pick.u;
   return {Imath::Vec3<Real>(Vec3d(std::sin(phi) * sin, pick.sign * (1 - pick.one_minus_cos),
                                   -std::cos(phi) * sin)),
-          pick.texel};
+          TexelOf(map, pick.texel)};
 }
 
 }  // namespace nacre

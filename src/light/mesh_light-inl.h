@@ -81,11 +81,14 @@ HWY_INLINE uint32_t IntersectBoxes(const MeshLightNode& node, const LightBoxRays
     auto far = hn::Set(d, std::numeric_limits<float>::infinity());
     for (int c = 0; c < 3; ++c) {
       const auto inverse = hn::Set(d, rays.inverse[c][lane]);
-      const auto low = hn::Sub(hn::Load(d, node.low[c] + i), hn::Set(d, rays.plus[c][lane]));
-      const auto high = hn::Sub(hn::Load(d, node.high[c] + i), hn::Set(d, rays.minus[c][lane]));
-      const auto a = hn::Mul(low, inverse), b = hn::Mul(high, inverse);
-      near = hn::Max(near, hn::Min(a, b));
-      far = hn::Min(far, hn::Max(a, b));
+      const float plus = rays.plus[c][lane], minus = rays.minus[c][lane];
+      const bool back = rays.inverse[c][lane] < 0;
+      const auto enter = hn::Sub(hn::Load(d, (back ? node.high[c] : node.low[c]) + i),
+                                 hn::Set(d, back ? minus : plus));
+      const auto leave = hn::Sub(hn::Load(d, (back ? node.low[c] : node.high[c]) + i),
+                                 hn::Set(d, back ? plus : minus));
+      near = hn::Max(near, hn::Mul(enter, inverse));
+      far = hn::Min(far, hn::Mul(leave, inverse));
     }
     alignas(8) uint8_t bytes[8] = {};
     hn::StoreMaskBits(d, hn::Le(near, far), bytes);
@@ -94,57 +97,43 @@ HWY_INLINE uint32_t IntersectBoxes(const MeshLightNode& node, const LightBoxRays
   return bits & ((uint32_t{1} << node.count) - 1);
 }
 
-// Hits of a ray on triangles: t in units of the direction, valid where `hit`; and the product of
-// the direction and the triangle's normal, negative where a ray meets its front.
-template <class M, class V>
-struct MeshLightHitV {
-  M hit;
-  V t, towards;
-};
-
-// On triangles i... of a leaf.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE MeshLightHitV<hn::Mask<D>, V> IntersectLightTriangles(D d, const MeshLightLeaf& leaf,
-                                                                 size_t i, const Vec3d& point,
-                                                                 const Vec3V<V>& direction) {
-  const V zero = hn::Zero(d);
-  const auto load = [&](const double(&column)[3][kMeshLightLeaf]) HWY_ATTR {
-    return Vec3V<V>{hn::Load(d, column[0] + i), hn::Load(d, column[1] + i),
-                    hn::Load(d, column[2] + i)};
-  };
-  const Vec3V<V> corner = Sub(load(leaf.corner), SetVec3(d, point));
-  const Vec3V<V> normal = load(leaf.cross);
-  const V towards = Dot(direction, normal);
-  const Vec3V<V> across = Cross(corner, direction);
-  const V along_y = Dot(across, load(leaf.edge_y)), along_x = Dot(across, load(leaf.edge_x));
-  const auto back = hn::Lt(towards, zero);
-  const V x = hn::IfThenElse(back, hn::Neg(along_y), along_y);
-  const V y = hn::IfThenElse(back, along_x, hn::Neg(along_x));
-  const V size = hn::Abs(towards);
-  const auto in_angle = hn::And(hn::Ge(x, zero), hn::Ge(y, zero));
-  const auto line_hit = hn::And(hn::And(in_angle, hn::Le(hn::Add(x, y), size)), hn::Gt(size, zero));
-  if (hn::AllFalse(d, line_hit)) return {line_hit, zero, towards};
-  const V t_hit = hn::Div(Dot(corner, normal), hn::IfThenElse(line_hit, towards, hn::Set(d, 1.0)));
-  return {hn::And(line_hit, hn::Gt(t_hit, zero)), t_hit, towards};
-}
-
-// Calls found(triangle, t, towards) for the triangles of the leaf that the ray hits.
+// Calls found(triangle, t, towards) for the triangles of the leaf that the ray hits: t in units of
+// the direction, and the product of the direction and the triangle's normal, negative where the ray
+// meets its front.
 template <class Found>
 HWY_INLINE void ForEachLeafHit(const MeshLightLeaf& leaf, const Vec3d& point,
                                const Vec3d& direction, const Found& found) {
   const hn::CappedTag<double, kMeshLightLeaf> d;
-  const auto directions = SetVec3(d, direction);
+  using V = hn::Vec<decltype(d)>;
+  const V zero = hn::Zero(d);
+  const Vec3V<V> along = SetVec3(d, direction), from = SetVec3(d, point);
   for (size_t i = 0; i < kMeshLightLeaf; i += hn::Lanes(d)) {
-    const auto hits = IntersectLightTriangles(d, leaf, i, point, directions);
-    if (hn::AllFalse(d, hits.hit)) continue;
-    alignas(64) double t[kMeshLightLeaf], towards[kMeshLightLeaf];
+    const auto load = [&](const double(&column)[3][kMeshLightLeaf]) HWY_ATTR {
+      return Vec3V<V>{hn::Load(d, column[0] + i), hn::Load(d, column[1] + i),
+                      hn::Load(d, column[2] + i)};
+    };
+    const Vec3V<V> corner = Sub(load(leaf.corner), from);
+    const Vec3V<V> normal = load(leaf.cross);
+    const V towards = Dot(along, normal);
+    const Vec3V<V> across = Cross(corner, along);
+    const V along_y = Dot(across, load(leaf.edge_y)), along_x = Dot(across, load(leaf.edge_x));
+    const auto back = hn::Lt(towards, zero);
+    const V x = hn::IfThenElse(back, hn::Neg(along_y), along_y);
+    const V y = hn::IfThenElse(back, along_x, hn::Neg(along_x));
+    const V size = hn::Abs(towards);
+    const auto in_angle = hn::And(hn::Ge(x, zero), hn::Ge(y, zero));
+    const auto line_hit =
+        hn::And(hn::And(in_angle, hn::Le(hn::Add(x, y), size)), hn::Gt(size, zero));
+    if (hn::AllFalse(d, line_hit)) continue;
+    alignas(64) double distances[kMeshLightLeaf], products[kMeshLightLeaf];
     alignas(8) uint8_t bits[8] = {};
-    hn::Store(hits.t, d, t);
-    hn::Store(hits.towards, d, towards);
-    hn::StoreMaskBits(d, hits.hit, bits);
+    hn::Store(Dot(corner, normal), d, distances);
+    hn::Store(towards, d, products);
+    hn::StoreMaskBits(d, line_hit, bits);
     for (uint32_t lanes = bits[0]; lanes != 0; lanes &= lanes - 1) {
       const size_t k = hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes);
-      found(leaf.triangle[i + k], t[k], towards[k]);
+      const double t = distances[k] / products[k];  // few lanes: a vector takes longer
+      if (t > 0) found(leaf.triangle[i + k], t, products[k]);
     }
   }
 }
@@ -154,6 +143,17 @@ template <class Found>
 HWY_INLINE void ForEachMeshLightHit(const MeshLight& light, const LightBoxRays& rays, size_t lane,
                                     const Vec3d& point, const Vec3d& direction,
                                     const Found& found) {
+  if (light.is_flat_list) {
+    uint64_t leaves = 0;
+    for (size_t i = 0; i < light.nodes.size(); ++i) {
+      leaves |= uint64_t{IntersectBoxes(light.nodes[i], rays, lane)} << (i * kMeshLightWidth);
+    }
+    for (; leaves != 0; leaves &= leaves - 1) {
+      ForEachLeafHit(light.leaves[hwy::Num0BitsBelowLS1Bit_Nonzero64(leaves)], point, direction,
+                     found);
+    }
+    return;
+  }
   uint32_t stack[kMeshLightStack];
   size_t size = 0;
   stack[size++] = 0;

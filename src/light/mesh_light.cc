@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 
 namespace nacre {
 namespace {
@@ -93,8 +94,29 @@ class TreeBuilder {
   TreeBuilder(const std::vector<Range>& ranges, MeshLight* light)
       : ranges_(ranges), light_(*light) {}
 
-  uint32_t AddNode(uint32_t root) {
-    const std::vector<uint32_t> children = ChildrenOf(root);
+  void Build() {
+    std::vector<uint32_t> leaves;
+    ListLeaves(0, &leaves);
+    light_.is_flat_list = leaves.size() <= kMaxListedLeaves;
+    if (!light_.is_flat_list) {
+      AddNode(0);
+      return;
+    }
+    for (size_t i = 0; i < leaves.size(); i += kMeshLightWidth) {
+      AddNode(std::span(leaves).subspan(i, std::min(kMeshLightWidth, leaves.size() - i)));
+    }
+  }
+
+ private:
+  void ListLeaves(uint32_t range, std::vector<uint32_t>* leaves) const {
+    if (ranges_[range].count() <= kMeshLightLeaf) return leaves->push_back(range);
+    ListLeaves(ranges_[range].halves + 1, leaves);
+    ListLeaves(ranges_[range].halves, leaves);
+  }
+
+  uint32_t AddNode(uint32_t root) { return AddNode(ChildrenOf(root)); }
+
+  uint32_t AddNode(std::span<const uint32_t> children) {
     const auto node = static_cast<uint32_t>(light_.nodes.size());
     light_.nodes.emplace_back();
     light_.nodes[node].count = static_cast<uint32_t>(children.size());
@@ -111,7 +133,6 @@ class TreeBuilder {
     return node;
   }
 
- private:
   // The largest ranges are split until there are enough, or none needs it.
   std::vector<uint32_t> ChildrenOf(uint32_t root) const {
     std::vector<uint32_t> children{root};
@@ -235,7 +256,7 @@ MeshLight MakeMeshLight(std::span<const Vec3d> positions, std::span<const uint32
     light.radius = std::max(
         {light.radius, corner.length(), (corner + edge_x).length(), (corner + edge_y).length()});
   }
-  TreeBuilder(ranges, &light).AddNode(0);
+  TreeBuilder(ranges, &light).Build();
   for (double& probability : light.probabilities) probability /= sum;
   light.by_area = MakeInverseCdf(light.probabilities);
   if (light.triangles.size() <= kMaxClosedFormTriangles) {

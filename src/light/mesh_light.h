@@ -20,6 +20,9 @@ namespace nacre {
 
 inline constexpr size_t kMeshLightWidth = 16;  // the most children of a node: a vector of floats
 inline constexpr size_t kMeshLightLeaf = 8;    // the most triangles of a leaf: a vector of doubles
+// Up to so many leaves a ray asks all boxes, which takes as many vectors as the nodes that it meets
+// in a tree, and no branches between them.
+inline constexpr size_t kMaxListedLeaves = 4 * kMeshLightWidth;
 
 // A node of a bounding volume hierarchy. The children's boxes are rounded outwards to floats.
 struct MeshLightNode {
@@ -43,9 +46,12 @@ struct MeshLight {
   std::vector<Vec3d> crosses;                    // edge_x cross edge_y of each
   std::vector<double> probabilities;             // area over the sum of all
   std::vector<CdfEntry> by_area;
-  std::vector<MeshLightNode> nodes;  // the first one is the root
+  // The first one is the root. But few leaves have no tree: rays ask all nodes, whose children are
+  // leaves in their order.
+  std::vector<MeshLightNode> nodes;
   std::vector<MeshLightLeaf> leaves;
-  double radius = 0;  // of the ball around the origin that holds all triangles
+  bool is_flat_list = false;  // there is no tree
+  double radius = 0;          // of the ball around the origin that holds all triangles
   // Convex: no corner lies in front of any triangle's plane, so that from no point a front face
   // hides another one. Flat: no corner lies behind one either.
   bool is_convex = false;

@@ -18,7 +18,7 @@ BoxTrees::BoxTrees(const TraceGeometry* /*geometry*/) {
 BoxTrees::~BoxTrees() = default;
 
 // There is never an object to call these of.
-void BoxTrees::Build(BoxTree /*tree*/, int /*threads*/) {}
+void BoxTrees::Build(BoxTree /*tree*/, int /*threads*/, CancelPointer /*cancel*/) {}
 bool BoxTrees::Serve(const Vec3d& /*eye*/) const { return true; }
 void BoxTrees::FindNearer(BoxTree /*tree*/, const RayBatch& /*rays*/, ClosestHits* /*hits*/) const {
 }

@@ -47,6 +47,8 @@ void AddMetadata(const ExrHeader& header, Image* image) {
   image->metadata["transfer"] = "linear";
 }
 
+std::string SoftwareName() { return fmt::format("nacre {}", kVersion); }
+
 std::string ShadowingForms(const Scene& scene) {
   std::set<std::string_view> forms;
   for (const Material& material : scene.materials) {
@@ -59,7 +61,24 @@ std::string ShadowingForms(const Scene& scene) {
   return forms.empty() ? "none" : fmt::format("{}", fmt::join(forms, ", "));
 }
 
-ExrHeader MakeExrHeader(const FramePlan& plan, bool reproducible, const std::string& tile) {
+namespace {
+
+// Flat lights that are shown move a little with the camera.
+uint64_t HashPlanned(const FramePlan& plan, PreparedScene* prepared) {
+  if (prepared == nullptr) return HashScene(*plan.scene);
+  const SceneParts parts = plan.with_lights ? SceneParts(ScenePart::kCamera) : SceneParts();
+  const ViewKey key{prepared->shapes_made, prepared->versions.Of(parts), {}};
+  if (!prepared->shapes_hash.IsUpToDate(key)) {
+    prepared->hashes.shapes = HashShapes(*plan.scene);
+    prepared->shapes_hash.Set(key, {});
+  }
+  return HashScene(*plan.scene, &prepared->hashes);
+}
+
+}  // namespace
+
+ExrHeader MakeExrHeader(const FramePlan& plan, bool reproducible, const std::string& tile,
+                        PreparedScene* prepared) {
   const Scene& scene = *plan.scene;
   const ImageSettings& image = scene.image;
   ExrHeader header;
@@ -68,12 +87,12 @@ ExrHeader MakeExrHeader(const FramePlan& plan, bool reproducible, const std::str
   header.world_to_camera = Imath::M44f(WorldToCamera(scene.camera));
   header.world_to_ndc = Imath::M44f(WorldToNdc(scene.camera, image.width, image.height));
   auto& attributes = header.attributes;
-  attributes["Software"] = fmt::format("nacre {}", kVersion);
+  attributes["Software"] = SoftwareName();
   attributes["samplesPerPixel"] = image.spp;
   attributes["nacre:version"] = std::string(kVersion);
   attributes["nacre:commit"] = std::string(kCommit);
   attributes["nacre:target"] = TargetName(ActiveTarget());
-  attributes["nacre:sceneHash"] = fmt::format("{:016x}", HashScene(scene));
+  attributes["nacre:sceneHash"] = fmt::format("{:016x}", HashPlanned(plan, prepared));
   attributes["nacre:shadowing"] = ShadowingForms(scene);
   attributes["nacre:settings"] =
       fmt::format("size={}x{} spp={} filter={} filter_width={} seed={} shadows={}", image.width,

@@ -4,6 +4,7 @@
 
 #include "image_io/exr_header.h"
 #include "render/frame_plan.h"
+#include "render/prepared_scene.h"
 #include "render/stats.h"
 
 namespace nacre {
@@ -13,8 +14,13 @@ inline constexpr char kRenderTimeAttribute[] = "renderTime";
 inline constexpr char kTileAttribute[] = "nacre:tile";
 
 // Everything but the channels. `tile`: as --tile has it, or empty. `reproducible`: without the
-// render time, which is 0 until ExrWriter::UpdateAttribute.
-ExrHeader MakeExrHeader(const FramePlan& plan, bool reproducible, const std::string& tile = {});
+// render time, which is 0 until ExrWriter::UpdateAttribute. `prepared`: what the plan was made
+// with, which keeps what the scene's hash is made of; or null.
+ExrHeader MakeExrHeader(const FramePlan& plan, bool reproducible, const std::string& tile = {},
+                        PreparedScene* prepared = nullptr);
+
+// What made the file: the attribute or text "Software".
+std::string SoftwareName();
 
 // The header's attributes as text, as readers of its file return them.
 void AddMetadata(const ExrHeader& header, Image* image);

@@ -18,10 +18,8 @@ double MeanRadiance(const EnvironmentMap& map) {
   for (int y = 0; y < map.height; ++y) {
     double row = 0;
     for (int x = 0; x < map.width; ++x) {
-      const EnvironmentTexel& t =
-          map.texels[static_cast<size_t>(y) * static_cast<size_t>(map.width) +
-                     static_cast<size_t>(x)];
-      row += std::max({t.red, t.green, t.blue});
+      const Vec3f& t = map.texels[ptrdiff_t{y} * map.width + x];
+      row += std::max({t.x, t.y, t.z});
     }
     sum += row * TexelSolidAngle(map.width, map.height, y);
   }

@@ -128,7 +128,7 @@ FramePlan MakePlan(const Scene& given, const RenderSettings& settings, PreparedS
       PlanShadows(scene, settings, plan.hits, prepared, &plan.direct, why);
   if (settings.on_plan_progress) settings.on_plan_progress(0.8);
   stop_if_cancelled();
-  BuildTrees(tree_for_shadows, &plan.hits, why);
+  BuildTrees(tree_for_shadows, settings, &plan.hits, why);
   stop_if_cancelled();
   plan.surfaces =
       PlanSurfaces(scene, settings, plan.camera, SumAmbient(scene), &prepared->tables, why);

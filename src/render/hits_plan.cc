@@ -142,12 +142,13 @@ HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Wind
   return plan;
 }
 
-void BuildTrees(bool for_shadows, HitsPlan* plan, Explanation* why) {
+void BuildTrees(bool for_shadows, const RenderSettings& settings, HitsPlan* plan,
+                Explanation* why) {
   if (plan->intersector == nullptr) return;
   const Scene& scene = *plan->primitives.scene;
   const bool triangles_apart = plan->trace_by_bins && CountTriangles(scene) > 0;
-  if (!plan->trace_by_bins || for_shadows) plan->intersector->BuildTree();
-  if (triangles_apart) plan->intersector->BuildTriangleTree();
+  if (!plan->trace_by_bins || for_shadows) plan->intersector->BuildTree(settings.cancel);
+  if (triangles_apart) plan->intersector->BuildTriangleTree(settings.cancel);
   const bool used = !plan->trace_by_bins || triangles_apart || for_shadows;
   const char* const kind = !plan->intersector->HasShells() ? "Embree's, "
                            : CountTriangles(scene) > 0 ? "of shells, Embree's of the triangles, "

@@ -45,6 +45,6 @@ HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Wind
                   Explanation* why);
 
 // Then builds the trees that camera rays need, and, if `for_shadows`, shadow rays.
-void BuildTrees(bool for_shadows, HitsPlan* plan, Explanation* why);
+void BuildTrees(bool for_shadows, const RenderSettings& settings, HitsPlan* plan, Explanation* why);
 
 }  // namespace nacre

@@ -128,7 +128,7 @@ bool IsBlackSky(const EnvironmentLight& light) {
                  },
                  [](const PictureSky& sky) {
                    // A channel whose scale is 0 lights nothing.
-                   const std::vector<float>& rgb = sky.picture->rgb;
+                   const auto& rgb = sky.picture->rgb;
                    for (size_t i = 0; i < rgb.size(); ++i) {
                      if (rgb[i] * sky.scale[static_cast<int>(i % 3)] > 0) return false;
                    }

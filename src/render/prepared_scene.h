@@ -13,6 +13,7 @@
 
 #include "base/image.h"
 #include "base/vec.h"
+#include "scene/hash.h"
 #include "scene/light_shapes.h"
 #include "scene/parts.h"
 #include "shading/kept_tables.h"
@@ -85,6 +86,9 @@ struct PreparedScene {
   Kept<ViewKey, std::vector<Window>> mesh_windows;
   Kept<ViewKey, bool> camera_bins;       // the result of BinForCamera
   Kept<ViewKey, std::monostate> lights;  // whether the intersector has the lights' occluders
+
+  KeptHashes hashes;
+  Kept<ViewKey, std::monostate> shapes_hash;  // whether `hashes` has that of the shapes
 
   KeptTables tables;
   PartVersions meshes_of_tangents;  // the versions that tables.tangents were made from

@@ -2,12 +2,12 @@
 // render/settings.h: the settings of a render that are not part of its scene.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "base/cancel.h"
 #include "base/image.h"
 #include "base/strip.h"
 
@@ -22,12 +22,6 @@ std::vector<std::string> IntersectorNames();
 IntersectorChoice ParseIntersector(const std::string& name);
 // Why all rays use a tree with this choice, whatever the scene; else null.
 const char* TreeAskedFor(IntersectorChoice choice);
-
-// Thrown by a render that was ended by RenderSettings::cancel.
-struct Cancelled {};
-inline void ThrowIfCancelled(const std::atomic<bool>* cancel) {
-  if (cancel != nullptr && cancel->load(std::memory_order_relaxed)) throw Cancelled{};
-}
 
 // One of `count` horizontal bands that together hold every row of the frame once (--tile).
 struct FrameBand {
@@ -66,7 +60,7 @@ struct RenderSettings {
   bool time_stages = false;
   // Setting it to true, from any thread, ends the render: Cancelled is thrown within milliseconds,
   // or while the plan is made at the end of one of its steps. May be null.
-  const std::atomic<bool>* cancel = nullptr;
+  CancelPointer cancel = nullptr;
   // Called after every strip, from any thread, one call at a time, with the share of the work that
   // is done, in (0, 1]. An exception from it ends the render.
   std::function<void(double)> on_progress;

@@ -164,18 +164,52 @@ LightBall BoundingBall(const SampledLight& light) {
   }
 }
 
-// For scenes of few spheres: finds by lists on which spheres the light can be occluded. This
-// decides where diffuse reflection is in closed form, so that it must be the same for all
-// intersectors, even if they then use a tree.
-PlanItem PlanSampledLightLists(const RenderSettings& settings, const HitsPlan& hits,
-                               KnownLights* known, PlannedSampledLight* light) {
+// The spheres that can occlude the light, by the sphere that is shaded.
+const OccluderLists& ListOccluders(const HitsPlan& hits, KnownLights* known,
+                                   PlannedSampledLight* light) {
   const std::optional<LightBall> ball =
       IsSky(light->light) ? std::nullopt : std::optional(BoundingBall(light->light));
   light->occluders = known->count++;
   if (!known->found) {
     hits.intersector->FindOccludersOfBall(ball, light->primitives, hits.eye_outside);
   }
-  const OccluderLists& lists = hits.intersector->Occluders(light->occluders).lists;
+  return hits.intersector->Occluders(light->occluders).lists;
+}
+
+bool NeedsTree(const RenderSettings& settings, const OccluderLists& lists) {
+  return settings.general_path || TreeAskedFor(settings.intersector) != nullptr ||
+         lists.longest > kMaxSampledListLength;
+}
+
+// Whether all triangles of the scene are the light's own shape, which casts no shadow of its light.
+bool OwnsTriangles(const Scene& scene, const PlannedSampledLight& light) {
+  size_t triangles = 0;
+  for (const Mesh& mesh : scene.meshes) triangles += mesh.triangles.size() / 3;
+  return light.primitives.begin == scene.spheres.size() &&
+         light.primitives.end == scene.spheres.size() + triangles;
+}
+
+// For scenes of few spheres and of no other triangles than the light's: lists instead of a tree, in
+// which rays would come by all triangles around their ends.
+PlanItem PlanOccludingSpheres(const RenderSettings& settings, const HitsPlan& hits,
+                              KnownLights* known, PlannedSampledLight* light) {
+  const OccluderLists& lists = ListOccluders(hits, known, light);
+  PlanItem item{"", true, "something may lie between a surface and the light"};
+  if (NeedsTree(settings, lists)) {
+    light->occluders = kAnyLight;
+  } else {
+    item.reason =
+        fmt::format("spheres alone, {} at most, lie in the light's way: no tree", lists.longest);
+  }
+  return item;
+}
+
+// For scenes of few spheres: finds by lists on which spheres the light can be occluded. This
+// decides where diffuse reflection is in closed form, so that it must be the same for all
+// intersectors, even if they then use a tree.
+PlanItem PlanSampledLightLists(const RenderSettings& settings, const HitsPlan& hits,
+                               KnownLights* known, PlannedSampledLight* light) {
+  const OccluderLists& lists = ListOccluders(hits, known, light);
   light->shadowed = FindShadowed(lists);
   light->trace_all = settings.general_path;
   const size_t spheres = light->shadowed.size();
@@ -187,8 +221,7 @@ PlanItem PlanSampledLightLists(const RenderSettings& settings, const HitsPlan& h
     item.reason = spheres == 1 ? "a sphere alone, seen from outside, is convex"
                                : "no sphere is between another and the light";
   }
-  if (settings.general_path || TreeAskedFor(settings.intersector) != nullptr ||
-      lists.longest > kMaxSampledListLength) {
+  if (NeedsTree(settings, lists)) {
     light->occluders = kAnyLight;
   } else if (light->shadow_rays) {
     item.reason += fmt::format(", each by {} others at most: no tree", lists.longest);
@@ -199,15 +232,17 @@ PlanItem PlanSampledLightLists(const RenderSettings& settings, const HitsPlan& h
 
 bool PlanSampledShadows(const Scene& scene, const RenderSettings& settings, const HitsPlan& hits,
                         KnownLights* known, DirectPlan* plan, Explanation* why) {
-  const bool few = scene.spheres.size() <= kMaxListedSpheres && scene.meshes.empty();
+  const bool few = scene.spheres.size() <= kMaxListedSpheres;
   bool tree = false;
   for (PlannedSampledLight& light : plan->sampled_lights) {
     PlanItem item{"", true, "something may lie between a surface and the light"};
     if (!light.shadow_rays) {
       item.used = false;
       item.reason = scene.image.shadows ? "the light casts none" : "the scene turns shadows off";
-    } else if (few) {
+    } else if (few && scene.meshes.empty()) {
       item = PlanSampledLightLists(settings, hits, known, &light);
+    } else if (few && OwnsTriangles(scene, light)) {
+      item = PlanOccludingSpheres(settings, hits, known, &light);
     }
     item.what = fmt::format("light \"{}\" shadow rays", scene.lights[light.index].name);
     why->items.push_back(std::move(item));

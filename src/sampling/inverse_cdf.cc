@@ -6,13 +6,8 @@
 namespace nacre {
 
 std::vector<CdfEntry> MakeInverseCdf(std::span<const double> weights) {
-  std::vector<CdfEntry> table(weights.size());
-  FillInverseCdf(weights, table.data());
-  return table;
-}
-
-void FillInverseCdf(std::span<const double> weights, CdfEntry* table) {
   const size_t count = weights.size();
+  std::vector<CdfEntry> table(count);
   const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
   double running = 0;
   for (size_t i = 0; i < count; ++i) {
@@ -27,6 +22,7 @@ void FillInverseCdf(std::span<const double> weights, CdfEntry* table) {
     while (index + 1 < count && table[index].upper <= begin) ++index;
     table[cell].first = static_cast<uint32_t>(index);
   }
+  return table;
 }
 
 }  // namespace nacre

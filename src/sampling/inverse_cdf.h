@@ -25,8 +25,6 @@ struct CdfEntry {
 // Probabilities are the weights over their sum, to 2^-53 of 1. Weights must be >= 0 and finite; if
 // all are 0, every index has the same probability.
 std::vector<CdfEntry> MakeInverseCdf(std::span<const double> weights);
-// The same into `table`, which has a place for each weight.
-void FillInverseCdf(std::span<const double> weights, CdfEntry* table);
 
 // The index of u in [0, 1), and u remapped from the index's part of the interval to [0, 1).
 struct CdfPick {

@@ -8,8 +8,10 @@
 #include <span>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
+#include "base/parallel.h"
 #include "scene/material_parameters.h"
 
 namespace nacre {
@@ -47,25 +49,38 @@ class Hasher {
   uint64_t state_ = 0x9e3779b97f4a7c15u;
 };
 
-// Long arrays, in four chains side by side, eight bytes at a time: in a chain alone, each product
-// waits for the one before.
-template <class T>
-void AddArray(std::span<const T> values, Hasher* hash) {
-  static_assert(std::is_standard_layout_v<T> && sizeof(T) % sizeof(float) == 0);
+// A piece of an array, in four chains side by side, eight bytes at a time: in a chain alone, each
+// product waits for the one before.
+uint64_t HashPiece(std::span<const unsigned char> bytes) {
   constexpr size_t kChains = 4;
   std::array<Hasher, kChains> chains;
   std::array<uint64_t, kChains> words{};
-  const auto* const bytes = reinterpret_cast<const unsigned char*>(values.data());
-  for (size_t i = 0; i < values.size_bytes(); i += sizeof(words)) {
-    const size_t left = values.size_bytes() - i;
+  for (size_t i = 0; i < bytes.size(); i += sizeof(words)) {
+    const size_t left = bytes.size() - i;
     if (left < sizeof(words)) words = {};
-    std::memcpy(words.data(), bytes + i, std::min(left, sizeof(words)));
+    std::memcpy(words.data(), bytes.data() + i, std::min(left, sizeof(words)));
     for (size_t chain = 0; chain < kChains; ++chain) chains[chain].Word(words[chain]);
   }
-  for (const Hasher& chain : chains) hash->Word(chain.state());
+  Hasher all;
+  for (const Hasher& chain : chains) all.Word(chain.state());
+  return all.state();
 }
+
+// Long arrays, in pieces on several threads.
 template <class T>
-void AddArray(const std::vector<T>& values, Hasher* hash) {
+void AddArray(std::span<const T> values, Hasher* hash) {
+  static_assert(std::is_standard_layout_v<T> && sizeof(T) % sizeof(float) == 0);
+  constexpr size_t kPiece = size_t{1} << 20;
+  const std::span bytes(reinterpret_cast<const unsigned char*>(values.data()), values.size_bytes());
+  std::vector<uint64_t> pieces((bytes.size() + kPiece - 1) / kPiece);
+  ParallelFor(pieces.size(), 0, [&](size_t i) {
+    const size_t first = i * kPiece;
+    pieces[i] = HashPiece(bytes.subspan(first, std::min(kPiece, bytes.size() - first)));
+  });
+  for (const uint64_t piece : pieces) hash->Word(piece);
+}
+template <class T, class Allocator>
+void AddArray(const std::vector<T, Allocator>& values, Hasher* hash) {
   AddArray(std::span<const T>(values), hash);
 }
 
@@ -87,8 +102,41 @@ void Add(const ImageSettings& image, Hasher* hash) {
   hash->Word(image.shadows);
 }
 
+// The hashes of what scenes share: those that were kept, and those that are needed now.
+class SharedHashes {
+ public:
+  explicit SharedHashes(const KeptHashes* kept) : kept_(kept) {}
+
+  // That of `source`, made by add(&hasher) unless it was kept.
+  template <class Source, class AddTo>
+  uint64_t Of(const std::shared_ptr<const Source>& source, const AddTo& add) {
+    if (const KeptHashes::Entry* const known = Find(source.get())) return Use(*known);
+    Hasher hash;
+    add(&hash);
+    return Use({source, hash.state()});
+  }
+
+  std::vector<KeptHashes::Entry> used() && { return std::move(used_); }
+
+ private:
+  const KeptHashes::Entry* Find(const void* source) const {
+    if (kept_ == nullptr) return nullptr;
+    const auto found =
+        std::find_if(kept_->shared.begin(), kept_->shared.end(),
+                     [&](const auto& entry) { return entry.source.get() == source; });
+    return found != kept_->shared.end() ? &*found : nullptr;
+  }
+  uint64_t Use(const KeptHashes::Entry& entry) {
+    if (kept_ != nullptr) used_.push_back(entry);
+    return entry.hash;
+  }
+
+  const KeptHashes* kept_;
+  std::vector<KeptHashes::Entry> used_;
+};
+
 // Contents, not names of files.
-void Add(const SceneImage& image, Hasher* hash) {
+void Add(const SceneImage& image, SharedHashes* shared, Hasher* hash) {
   const MipLevel& whole = image.texels->levels[0];
   hash->Word(static_cast<uint64_t>(whole.width));
   hash->Word(static_cast<uint64_t>(whole.height));
@@ -96,7 +144,9 @@ void Add(const SceneImage& image, Hasher* hash) {
   hash->Word(std::bit_cast<uint32_t>(image.middle));
   const size_t count = static_cast<size_t>(whole.width) * static_cast<size_t>(whole.height) *
                        static_cast<size_t>(image.texels->channels);
-  AddArray(std::span<const float>(image.texels->values.data(), count), hash);
+  hash->Word(shared->Of(image.texels, [&](Hasher* own) {
+    AddArray(std::span<const float>(image.texels->values.data(), count), own);
+  }));
 }
 
 void Add(const Texture& texture, Hasher* hash) {
@@ -161,6 +211,7 @@ void AddModel(const Material& material, Hasher* hash) {
 }
 
 struct AddLightKind {
+  SharedHashes* shared;
   Hasher* hash;
   void Falloff(const Attenuation& a) const {
     hash->Add(a.constant);
@@ -210,8 +261,10 @@ struct AddLightKind {
   void operator()(const MeshAreaLight& light) const {
     hash->Word(light.mesh->positions.size());
     hash->Word(light.mesh->triangles.size());
-    AddArray(light.mesh->positions, hash);
-    AddArray(light.mesh->triangles, hash);
+    hash->Word(shared->Of(light.mesh, [&](Hasher* own) {
+      AddArray(light.mesh->positions, own);
+      AddArray(light.mesh->triangles, own);
+    }));
     Surface(light);
   }
   void operator()(const EnvironmentLight& light) const {
@@ -236,7 +289,7 @@ struct AddLightKind {
   void operator()(const PictureSky& sky) const {
     hash->Word(static_cast<uint64_t>(sky.picture->width));
     hash->Word(static_cast<uint64_t>(sky.picture->height));
-    AddArray(sky.picture->rgb, hash);
+    hash->Word(shared->Of(sky.picture, [&](Hasher* own) { AddArray(sky.picture->rgb, own); }));
     hash->Add(sky.scale);
   }
   template <class Flat>
@@ -280,12 +333,13 @@ void AddShapes(const Scene& scene, Hasher* hash) {
 
 }  // namespace
 
-uint64_t HashScene(const Scene& scene) {
+uint64_t HashScene(const Scene& scene, KeptHashes* kept) {
   Hasher hash;
+  SharedHashes shared(kept);
   Add(scene.camera, &hash);
   Add(scene.image, &hash);
   hash.Add(scene.background);
-  for (const SceneImage& image : scene.images) Add(image, &hash);
+  for (const SceneImage& image : scene.images) Add(image, &shared, &hash);
   for (const Texture& texture : scene.textures) Add(texture, &hash);
   hash.Word(scene.materials.size());  // sizes, so that no value can pass for one of the next array
   for (const Material& material : scene.materials) {
@@ -299,9 +353,10 @@ uint64_t HashScene(const Scene& scene) {
     hash.Word(light.kind.index());
     hash.Add(std::string_view(light.name));
     hash.Word(light.shadows);
-    std::visit(AddLightKind{&hash}, light.kind);
+    std::visit(AddLightKind{&shared, &hash}, light.kind);
   }
-  AddShapes(scene, &hash);
+  hash.Word(kept != nullptr && kept->shapes ? *kept->shapes : HashShapes(scene));
+  if (kept != nullptr) kept->shared = std::move(shared).used();
   return hash.state();
 }
 

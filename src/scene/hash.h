@@ -3,15 +3,30 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
 
 #include "scene/scene.h"
 
 namespace nacre {
 
+// What is costly to hash, from one call to the next: pictures and meshes that scenes share, which
+// never change; and all shapes, if the caller knows that these have not changed.
+struct KeptHashes {
+  struct Entry {
+    std::shared_ptr<const void> source;  // held, so that no other has its address
+    uint64_t hash;
+  };
+  std::vector<Entry> shared;       // those of the scene that was hashed last
+  std::optional<uint64_t> shapes;  // HashShapes()
+};
+
 // Equal for scenes that render the same picture because they hold the same values; written into
 // image headers, so that parts of one picture know each other. Not cryptographic. Names of
 // materials do not count, sample count and image size do.
-uint64_t HashScene(const Scene& scene);
+// `kept` may be null.
+uint64_t HashScene(const Scene& scene, KeptHashes* kept = nullptr);
 
 // Likewise of the spheres and meshes alone.
 uint64_t HashShapes(const Scene& scene);

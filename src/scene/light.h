@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/huge_pages.h"
 #include "base/vec.h"
 
 namespace nacre {
@@ -124,7 +125,7 @@ struct QuadraticSky {
 // value all over.
 struct SkyPicture {
   int width = 0, height = 0;
-  std::vector<float> rgb;  // 3 width height, each >= 0
+  HugeVector<float> rgb;  // 3 width height, each >= 0
 };
 
 struct PictureSky {

@@ -41,6 +41,7 @@ struct Texture {
   double uv_rotate_deg = 0;  // counter-clockwise
   Vec2d offset{0, 0};
   bool second_uvs = false;  // kUv: on the meshes' second coordinates
+  friend bool operator==(const Texture&, const Texture&) = default;
 };
 
 // Tangent-space normals, x along growing u, y along growing v.

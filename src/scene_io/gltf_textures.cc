@@ -119,7 +119,7 @@ bool GltfTextures::IsWhite(TextureId texture) {
   const ImageId image = scene_.textures[texture.index].image;
   const auto [known, is_new] = is_white_.try_emplace(image.index);
   if (is_new) {
-    const std::vector<float>& texels = scene_.images[image.index].texels->values;
+    const auto& texels = scene_.images[image.index].texels->values;
     known->second = std::all_of(texels.begin(), texels.end(), [](float v) { return v == 1; });
   }
   return known->second;

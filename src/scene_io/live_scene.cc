@@ -182,7 +182,7 @@ SceneParts LiveScene::Set(const std::string& pointer, const std::string& json) {
       model_ ? ReplaceValue(pointer, json, root) : ReplaceInFile(pointer, json, root);
   const bool own_lights = model_ && model_->own_lights;
   try {
-    if (!model_) return ReadAgain(PartsOf(pointer));
+    if (!model_) return ReadAgain(PartsOf(pointer), pointer.starts_with("/materials/"));
     if (pointer == "/lights") model_->own_lights = true;
     return CompleteModel(PartsOf(pointer));
   } catch (...) {
@@ -200,27 +200,32 @@ std::optional<std::string> LiveScene::Get(const std::string& pointer) const {
   return ValueAt(pointer, whole.root);
 }
 
-SceneParts LiveScene::ReadAgain(SceneParts touched) {
+SceneParts LiveScene::ReadAgain(SceneParts touched, bool one_material) {
   CheckVersion(tree_.root, file_);
   SceneParts parts = touched;
-  const bool with_shapes = shapes_bring_materials_ && parts.Has(ScenePart::kMaterials);
-  if (with_shapes) parts |= ScenePart::kShapes;
+  // What shapes have brought does not depend on another material; on textures it may.
+  const bool brought = shapes_bring_materials_ && parts.Has(ScenePart::kMaterials);
+  const bool take_over = brought && one_material && !members_.varied;
+  if (brought && !take_over) parts |= ScenePart::kShapes;
   const SceneParts others = SceneParts::All().Without(parts);
   Scene next;
   SwapParts(others, &scene_, &next);
   bool moved = false;
   try {
     FaultList faults;
-    const ReadMembers read =
-        ReadScene(tree_, parts, {folder_, bytes_, &options_, &kept_, &files_}, &faults, &next);
+    const std::optional<ReadMembers> read = ReadScene(
+        tree_, parts,
+        {folder_, bytes_, &options_, &kept_, &files_, take_over ? &scene_ : nullptr, members_},
+        &faults, &next);
     ThrowFaults(faults, file_);
     const bool has_shapes = parts.Has(ScenePart::kShapes);
     moved = parts.Has(ScenePart::kMaterials) && !has_shapes &&
-            !KeepPlaces(scene_.materials, next.materials);
+            (!read || !KeepPlaces(scene_.materials, next.materials));
     if (has_shapes) {
       if (complete_) complete_(&next);
       shapes_bring_materials_ =
-          next.materials.size() > read.materials || next.textures.size() > read.textures;
+          next.materials.size() > read->materials || next.textures.size() > read->textures;
+      members_ = *read;
     }
   } catch (...) {
     SwapParts(others, &scene_, &next);

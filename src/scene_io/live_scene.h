@@ -78,7 +78,8 @@ class LiveScene {
   void ReadModelFile();
   SceneTree Parse(std::string_view text) const;
   LoadOptions Watching();  // options_ of a model that put each file into files_; while this stays
-  SceneParts ReadAgain(SceneParts touched);
+  // `one_material`: of those of the file nothing but one has changed.
+  SceneParts ReadAgain(SceneParts touched, bool one_material = false);
   SceneParts CompleteModel(SceneParts touched);
 
   std::filesystem::path path_;  // empty: `file_` is only what errors call the text
@@ -92,7 +93,8 @@ class LiveScene {
   SceneTree tree_;                    // of a scene file; of a model, what overrides have put there
   Scene scene_;
   ImageSettings own_image_;              // of the file with its changes
-  bool shapes_bring_materials_ = false;  // or textures: these are read again with those
+  bool shapes_bring_materials_ = false;  // or textures
+  ReadMembers members_;                  // without these
   uint64_t shapes_hash_ = 0;
   KeptFiles kept_;
   WatchedFiles files_;

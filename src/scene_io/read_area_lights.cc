@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/huge_pages.h"
 #include "base/parallel.h"
 #include "image_io/color_channels.h"
 #include "image_io/image_file.h"
@@ -112,8 +111,6 @@ std::shared_ptr<const SkyPicture> MakePicture(const std::string& path, const std
   auto picture = std::make_shared<SkyPicture>();
   picture->width = window.width();
   picture->height = window.height();
-  picture->rgb.reserve(3 * window.pixel_count());
-  AdviseHugePages(picture->rgb.data(), 3 * window.pixel_count() * sizeof(float));
   picture->rgb.resize(3 * window.pixel_count());
   float* const rgb = picture->rgb.data();
   const ptrdiff_t step_y = ptrdiff_t{3} * window.width();

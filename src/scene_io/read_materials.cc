@@ -175,6 +175,7 @@ bool ReadBaseMaterial(const JsonValue& value, SceneContext* context, Material* m
     const MaterialId id = FindMaterial(value, *context);
     if (!id.valid() || context->unreadable_materials.contains(id.index)) return false;
     *material = context->scene->materials[id.index];
+    context->varies_materials = true;
     return true;
   }
   if (!value.Expect(value.json.is_object(), "a material", kReferenceHint)) return false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_io/read_scene.h"
 
+#include <algorithm>
 #include <set>
 
 #include <fmt/format.h>
@@ -75,7 +76,7 @@ void ReadRoot(const SceneTree& tree, SceneParts parts, WatchedFiles* files, Faul
     DecodeMapsAhead(value.json, context);
     ReadMaterials(value, context);
   });
-  *read = {scene->materials.size(), scene->textures.size()};
+  *read = {scene->materials.size(), scene->textures.size(), scene->images.size()};
   member("lights", ScenePart::kLights,
          [&](const JsonValue& value) { ReadLights(value, *context, &scene->lights); });
   member("shapes", ScenePart::kShapes,
@@ -83,6 +84,29 @@ void ReadRoot(const SceneTree& tree, SceneParts parts, WatchedFiles* files, Faul
   member("background", ScenePart::kBackground,
          [&](const JsonValue& value) { ReadColor(value, limits::kRadiance, &scene->background); });
   object.RefuseOthers();
+  read->varied = context->varies_materials;
+}
+
+// Adds what shapes have brought to materials, textures and images of the file that have the same
+// places as before. They know textures and images by their places. False: they have not.
+bool TakeOverBrought(const Scene& before, const ReadMembers& members, const ReadMembers& now,
+                     Scene* scene) {
+  const auto same_image = [](const SceneImage& a, const SceneImage& b) {
+    return a.texels == b.texels && a.middle == b.middle && a.lacks_alpha == b.lacks_alpha;
+  };
+  const bool fits =
+      now.materials == members.materials && now.textures == members.textures &&
+      now.images == members.images &&
+      std::equal(scene->textures.begin(), scene->textures.end(), before.textures.begin()) &&
+      std::equal(scene->images.begin(), scene->images.end(), before.images.begin(), same_image);
+  if (!fits) return false;
+  const auto take = [](const auto& from, size_t first, auto* to) {
+    to->insert(to->end(), from.begin() + static_cast<ptrdiff_t>(first), from.end());
+  };
+  take(before.materials, members.materials, &scene->materials);
+  take(before.textures, members.textures, &scene->textures);
+  take(before.images, members.images, &scene->images);
+  return true;
 }
 
 // The part of a scene that a pointer is in: "/camera", "/lights/key", "/shapes".
@@ -160,8 +184,8 @@ void CheckVersion(const Json& root, const std::string& file) {
   throw Error(ExitCode::kBadInput, {JudgeVersion(*version, PlaceInFile(file, "/nacre"))});
 }
 
-ReadMembers ReadScene(const SceneTree& tree, SceneParts parts, const SceneReading& reading,
-                      FaultList* faults, Scene* scene) {
+std::optional<ReadMembers> ReadScene(const SceneTree& tree, SceneParts parts,
+                                     const SceneReading& reading, FaultList* faults, Scene* scene) {
   const LoadOptions& options = *reading.options;
   SceneContext context;
   context.folder = reading.folder;
@@ -177,6 +201,10 @@ ReadMembers ReadScene(const SceneTree& tree, SceneParts parts, const SceneReadin
   context.texels = &texels;
   ReadMembers read;
   ReadRoot(tree, parts, reading.files, faults, &context, &read);
+  if (reading.before != nullptr &&
+      !TakeOverBrought(*reading.before, reading.members, read, scene)) {
+    return std::nullopt;
+  }
   AddValidation(*scene, parts, faults);
   return read;
 }

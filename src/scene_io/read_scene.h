@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -40,12 +41,24 @@ SceneTree ParseScene(const SceneSource& source, const LoadOptions& options, Faul
 // Throws Error unless the tree is that of a scene file of a version that is read.
 void CheckVersion(const Json& root, const std::string& file);
 
+// What was read of the file that other parts refer to.
+struct ReadMembers {
+  size_t materials = 0;  // made of the member "materials"; those of shapes follow
+  size_t textures = 0;   // that these name
+  size_t images = 0;     // of these
+  bool varied = false;   // shapes have made materials of those
+};
+
 struct SceneReading {
   std::filesystem::path folder;  // of the scene file
   uint64_t bytes = 0;            // of its text, which its images may be large in proportion to
   const LoadOptions* options = nullptr;
   KeptFiles* kept = nullptr;      // files read before; null: none
   WatchedFiles* files = nullptr;  // gets all that are read; null: nobody asks
+  // Where materials are read without shapes: the scene before, and what was read of it, whose
+  // shapes' own materials and textures are taken over. null: there are none.
+  const Scene* before = nullptr;
+  ReadMembers members{};
 };
 
 // The text of a scene file, up to 1 GiB.
@@ -57,15 +70,10 @@ Scene ReadModel(const std::filesystem::path& path, const LoadOptions& options, b
 // Throws Error with what is wrong in these parts of a model's scene.
 void ThrowFaultsIn(const Scene& scene, SceneParts parts, const std::string& file);
 
-// What was read of the file that other parts refer to.
-struct ReadMembers {
-  size_t materials = 0;  // made of the member "materials"; those of shapes follow
-  size_t textures = 0;   // that these name
-};
-
 // Reads these parts, of which `scene` has none, and checks them. The rest of the scene is there.
-// Shapes want materials, and materials textures. Adds to `faults` what is wrong.
-ReadMembers ReadScene(const SceneTree& tree, SceneParts parts, const SceneReading& reading,
-                      FaultList* faults, Scene* scene);
+// Shapes want materials, and materials textures. Adds to `faults` what is wrong. Nothing if what is
+// to be taken over does not fit any more: shapes must be read as well.
+std::optional<ReadMembers> ReadScene(const SceneTree& tree, SceneParts parts,
+                                     const SceneReading& reading, FaultList* faults, Scene* scene);
 
 }  // namespace nacre

@@ -43,6 +43,7 @@ struct SceneContext {
   // So that one fault does not make others of all that refer to it:
   bool has_materials = true;                          // false: their names could not be read
   std::unordered_set<uint32_t> unreadable_materials;  // indices of those that have faults
+  bool varies_materials = false;  // shapes have made others of materials by name
   // Textures by name. One that says nothing of its encoding is sRGB where it is a colour and linear
   // where it is data, and read for its alpha where it is an opacity: up to three of the scene's
   // textures, read when first used. By encoding.

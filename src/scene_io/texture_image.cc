@@ -197,8 +197,10 @@ SceneImage DecodeTextureImage(const OpenTexture& open, const TextureReading& rea
   SceneImage texture;
   texture.lacks_alpha = channels.empty();
   const int threads = reading.threads;
-  if (open.is_integer) texture.middle = DecodeIntegers(reading.encoding, threads, values);
-  if (!AllHold(values, threads, [](float v) { return std::isfinite(v); })) {
+  // What comes from a table is finite.
+  if (open.is_integer) {
+    texture.middle = DecodeIntegers(reading.encoding, threads, values);
+  } else if (!AllHold(values, threads, [](float v) { return std::isfinite(v); })) {
     throw Error(ExitCode::kBadInput, open.image.path, "holds NaN or infinities",
                 "a texture needs finite values");
   }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <variant>
 
 #include "base/overloaded.h"
@@ -60,12 +59,12 @@ Vec3d Turn(const Vec3d& v, double cosine, double sine) {
   return {v.x * cosine + v.z * sine, v.y, v.z * cosine - v.x * sine};
 }
 
-EnvironmentMap MakeMap(const SkyPicture& picture, int threads) {
+EnvironmentMap MakeMap(const std::shared_ptr<const SkyPicture>& picture, int threads) {
   // Looked at in place: a copy would take as much memory as the picture.
   static_assert(sizeof(Vec3f) == 3 * sizeof(float));
-  const std::span texels(reinterpret_cast<const Vec3f*>(picture.rgb.data()),
-                         picture.rgb.size() / 3);
-  return MakeEnvironmentMap(picture.width, picture.height, texels, threads);
+  const auto* const texels = reinterpret_cast<const Vec3f*>(picture->rgb.data());
+  return MakeEnvironmentMap(picture->width, picture->height,
+                            std::shared_ptr<const Vec3f[]>(picture, texels), threads);
 }
 
 void Prepare(const EnvironmentLight& environment, int threads, KeptTables* kept,
@@ -100,7 +99,7 @@ void Prepare(const EnvironmentLight& environment, int threads, KeptTables* kept,
                    light->form = SampledForm::kPictureSky;
                    light->color = sky.scale;
                    to.picture = TableOf(
-                       sky.picture, [&] { return MakeMap(*sky.picture, threads); }, &kept->skies);
+                       sky.picture, [&] { return MakeMap(sky.picture, threads); }, &kept->skies);
                  }},
       environment.sky);
 }

@@ -27,6 +27,7 @@ struct SampleSettings {
   TextureFilter filter = TextureFilter::kTrilinear;
   Wrap wrap_u = Wrap::kRepeat;
   Wrap wrap_v = Wrap::kRepeat;
+  friend bool operator==(const SampleSettings&, const SampleSettings&) = default;
 };
 
 // u wrapped to [0, 1]. NaN gives 0, and so do infinities unless they are clamped. Whole periods are

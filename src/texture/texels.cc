@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/huge_pages.h"
-
 namespace nacre {
 namespace {
 
@@ -102,8 +100,6 @@ MipChain MakeEmptyMipChain(int width, int height, int channels) {
     total += static_cast<size_t>(w) * static_cast<size_t>(h) * static_cast<size_t>(channels);
     if (w == 1 && h == 1) break;
   }
-  chain.values.reserve(total);
-  AdviseHugePages(chain.values.data(), total * sizeof(float));
   chain.values.resize(total);
   return chain;
 }

@@ -10,6 +10,8 @@
 #include <span>
 #include <vector>
 
+#include "base/huge_pages.h"
+
 namespace nacre {
 
 // A mip level.
@@ -22,7 +24,7 @@ struct MipLevel {
 struct MipChain {
   int channels = 1;              // 1 to 4
   std::vector<MipLevel> levels;  // the image itself, then half its size (rounded down) each time
-  std::vector<float> values;     // of all levels; indices fit 32 bits
+  HugeVector<float> values;      // of all levels; indices fit 32 bits
 
   float Value(size_t level, int x, int y, int channel) const {
     const MipLevel& l = levels[level];

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "base/cancel.h"
 #include "hit/batch.h"
 #include "visibility/geometry.h"
 
@@ -33,8 +34,8 @@ class BoxTrees {
   BoxTrees& operator=(const BoxTrees&) = delete;
 
   // Builds a tree that is not there, on up to `threads` threads (0: as many as the machine has).
-  // Throws Error (kInternal) where Embree fails: out of memory.
-  void Build(BoxTree tree, int threads);
+  // Throws Error (kInternal) where Embree fails: out of memory. Throws Cancelled.
+  void Build(BoxTree tree, int threads, CancelPointer cancel = nullptr);
 
   // Whether the trees that are there are good for a camera at `eye` as well.
   bool Serve(const Vec3d& eye) const;

@@ -2,13 +2,14 @@
 #include "visibility/cut_out.h"
 
 #include <algorithm>
+#include <span>
 
 #include "scene/material_parameters.h"
 
 namespace nacre {
 namespace {
 
-float LeastOf(const std::vector<float>& values) {
+float LeastOf(std::span<const float> values) {
   return values.empty() ? 1.0f : *std::min_element(values.begin(), values.end());
 }
 

@@ -28,9 +28,9 @@ struct Intersector::State {
   std::optional<BoxTrees> boxes;  // null: there is no use for any
 
   bool HasShells() const { return !geometry.shells.empty(); }
-  void BuildBoxes(BoxTree tree) {
+  void BuildBoxes(BoxTree tree, CancelPointer cancel) {
     if (!boxes) boxes.emplace(&geometry);
-    boxes->Build(tree, settings.threads);
+    boxes->Build(tree, settings.threads, cancel);
   }
 };
 
@@ -45,14 +45,14 @@ Intersector::Intersector(const Scene& scene, const Vec3d& camera_position,
   if (settings.tree) BuildTree();
 }
 
-void Intersector::BuildTree() {
+void Intersector::BuildTree(CancelPointer cancel) {
   State& s = *state_;
   if (s.tree) return;
   TraceGeometry& geometry = s.geometry;
   const bool shells = s.settings.shells || EmbreeVersion() == nullptr;
   if (shells && !s.HasShells()) geometry.shells = BuildShellTree(geometry.spheres);
   const bool spheres_in_boxes = !geometry.spheres.empty() && !s.HasShells();
-  if (spheres_in_boxes || !geometry.triangles.empty()) s.BuildBoxes(BoxTree::kAll);
+  if (spheres_in_boxes || !geometry.triangles.empty()) s.BuildBoxes(BoxTree::kAll, cancel);
   s.tree = true;
 }
 
@@ -70,7 +70,9 @@ bool Intersector::SpheresAreNested() const { return state_->nested; }
 
 bool Intersector::HasShells() const { return state_->HasShells(); }
 
-void Intersector::BuildTriangleTree() { state_->BuildBoxes(BoxTree::kTriangles); }
+void Intersector::BuildTriangleTree(CancelPointer cancel) {
+  state_->BuildBoxes(BoxTree::kTriangles, cancel);
+}
 
 Intersector::~Intersector() = default;
 Intersector::Intersector(Intersector&&) noexcept = default;

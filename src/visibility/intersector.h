@@ -13,6 +13,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/cancel.h"
 #include "base/vec.h"
 #include "hit/batch.h"
 #include "scene/scene.h"
@@ -67,14 +68,14 @@ class Intersector {
   bool SpheresAreNested() const;
 
   // Makes what Closest and Occluded need, if it is not there: a tree of all, of boxes, or of shells
-  // for the spheres and of boxes for the triangles.
-  void BuildTree();
+  // for the spheres and of boxes for the triangles. Throws Cancelled; then there is no new tree.
+  void BuildTree(CancelPointer cancel = nullptr);
 
   // Whether the spheres are in shells: once BuildTree is called.
   bool HasShells() const;
 
   // Makes what NearerTriangles needs: a tree of the triangles alone.
-  void BuildTriangleTree();
+  void BuildTriangleTree(CancelPointer cancel = nullptr);
 
   // The first hit with t > 0 of each ray; kNoPrimitive and t = infinity where there is none.
   // Inside a sphere that is its far side. Where the ray starts on a surface, that surface is no

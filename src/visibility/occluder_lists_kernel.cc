@@ -250,7 +250,11 @@ void OccludedByListsT(const TraceGeometry& geometry, const OccluderLists& lists,
   for (size_t first = 0; first < rays->count;) {
     size_t end = first + 1;
     while (end < rays->count && start[end] == start[first]) ++end;
-    OccludedOfRun(geometry, lists, first, end, rays);
+    if (start[first] < lists.end.size()) {
+      OccludedOfRun(geometry, lists, first, end, rays);
+    } else {  // on the light's own triangles, which are black
+      std::fill(rays->occluded.data() + first, rays->occluded.data() + end, uint8_t{0});
+    }
     first = end;
   }
 }

@@ -90,6 +90,7 @@ void CheckEqual(const nacre::Image& session, const nacre::Image& process) {
     REQUIRE(own != nullptr);
     REQUIRE(own->samples == channel.samples);
   }
+  REQUIRE(session.metadata.at("nacre:sceneHash") == process.metadata.at("nacre:sceneHash"));
   REQUIRE(session.channels.size() == process.channels.size());
 }
 

@@ -32,6 +32,7 @@ void CheckEqual(const nacre::Image& a, const nacre::Image& b) {
     INFO(a.channels[i].name);
     REQUIRE(a.channels[i].samples == b.channels[i].samples);
   }
+  REQUIRE(a.metadata.at("nacre:sceneHash") == b.metadata.at("nacre:sceneHash"));
 }
 
 TEST_CASE("a session's pictures are those of its scene, change by change and back") {

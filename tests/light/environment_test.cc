@@ -4,7 +4,9 @@
 #include "light/environment.h"
 
 #include <cmath>
+#include <memory>
 #include <random>
+#include <vector>
 
 #include "catch.h"
 #include "chi_squared.h"
@@ -13,6 +15,12 @@
 
 namespace nacre {
 namespace {
+
+EnvironmentMap MakeMap(int width, int height, const std::vector<Vec3f>& texels, int threads = 1) {
+  const auto shared = std::make_shared<std::vector<Vec3f>>(texels);
+  return MakeEnvironmentMap(width, height, std::shared_ptr<const Vec3f[]>(shared, shared->data()),
+                            threads);
+}
 
 // Random texels with a sun of a thousand times their radiance, and some black ones.
 EnvironmentMap RandomMap(int width, int height) {
@@ -24,7 +32,7 @@ EnvironmentMap RandomMap(int width, int height) {
     texels.emplace_back(scale * unit(random), scale * unit(random), scale * unit(random));
   }
   texels[static_cast<size_t>(width * (height / 3) + width / 5)] = Vec3f(1000, 900, 700);
-  return MakeEnvironmentMap(width, height, texels);
+  return MakeMap(width, height, texels);
 }
 
 Vec3d RandomDirection(std::mt19937* random) {
@@ -62,13 +70,52 @@ TEST_CASE("a map that several threads make is that of one") {
   std::uniform_real_distribution<float> unit(0, 1);
   std::vector<Vec3f> texels;
   for (int i = 0; i < 19 * 37; ++i) texels.emplace_back(unit(random), 1e-41f * unit(random), 0.0f);
-  const EnvironmentMap one = MakeEnvironmentMap(19, 37, texels);
-  const EnvironmentMap several = MakeEnvironmentMap(19, 37, texels, 3);
-  for (size_t i = 0; i < texels.size(); ++i) {
-    REQUIRE(several.texels[i].pdf == one.texels[i].pdf);
-    REQUIRE(several.texels[i].green == one.texels[i].green);
-    REQUIRE(several.column_tables[i].upper == one.column_tables[i].upper);
-    REQUIRE(several.column_tables[i].first == one.column_tables[i].first);
+  const EnvironmentMap one = MakeMap(19, 37, texels);
+  const EnvironmentMap several = MakeMap(19, 37, texels, 3);
+  CHECK(several.sum == one.sum);
+  REQUIRE(one.blocks.size() == 2 * 37);
+  for (size_t i = 0; i < one.blocks.size(); ++i) {
+    REQUIRE(several.blocks[i].sum == one.blocks[i].sum);
+    REQUIRE(several.blocks[i].first == one.blocks[i].first);
+  }
+}
+
+TEST_CASE("columns are those that a table of all texels gives, bit for bit") {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> unit(0, 1);
+  for (const int width : {1, 2, 15, 16, 17, 33, 640, 1000}) {
+    CAPTURE(width);
+    std::vector<Vec3f> texels;
+    for (int x = 0; x < width; ++x) {
+      // Black ones, denormals, and suns among dim ones.
+      const float kind = unit(random);
+      const float scale = kind < 0.2f ? 0 : kind < 0.3f ? 1e-40f : kind < 0.31f ? 1e6f : 1;
+      texels.emplace_back(scale * unit(random), scale * unit(random), scale * unit(random));
+    }
+    texels[static_cast<size_t>(width / 2)] = Vec3f(3, 2, 1);
+    const EnvironmentMap map = MakeMap(width, 1, texels);
+    std::vector<double> luminances;
+    for (const Vec3f& texel : texels) luminances.push_back(TexelLuminance(texel));
+    const std::vector<CdfEntry> table = MakeInverseCdf(luminances);
+    const auto check = [&](double u) {
+      EnvironmentSearch search = FindRow(map, u, 0.5);
+      FindBlock(map, &search);
+      const CdfPick got = FindColumn(map, search), want = PickIndex(table, u);
+      if (got.index != want.index || got.remapped != want.remapped) {
+        CAPTURE(u, got.index, want.index, got.remapped, want.remapped);
+        FAIL("another texel, or another place in it");
+      }
+    };
+    for (int i = 0; i < 20000; ++i) check(static_cast<double>(random()) * 0x1p-32);
+    check(0);
+    check(1 - 0x1p-32);
+    // On the edges between texels, and a step to either side of them.
+    for (const CdfEntry& entry : table) {
+      for (const double u :
+           {entry.upper, std::nextafter(entry.upper, 0.0), std::nextafter(entry.upper, 1.0)}) {
+        if (u < 1) check(u);
+      }
+    }
   }
 }
 
@@ -98,9 +145,9 @@ TEST_CASE("samples follow the pdf: texels by their share, directions evenly with
     CAPTURE(width, height);
     const EnvironmentMap map = RandomMap(width, height);
     const auto columns = static_cast<size_t>(width);
-    std::vector<double> probabilities, counts(map.texels.size());
-    for (size_t i = 0; i < map.texels.size(); ++i) {
-      probabilities.push_back(map.texels[i].pdf *
+    std::vector<double> probabilities, counts(map.size());
+    for (size_t i = 0; i < map.size(); ++i) {
+      probabilities.push_back(TexelOf(map, i).pdf *
                               TexelSolidAngle(width, height, static_cast<int>(i / columns)));
     }
     // The two halves, by solid angle, of the sun's texel, which has enough samples.
@@ -111,9 +158,9 @@ TEST_CASE("samples follow the pdf: texels by their share, directions evenly with
       const double u0 = unit(random), u1 = unit(random);
       const EnvironmentSample<double> sample = SampleEnvironment<double>(map, u0, u1);
       REQUIRE(std::abs(sample.to_light.length() - 1) <= 1e-7);
-      const EnvironmentTexel& texel = TexelAt(map, sample.to_light);
+      const size_t index = TexelIndexAt(map, sample.to_light);
+      const EnvironmentTexel texel = TexelOf(map, index);
       if (sample.texel.pdf != texel.pdf) FAIL("the sample's pdf is that of another texel");
-      const auto index = static_cast<size_t>(&texel - map.texels.data());
       counts[index] += 1;
       if (texel.red == 1000) {
         const auto row = static_cast<double>(index / columns);
@@ -135,8 +182,8 @@ TEST_CASE("samples follow the pdf: texels by their share, directions evenly with
 TEST_CASE("the mean of radiance over pdf is the integral of radiance") {
   const EnvironmentMap map = RandomMap(32, 16);
   double integral = 0, mean = 0;
-  for (size_t i = 0; i < map.texels.size(); ++i) {
-    integral += map.texels[i].green * TexelSolidAngle(32, 16, static_cast<int>(i / 32));
+  for (size_t i = 0; i < map.size(); ++i) {
+    integral += TexelOf(map, i).green * TexelSolidAngle(32, 16, static_cast<int>(i / 32));
   }
   constexpr int kSteps = 1500;
   for (int i = 0; i < kSteps * kSteps; ++i) {
@@ -149,12 +196,12 @@ TEST_CASE("the mean of radiance over pdf is the integral of radiance") {
 }
 
 TEST_CASE("a black environment has no samples, and a black row none in it") {
-  const EnvironmentMap black = MakeEnvironmentMap(4, 2, std::vector<Vec3f>(8, Vec3f(0)));
+  const EnvironmentMap black = MakeMap(4, 2, std::vector<Vec3f>(8, Vec3f(0)));
   CHECK(SampleEnvironment<double>(black, 0.3, 0.4).texel.pdf == 0);
   CHECK(TexelAt(black, Vec3d(1, 0, 0)).pdf == 0);
   std::vector<Vec3f> half(8, Vec3f(0));
   half[6] = Vec3f(1);
-  const EnvironmentMap map = MakeEnvironmentMap(4, 2, half);
+  const EnvironmentMap map = MakeMap(4, 2, half);
   for (int i = 0; i < 100; ++i) {
     const EnvironmentSample<double> sample = SampleEnvironment<double>(map, i * 0.01, i * 0.01);
     CHECK(sample.to_light.y <= 0);

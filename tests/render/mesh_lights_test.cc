@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/render/mesh_lights_test.cc: pictures under lights made of triangles, against the lights
 // that they are the same as, or come near to.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -238,6 +239,34 @@ TEST_CASE("pictures under lights of triangles do not depend on threads, tiles or
       CHECK(std::memcmp(a.data(), other.Find(channel)->samples.data(), 4 * a.size()) == 0);
     }
   }
+}
+
+TEST_CASE(
+    "where spheres alone are in the way of a light of triangles, lists find the same shadows") {
+  Scene scene = OneSphere(MetallicRoughnessMaterial{}, 48, 64);
+  scene.spheres.push_back({Vec3d(0.8, 0.9, 0.9), 0.3, {0}});  // in the way
+  scene.camera.fov_y_deg = 100;                               // sees the light
+  scene.image.spp = 4;
+  scene.lights = {MeshLightOf(
+      MakeMesh(Icosphere{.center = {1, 2, 2}, .radius = 0.5, .subdivisions = 2}), false, true)};
+  RenderSettings settings;
+  settings.layers = {"id.object"};
+  const FramePlan plan = MakePlan(scene, settings);
+  CHECK(plan.direct.sampled_lights.at(0).occluders != kAnyLight);
+  const Image lists = RenderImage(plan, settings, nullptr);
+  settings.intersector = IntersectorChoice::kEmbree;
+  const FramePlan other = MakePlan(scene, settings);
+  CHECK(other.direct.sampled_lights.at(0).occluders == kAnyLight);
+  const Image tree = RenderImage(other, settings, nullptr);
+  for (const char* channel : {"R", "G", "B", "id.object"}) {
+    CHECK(lists.Find(channel)->samples == tree.Find(channel)->samples);
+  }
+  const std::vector<float>& objects = lists.Find("id.object")->samples;
+  CHECK(std::count(objects.begin(), objects.end(), 3.0f) > 0);  // the light itself
+  // A triangle of something else may be in the way.
+  scene.meshes.push_back(MakeMesh(Icosphere{.center = {0.5, 1, 1}, .radius = 0.2}));
+  scene.meshes.back().material = {0};
+  CHECK(MakePlan(scene, {}).direct.sampled_lights.at(0).occluders == kAnyLight);
 }
 
 }  // namespace

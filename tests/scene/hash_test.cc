@@ -2,7 +2,9 @@
 // tests/scene/hash_test.cc: a scene's fingerprint tells every value that shows from another.
 #include "scene/hash.h"
 
+#include <memory>
 #include <set>
+#include <vector>
 
 #include "catch.h"
 #include "scene/material_parameters.h"
@@ -104,6 +106,67 @@ TEST_CASE("every value of an array counts, and where it stands") {
     }
     CHECK(HashShapes(scene) == hash);
   }
+}
+
+// Pieces of an array are hashed on their own, and mixed in their order.
+TEST_CASE("of long arrays it counts which piece a value is in") {
+  Scene scene = MakeScene();
+  std::vector<float>& opacities = scene.meshes[0].opacities;
+  constexpr size_t kPiece = size_t{1} << 18;  // values
+  opacities.assign(3 * kPiece + 5, 0.5f);
+  std::set<uint64_t> hashes = {HashShapes(scene)};
+  for (const size_t i : {size_t{7}, kPiece + 7, 2 * kPiece + 7, 3 * kPiece + 4}) {
+    opacities[i] = 0.25f;
+    CHECK(hashes.insert(HashShapes(scene)).second);
+    opacities[i] = 0.5f;
+  }
+}
+
+std::shared_ptr<SkyPicture> MakePicture(float value) {
+  return std::make_shared<SkyPicture>(SkyPicture{1, 1, {value, value, value}});
+}
+
+void ShowSky(const std::shared_ptr<SkyPicture>& picture, Scene* scene) {
+  scene->lights.resize(1);
+  Light& sky = scene->lights.emplace_back();
+  sky.name = "sky";
+  sky.kind = EnvironmentLight{.sky = PictureSky{.picture = picture}};
+}
+
+TEST_CASE("hashes that are kept give that of the scene, whatever changes") {
+  Scene scene = MakeScene();
+  KeptHashes kept;
+  const auto check = [&] {
+    kept.shapes = HashShapes(scene);
+    CHECK(HashScene(scene, &kept) == HashScene(scene));
+    CHECK(HashScene(scene, &kept) == HashScene(scene));
+  };
+  check();
+  ShowSky(MakePicture(1), &scene);
+  check();
+  CHECK(kept.shared.size() == 1);
+  scene.materials.pop_back();
+  check();
+  ShowSky(MakePicture(2), &scene);
+  check();
+  CHECK(kept.shared.size() == 1);  // the other one is let go
+  scene.spheres.pop_back();
+  check();
+}
+
+TEST_CASE("what is shared, and shapes that are the same, are hashed once") {
+  Scene scene = MakeScene();
+  const auto picture = MakePicture(1);
+  ShowSky(picture, &scene);
+  KeptHashes kept;
+  kept.shapes = HashShapes(scene);
+  const uint64_t hash = HashScene(scene, &kept);
+  // Against the rules, so that it would show.
+  picture->rgb[0] = 2;
+  scene.spheres.pop_back();
+  CHECK(HashScene(scene, &kept) == hash);
+  scene.image.spp = 17;
+  CHECK(HashScene(scene, &kept) != hash);
 }
 
 }  // namespace

@@ -317,5 +317,41 @@ TEST_CASE("Files change once they have come to rest", "[live_scene]") {
   CHECK(files.Changed(milliseconds(0)));
 }
 
+// The mesh's file is gone: it could not be read again.
+TEST_CASE("A material is changed without reading shapes again, which have materials of their own",
+          "[live_scene]") {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / "nacre_live_scene_materials";
+  std::filesystem::create_directories(folder);
+  std::filesystem::copy_file(kScenes / "textures" / "tiles.png", folder / "tiles.png",
+                             std::filesystem::copy_options::overwrite_existing);
+  std::ofstream(folder / "mesh.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
+                                        "f 1/1 2/2 3/3\n";
+  const std::string scene = R"({"nacre": 1, "textures": {"tiles": {"file": "tiles.png"}},
+      "materials": {"red": {"model": "lambert"}, "blue": {"model": "lambert"}},
+      "shapes": [{"type": "mesh", "file": "mesh.obj",
+                  "material": {"model": "lambert", "albedo_map": "tiles"}},
+                 {"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "blue"}]})";
+  std::ofstream(folder / "scene.json") << scene;
+  LiveScene live(folder / "scene.json", {});
+  LoadOptions fresh;
+  const auto whole = [&] { return Describe(LoadScene(folder / "scene.json", fresh)); };
+  fresh.overrides.emplace_back("/materials/blue/albedo", "0.25");
+  const std::string changed = whole();
+  fresh.overrides.emplace_back("/materials/blue/albedo_map", "\"tiles\"");
+  const std::string mapped = whole();
+  std::filesystem::rename(folder / "mesh.obj", folder / "gone.obj");
+  live.Set("/materials/blue/albedo", "0.25");
+  CHECK(Describe(live.scene()) == changed);
+  // Not so where the shapes' textures move to other places, or change.
+  CHECK_THROWS_AS(live.Set("/materials/blue/albedo_map", "\"tiles\""), Error);
+  CHECK_THROWS_AS(live.Set("/textures/tiles/scale", "2"), Error);
+  CHECK(Describe(live.scene()) == changed);
+  std::filesystem::rename(folder / "gone.obj", folder / "mesh.obj");
+  live.Set("/materials/blue/albedo_map", "\"tiles\"");
+  CHECK(Describe(live.scene()) == mapped);
+  std::filesystem::remove_all(folder);
+}
+
 }  // namespace
 }  // namespace nacre

@@ -3,10 +3,16 @@
 // depend on batches, packets and targets.
 #include "visibility/intersector.h"
 
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "base/cancel.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "catch.h"
 #include "targets.h"
+#include "visibility/box_trees.h"
 #include "visibility/rays.h"
 
 namespace nacre {
@@ -354,6 +360,48 @@ TEST_CASE("padding repeats the last hit") {
   }
   intersector.Refine(rays, closest, nullptr, 0, to);
   CHECK(hits.count == 0);
+}
+
+// A tree of spheres that takes some ten milliseconds.
+Scene LargeCloud(Random* random) { return RandomSpheres(random, 60000); }
+
+TEST_CASE("a build of a tree that is ended leaves none, and the next one is whole") {
+  if (EmbreeVersion() == nullptr) return;
+  Random random(31);
+  const Scene scene = LargeCloud(&random);
+  const std::vector<Ray> rays = CameraRays(&random, 500);
+  const std::vector<Hit> hits = Trace(Intersector(scene, Vec3d(0)), rays);
+  Intersector ended(scene, Vec3d(0), {.tree = false});
+  std::atomic<bool> cancel = true;
+  CHECK_THROWS_AS(ended.BuildTree(&cancel), Cancelled);
+  CHECK_THROWS_AS(ended.BuildTree(&cancel), Cancelled);
+  cancel = false;
+  ended.BuildTree(&cancel);
+  CHECK(Trace(ended, rays) == hits);
+}
+
+TEST_CASE("a build of a tree is ended by another thread, at any time") {
+  if (EmbreeVersion() == nullptr) return;
+  Random random(32);
+  const Scene scene = LargeCloud(&random);
+  const std::vector<Ray> rays = CameraRays(&random, 100);
+  const std::vector<Hit> hits = Trace(Intersector(scene, Vec3d(0)), rays);
+  for (int i = 0; i < 12; ++i) {
+    Intersector intersector(scene, Vec3d(0), {.tree = false});
+    std::atomic<bool> cancel = false;
+    std::thread other([&] {
+      std::this_thread::sleep_for(std::chrono::microseconds(1000 * i));
+      cancel = true;
+    });
+    try {
+      intersector.BuildTree(&cancel);
+    } catch (const Cancelled&) {
+      other.join();
+      intersector.BuildTree();
+    }
+    if (other.joinable()) other.join();
+    REQUIRE(Trace(intersector, rays) == hits);
+  }
 }
 
 }  // namespace
