@@ -125,9 +125,14 @@ py::object ToPython(nacre::Image&& image) {
 
 nacre::Image FromPython(const py::object& image) {
   nacre::Image result;
-  result.frame = WindowOf(image.attr("frame"));
-  result.data = WindowOf(image.attr("data"));
-  result.metadata = image.attr("metadata").cast<std::map<std::string, std::string>>();
+  try {
+    result.frame = WindowOf(image.attr("frame"));
+    result.data = WindowOf(image.attr("data"));
+    result.metadata = image.attr("metadata").cast<std::map<std::string, std::string>>();
+  } catch (const py::cast_error&) {
+    throw py::type_error(
+        "an image's frame and data are nacre.Window, and its metadata texts by name");
+  }
   const auto block = image.attr("_block").cast<py::array_t<float, py::array::c_style>>();
   const auto names = image.attr("_names").cast<std::vector<std::string>>();
   const auto types = image.attr("_types").cast<std::vector<std::string>>();

@@ -6,6 +6,7 @@ from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 
+from ._arguments import real, whole
 from ._brdf import Brdf, Function
 from ._image import Array, Comparison, Image, Picture, difference
 from ._scene import Scene
@@ -238,7 +239,7 @@ def _hints(found: Check, known: List[str]) -> List[str]:
     return hints
 
 
-def check(model: Union[Function, Brdf], against: Union[str, Brdf, None] = None, *,
+def check(model: Union[Function, Brdf], against: Union[str, Function, Brdf, None] = None, *,
           tolerance: float = 1e-3, size: int = 192, quiet: bool = False, **parameters: Any) -> Check:
     """Checks a BRDF, prints one page, and returns its numbers.
 
@@ -246,7 +247,7 @@ def check(model: Union[Function, Brdf], against: Union[str, Brdf, None] = None, 
                     shadowing="separable", compensation="none")
 
     model: a function, as of `nacre.Brdf`, or a Brdf.
-    against: a Brdf, or the name of one of nacre's models, with its parameters; None: nothing.
+    against: another such, or the name of one of nacre's models, with its parameters; None: nothing.
     tolerance: the relative difference from it that is right.
     size: of the pictures of a ball, in pixels.
     quiet: prints nothing.
@@ -257,9 +258,14 @@ def check(model: Union[Function, Brdf], against: Union[str, Brdf, None] = None, 
     angles. An error of the function itself comes out of it.
     """
     brdf = model if isinstance(model, Brdf) else Brdf(model)
-    other = Brdf(against, **parameters) if isinstance(against, str) else against
+    other = (against if against is None or isinstance(against, Brdf) else
+             Brdf(against, **(parameters if isinstance(against, str) else {})))
     if parameters and not isinstance(against, str):
         raise TypeError("parameters are those of the model that `against` names")
+    if not real(tolerance, "tolerance") > 0:
+        raise ValueError(f"tolerance is above 0, not {tolerance}")
+    if whole(size, "size") < 1:
+        raise ValueError(f"size is a number of pixels, not {size}")
     theta, phi = np.array(_THETA), np.array(_PHI)
     light = _direction(theta[:, None, None], phi)
     view = _direction(theta[:, None], np.array(0.0))
