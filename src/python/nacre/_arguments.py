@@ -46,13 +46,13 @@ def real(value: Any, name: str) -> float:
         raise TypeError(f"{name} is a number, not {value!r}") from None
 
 
-def numbers(values: Any, name: str) -> np.ndarray:
-    """An array of real numbers of any type. Where some are masked none can stand for them."""
+def numbers(values: Any, name: str, kinds: str = "fiu") -> np.ndarray:
+    """An array of real numbers of any type. Nothing stands for those that are masked."""
     try:
         array = np.asarray(values)
     except ValueError as error:  # rows of different lengths
         raise ValueError(f"{name} is no array: {error}") from None
-    if array.dtype.kind not in "fiu":
+    if array.dtype.kind not in kinds:
         raise TypeError(f"{name} is an array of {array.dtype}, not of real numbers")
     refuse_masked(values, name)
     return array

@@ -156,10 +156,7 @@ class Image:
                 raise TypeError(f"image: the name of a channel is a text, not {name!r}")
             if not name.isprintable() or not name.rpartition(".")[2]:
                 raise ValueError(f"image: {name!r} is no name of a channel")
-            refuse_masked(values, f"image: {name}")
-            array = np.asarray(values)
-            if array.dtype.kind not in "fiub":
-                raise TypeError(f"image: {name} is an array of {array.dtype}, not of real numbers")
+            array = numbers(values, f"image: {name}", "fiub")
             if array.ndim == 3 and array.shape[2] == 3:
                 prefix = "" if name == "beauty" else name + "."
                 parts = _VECTORS if name in ("N", "P") else _COLORS
@@ -253,7 +250,7 @@ class Image:
     def __setitem__(self, name: str, values: Any) -> None:
         view = self[name]
         if view is not values:
-            view[...] = numbers(values, name)
+            view[...] = numbers(values, name, "fiub")
 
     def copy(self) -> "Image":
         """One that shares no memory with this one."""

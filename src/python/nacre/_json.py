@@ -14,7 +14,7 @@ def to_json(value: Any, what: str) -> str:
     """The JSON text of a value that may hold numpy's numbers and arrays."""
     def plain(other: Any) -> Any:
         if isinstance(other, (np.ndarray, np.generic)):
-            refuse_masked(other, what)
+            refuse_masked(other, "the array")
             return other.tolist()
         if isinstance(other, os.PathLike):
             return os.fspath(other)
