@@ -71,6 +71,40 @@ def _named(planes: List[Array]) -> Dict[str, Array]:
     return dict(zip(("normal", "to_view", "to_light"), planes))
 
 
+def _hemisphere(cosine: float) -> Tuple[Array, Array, Array]:
+    """A viewer at n.v = cosine about +z, and a quadrature over directions to light: (i, j, 3), and their
+    weights. By circles about the mirror direction, each as far as it is above the horizon."""
+    sine = float(np.sqrt((1 - cosine) * (1 + cosine)))
+    mirror = np.array([-sine, 0, cosine])
+    along, across = np.array([cosine, 0, sine]), np.array([0.0, 1, 0])
+    gauss: Any = np.polynomial.legendre.leggauss
+    # Of the circles' radii: panels that halve towards the mirror direction, with an edge where
+    # circles begin to touch the horizon.
+    touch = float(np.arctan2(cosine, sine))
+    edges = np.unique([0, touch, *((np.pi - touch) * 0.5**np.arange(13))])
+    nodes, weights = gauss(6)
+    radius = (edges[:-1, None] + np.diff(edges)[:, None] * (nodes + 1) / 2).reshape(-1, 1)
+    w_radius = (np.diff(edges)[:, None] * weights / 2).reshape(-1, 1) * np.sin(radius)
+    # Whole circles by equal steps, closer where lobes of grazing viewers are narrow: these are
+    # about `cosine` times as wide across the plane of incidence as along it.
+    count = 96
+    step = (np.arange(count) + 0.5) * (2 * np.pi / count)
+    squeeze = np.clip(radius, cosine, 1)
+    whole = np.arctan2(squeeze * np.sin(step), np.cos(step))
+    w_whole = squeeze / (np.cos(step)**2 + (squeeze * np.sin(step))**2) * (2 * np.pi / count)
+    # Arcs by Gauss's rule, closer about their middle for the same reason.
+    end = np.arccos(np.clip(-cosine * np.cos(radius) / np.maximum(sine * np.sin(radius), 1e-300),
+                            -1, 1))
+    x, w_x = gauss(count)
+    is_arc = end < np.pi
+    phi = np.where(is_arc, end * (0.05 * x + 0.95 * x**3), whole)
+    w_phi = np.where(is_arc, end * (0.05 + 2.85 * x**2) * w_x, w_whole)
+    light = (np.cos(radius)[..., None] * mirror + (np.sin(radius) * np.cos(phi))[..., None] * along +
+             (np.sin(radius) * np.sin(phi))[..., None] * across)
+    light /= np.linalg.norm(light, axis=-1, keepdims=True)
+    return np.array([sine, 0, cosine]), light, w_radius * w_phi
+
+
 def _of_material(material: Dict[str, Any]) -> "Brdf":
     """What pickle makes of one of nacre's models."""
     parameters = dict(material)
@@ -347,38 +381,9 @@ class Brdf:
         return result.reshape(cosines.shape + (3,))
 
     def _integrate(self, cosine: float) -> Array:
-        """int f n.l dl over the hemisphere: by circles about the mirror direction, each as far as it is
-        above the horizon."""
-        sine = float(np.sqrt((1 - cosine) * (1 + cosine)))
-        mirror = np.array([-sine, 0, cosine])
-        along, across = np.array([cosine, 0, sine]), np.array([0.0, 1, 0])
-        gauss: Any = np.polynomial.legendre.leggauss
-        # Of the circles' radii: panels that halve towards the mirror direction, with an edge where
-        # circles begin to touch the horizon.
-        touch = float(np.arctan2(cosine, sine))
-        edges = np.unique([0, touch, *((np.pi - touch) * 0.5**np.arange(13))])
-        nodes, weights = gauss(6)
-        radius = (edges[:-1, None] + np.diff(edges)[:, None] * (nodes + 1) / 2).reshape(-1, 1)
-        w_radius = (np.diff(edges)[:, None] * weights / 2).reshape(-1, 1) * np.sin(radius)
-        # Whole circles by equal steps, closer where lobes of grazing viewers are narrow: these are
-        # about `cosine` times as wide across the plane of incidence as along it.
-        count = 96
-        step = (np.arange(count) + 0.5) * (2 * np.pi / count)
-        squeeze = np.clip(radius, cosine, 1)
-        whole = np.arctan2(squeeze * np.sin(step), np.cos(step))
-        w_whole = squeeze / (np.cos(step)**2 + (squeeze * np.sin(step))**2) * (2 * np.pi / count)
-        # Arcs by Gauss's rule, closer about their middle for the same reason.
-        end = np.arccos(np.clip(-cosine * np.cos(radius) / np.maximum(sine * np.sin(radius), 1e-300),
-                                -1, 1))
-        x, w_x = gauss(count)
-        is_arc = end < np.pi
-        phi = np.where(is_arc, end * (0.05 * x + 0.95 * x**3), whole)
-        w_phi = np.where(is_arc, end * (0.05 + 2.85 * x**2) * w_x, w_whole)
-        light = (np.cos(radius)[..., None] * mirror + (np.sin(radius) * np.cos(phi))[..., None] * along +
-                 (np.sin(radius) * np.sin(phi))[..., None] * across)
-        light /= np.linalg.norm(light, axis=-1, keepdims=True)
-        reflected = self.evaluate([0.0, 0, 1], [sine, 0, cosine], light)
-        albedo: Array = np.einsum("ijk,ij->k", reflected, w_radius * w_phi)
+        """int f n.l dl over the hemisphere."""
+        view, light, weights = _hemisphere(cosine)
+        albedo: Array = np.einsum("ijk,ij->k", self.evaluate([0.0, 0, 1], view, light), weights)
         return albedo
 
     def terms(self, normal: Any, to_view: Any, to_light: Any) -> Dict[str, Array]:
