@@ -26,6 +26,7 @@ def test_a_right_model_passes(capsys):
     assert found.error.max() < 1e-6 and found.values.shape == found.reference.shape
     assert found.comparison.layers["beauty"].max_abs < 1e-4
     assert found.picture().pixels.shape[0] == 64
+    assert repr(found) == "<nacre.Check of brdf: ok>"  # as the last line of a notebook's cell
 
 
 @pytest.mark.parametrize("wrong, hint", [

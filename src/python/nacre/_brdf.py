@@ -162,7 +162,12 @@ class Brdf:
     Directions are arrays of shape (..., 3) that broadcast against one another, of unit length, and
     point away from the surface. Where light or viewer is not above it, nothing is reflected. Of
     nacre's models maps, emission, ambient light and the lobe of a perfect mirror (roughness below
-    2^-20) are left out.
+    2^-20) are left out. scenes/README.md lists their parameters, with the papers that they are from.
+
+    Calls raise `nacre.Error` for vectors that are not finite and unit, with the number of the first (its
+    |v|^2 may be off by 1e-6, which float32 makes of it), and for what functions return that is not
+    finite or of another shape; ValueError for shapes that do not broadcast; TypeError for what is no
+    array of real numbers.
     """
 
     def __init__(self, model: Union[str, Function], *, sample: Optional[Callable[..., Any]] = None,

@@ -34,7 +34,7 @@ class Verdict(NamedTuple):
     text: str
 
 
-@dataclasses.dataclass
+@dataclasses.dataclass(repr=False, eq=False)
 class Check:
     """What `check` has found. True where all verdicts are; str(check) is its page.
 
@@ -91,6 +91,10 @@ class Check:
                       f"difference {m.max_abs:.3g} of a mean of {m.mean_reference:.3g}"]
         lines.append(f"  cost: {1e9 * self.seconds:.0f} ns a sample")
         return "\n".join(lines)
+
+    def __repr__(self) -> str:
+        wrong = [name for name, verdict in self.verdicts.items() if not verdict.ok]
+        return f"<nacre.Check of {self.name}: {'FAIL: ' + ', '.join(wrong) if wrong else 'ok'}>"
 
     def picture(self) -> Picture:
         """The ball with the model, with the reference, and where their radiance differs."""

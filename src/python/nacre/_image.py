@@ -72,29 +72,44 @@ class Picture:
 
 @dataclasses.dataclass
 class LayerMetrics:
-    """How far a layer is from the reference's."""
+    """How far a layer is from the reference's.
+
+    samples: how many were compared. mean, mean_reference: of them.
+    rmse: the root of the mean of difference^2.
+    rel_mse: the mean of difference^2 / (reference^2 + 1e-4).
+    psnr_db: in decibels, relative to the reference's largest magnitude.
+    max_abs: the largest |difference|. max_rel: of |difference| / |reference|, where that is not 0;
+        zero_mismatches: how many samples differ where it is 0.
+    ssim, flip, hdr_flip: with perceptual=True, of layers that are colours; else None. SSIM (Wang et al.
+        2004) is 1 for equal images, FLIP (Andersson et al. 2020, 2021) 0.
+    """
 
     layer: str
     samples: int
     rmse: float
-    rel_mse: float  #: the mean of difference^2 / (reference^2 + 1e-4)
-    psnr_db: float  #: relative to the reference's largest magnitude
+    rel_mse: float
+    psnr_db: float
     max_abs: float
-    max_rel: float  #: of |difference| / |reference|, where the reference is not 0
-    zero_mismatches: int  #: samples that differ where the reference is 0
+    max_rel: float
+    zero_mismatches: int
     mean: float
     mean_reference: float
-    ssim: Optional[float] = None  #: with perceptual=True, of layers that are colours
+    ssim: Optional[float] = None
     flip: Optional[float] = None
     hdr_flip: Optional[float] = None
 
 
-@dataclasses.dataclass
+@dataclasses.dataclass(repr=False)
 class Comparison:
-    """What `compare` finds. True where the images match."""
+    """What `compare` finds. True where the images match; str(comparison) is a line for each layer.
+
+    match: whether all layers are within the tolerances; reason: why not, in words.
+    pixels, exceeding_pixels: how many there are, and how many are beyond the tolerances.
+    layers: a `LayerMetrics` by name.
+    """
 
     match: bool
-    reason: str  #: in words
+    reason: str
     pixels: int
     exceeding_pixels: int
     layers: Dict[str, LayerMetrics]
@@ -105,12 +120,14 @@ class Comparison:
     def __str__(self) -> str:
         lines = ["match" if self.match else f"no match: {self.reason}"]
         for m in self.layers.values():
-            numbers = [("rmse", m.rmse), ("relMSE", m.rel_mse), ("PSNR", m.psnr_db),
-                       ("max", m.max_abs), ("SSIM", m.ssim), ("FLIP", m.flip),
-                       ("HDR-FLIP", m.hdr_flip)]
+            numbers_of = [("rmse", m.rmse), ("relMSE", m.rel_mse), ("PSNR", m.psnr_db),
+                          ("max", m.max_abs), ("SSIM", m.ssim), ("FLIP", m.flip),
+                          ("HDR-FLIP", m.hdr_flip)]
             lines.append(f"{m.layer:12} " + "  ".join(
-                f"{name} {number:.4g}" for name, number in numbers if number is not None))
+                f"{name} {number:.4g}" for name, number in numbers_of if number is not None))
         return "\n".join(lines)
+
+    __repr__ = __str__
 
 
 _COLORS, _VECTORS = ("R", "G", "B"), ("X", "Y", "Z")
@@ -203,10 +220,12 @@ class Image:
 
     @property
     def width(self) -> int:
+        """In pixels, of the channels."""
         return self.data.x1 - self.data.x0
 
     @property
     def height(self) -> int:
+        """In pixels, of the channels."""
         return self.data.y1 - self.data.y0
 
     @property
@@ -237,6 +256,8 @@ class Image:
         return iter(self.layers)
 
     def __getitem__(self, name: str) -> Array:
+        """A channel, of shape (height, width), or a layer, of shape (height, width, 3): a view. KeyError
+        where there is no such."""
         if name in self._names:
             i = self._names.index(name)
             return self._block[i].view(np.uint32) if self._types[i] == "uint" else self._block[i]
@@ -248,6 +269,7 @@ class Image:
         raise KeyError(f"the image has no channel or layer {name!r}; it has {', '.join(self)}")
 
     def __setitem__(self, name: str, values: Any) -> None:
+        """Of a channel or layer that there is: what broadcasts to its shape."""
         view = self[name]
         if view is not values:
             view[...] = numbers(values, name, "fiub")

@@ -239,18 +239,22 @@ class Scene(_Values):
 
     @property
     def sphere_count(self) -> int:
+        """Of all shapes together. Raises `nacre.Error` where the scene is wrong."""
         return self._native.sphere_count()
 
     @property
     def mesh_count(self) -> int:
+        """Of all shapes together. Raises `nacre.Error` where the scene is wrong."""
         return self._native.mesh_count()
 
     @property
     def material_names(self) -> List[str]:
+        """In the scene's order."""
         return self._native.material_names()
 
     @property
     def light_names(self) -> List[str]:
+        """In the scene's order."""
         return self._native.light_names()
 
     def render(self, *, width: Optional[int] = None, height: Optional[int] = None,
