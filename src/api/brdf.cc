@@ -2,6 +2,8 @@
 // api/brdf.cc: reflection models of the public API, in double and through the kernels.
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -161,6 +163,28 @@ class Batch {
   ReflectedRadiance radiance_, of_coat_;
 };
 
+// A thread's batch, which it keeps for its next call: to make one takes as long as to shade some
+// hundred pairs. None while a call of the thread's uses it, of which a caller's own model may make
+// another.
+class BorrowedBatch {
+ public:
+  BorrowedBatch() : batch_(std::move(Kept())) {
+    if (!batch_) batch_ = std::make_unique<Batch>();
+  }
+  ~BorrowedBatch() { Kept() = std::move(batch_); }
+  BorrowedBatch(const BorrowedBatch&) = delete;
+  BorrowedBatch& operator=(const BorrowedBatch&) = delete;
+  Batch* operator->() { return batch_.get(); }
+
+ private:
+  static std::unique_ptr<Batch>& Kept() {
+    static thread_local std::unique_ptr<Batch> kept;
+    return kept;
+  }
+
+  std::unique_ptr<Batch> batch_;
+};
+
 }  // namespace
 
 Brdf::Brdf(const std::string& model, const Parameters& parameters) {
@@ -205,12 +229,12 @@ Reflections Brdf::Shade(const Directions& directions) const {
     if (directions.count == 0) return result;
     CheckUnits(directions, "Shade");
     const FlushDenormals flush;  // as in renders
-    Batch batch;
+    BorrowedBatch batch;
     for (size_t begin = 0; begin < directions.count; begin += kBatchCapacity) {
       const size_t count = std::min(kBatchCapacity, directions.count - begin);
-      batch.Shade(impl_->material, directions, begin, count);
-      CopyFrom(batch.radiance().diffuse, begin, count, &result.diffuse);
-      CopyFrom(batch.radiance().specular, begin, count, &result.specular);
+      batch->Shade(impl_->material, directions, begin, count);
+      CopyFrom(batch->radiance().diffuse, begin, count, &result.diffuse);
+      CopyFrom(batch->radiance().specular, begin, count, &result.specular);
     }
     return result;
   });

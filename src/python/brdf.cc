@@ -65,20 +65,27 @@ class Function {
   std::shared_ptr<py::object> function_;
 };
 
+// Of an array that need not be aligned.
+double NumberAt(const char* place) {
+  double number;
+  std::memcpy(&number, place, sizeof number);
+  return number;
+}
+
 // Copies rows [begin, begin + count) to planes that are `stride` apart.
 void CopyRows(const Rows& rows, size_t begin, size_t count, double* planes, size_t stride) {
   const auto step = rows.strides(0), across = rows.strides(1);
   const char* row =
       reinterpret_cast<const char*>(rows.data()) + static_cast<py::ssize_t>(begin) * step;
   for (size_t i = 0; i < count; ++i, row += step) {
-    planes[i] = *reinterpret_cast<const double*>(row);
-    planes[stride + i] = *reinterpret_cast<const double*>(row + across);
-    planes[2 * stride + i] = *reinterpret_cast<const double*>(row + 2 * across);
+    planes[i] = NumberAt(row);
+    planes[stride + i] = NumberAt(row + across);
+    planes[2 * stride + i] = NumberAt(row + 2 * across);
   }
 }
 
-// Brdf::Shade of rows of vectors, in pieces: large, because each call makes its own buffers, which
-// takes 0.1 ms, and bounded, so that memory is. Returns the sum, or both components.
+// Brdf::Shade of rows of vectors, in pieces, so that memory is bounded and Ctrl-C is heard. Returns
+// the sum, or both components.
 py::object ShadeRows(const nacre::Brdf& brdf, const Rows& normal, const Rows& to_view,
                      const Rows& to_light, bool components) {
   const auto count = static_cast<size_t>(normal.shape(0));
@@ -94,6 +101,10 @@ py::object ShadeRows(const nacre::Brdf& brdf, const Rows& normal, const Rows& to
       return std::array<const double*, 3>{x, x + stride, x + 2 * stride};
     };
     for (size_t begin = 0; begin < count; begin += stride) {
+      if (begin != 0) {
+        const py::gil_scoped_acquire acquire;
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      }
       const size_t size = std::min(stride, count - begin);
       CopyRows(normal, begin, size, planes.data(), stride);
       CopyRows(to_view, begin, size, planes.data() + 3 * stride, stride);

@@ -10,6 +10,7 @@
 #include <list>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 #include <utility>
 
@@ -77,6 +78,9 @@ class FunctionLock {
   FunctionLock(const FunctionLock&) = delete;
   FunctionLock& operator=(const FunctionLock&) = delete;
 
+  // Whether this thread is in such a function.
+  static bool IsHere() { return Held() != nullptr; }
+
   // Of a child after a fork, in which no function runs.
   static void Reset() { new (&TheMutex()) std::timed_mutex; }
 
@@ -117,6 +121,10 @@ class Running {
  public:
   explicit Running(const std::function<void()>* stop) {
     if (Ending()) ExitThread();
+    if (FunctionLock::IsHere() && Stops().size() >= kMostNested) {
+      Refuse("render", std::to_string(kMostNested) + " renders wait for functions that render",
+             "does a function render its own scene?");
+    }
     place_ = Stops().insert(Stops().end(), stop);
   }
   ~Running() { Stops().erase(place_); }
@@ -147,6 +155,8 @@ class Running {
   }
 
  private:
+  static constexpr size_t kMostNested = 64;
+
   static std::list<const std::function<void()>*>& Stops() {
     static std::list<const std::function<void()>*> stops;
     return stops;

@@ -9,6 +9,7 @@
 #include <pybind11/stl.h>
 
 #include "python/guard.h"
+#include "python/text.h"
 
 namespace nacre_python {
 namespace {
@@ -44,7 +45,7 @@ nacre::Picture PictureOf(const Bytes& pixels) {
   return picture;
 }
 
-py::bytes BytesOf(const std::vector<uint8_t>& bytes) {
+py::bytes FileOf(const std::vector<uint8_t>& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
@@ -107,7 +108,7 @@ py::object ToPython(nacre::Image&& image) {
   py::list names, types;
   float* to = block.mutable_data();
   for (nacre::Channel& channel : image.channels) {
-    names.append(channel.name);
+    names.append(TextOf(channel.name));
     types.append(kTypes[static_cast<size_t>(channel.type)]);
     const std::vector<float> samples = std::move(channel.samples);
     if (channel.type == nacre::SampleType::kUint) {
@@ -118,18 +119,29 @@ py::object ToPython(nacre::Image&& image) {
     }
     to += width * height;
   }
+  py::dict metadata;
+  for (const auto& [key, value] : image.metadata) metadata[TextOf(key)] = TextOf(value);
   return py::module_::import("nacre._image")
       .attr("Image")
-      .attr("_of")(block, names, types, ToTuple(image.frame), ToTuple(image.data), image.metadata);
+      .attr("_of")(block, names, types, ToTuple(image.frame), ToTuple(image.data), metadata);
 }
 
 nacre::Image FromPython(const py::object& image) {
   nacre::Image result;
-  result.frame = WindowOf(image.attr("frame"));
-  result.data = WindowOf(image.attr("data"));
-  result.metadata = image.attr("metadata").cast<std::map<std::string, std::string>>();
+  try {
+    result.frame = WindowOf(image.attr("frame"));
+    result.data = WindowOf(image.attr("data"));
+    for (const auto& [key, value] : image.attr("metadata").cast<py::dict>()) {
+      if (!py::isinstance<py::str>(key) || !py::isinstance<py::str>(value)) throw py::cast_error();
+      result.metadata[BytesOf(key)] = BytesOf(value);
+    }
+  } catch (const py::cast_error&) {
+    throw py::type_error(
+        "an image's frame and data are nacre.Window, and its metadata texts by name");
+  }
   const auto block = image.attr("_block").cast<py::array_t<float, py::array::c_style>>();
-  const auto names = image.attr("_names").cast<std::vector<std::string>>();
+  std::vector<std::string> names;
+  for (const py::handle name : image.attr("_names")) names.push_back(BytesOf(name));
   const auto types = image.attr("_types").cast<std::vector<std::string>>();
   const size_t count = static_cast<size_t>(block.shape(1) * block.shape(2));
   const float* from = block.data();
@@ -177,9 +189,9 @@ void BindImages(py::module_* module) {
     return PixelsOf(picture);
   });
   module->def("encode_png",
-              [](const Bytes& pixels) { return BytesOf(nacre::EncodePng(PictureOf(pixels))); });
+              [](const Bytes& pixels) { return FileOf(nacre::EncodePng(PictureOf(pixels))); });
   module->def("encode_jpeg", [](const Bytes& pixels, int quality) {
-    return BytesOf(nacre::EncodeJpeg(PictureOf(pixels), quality));
+    return FileOf(nacre::EncodeJpeg(PictureOf(pixels), quality));
   });
   module->def("heat_map", [](const py::object& image, const py::object& reference,
                              const std::string& layer, bool relative, double low, double high) {

@@ -9,6 +9,7 @@
 #include "python/guard.h"
 #include "python/image.h"
 #include "python/scene.h"
+#include "python/text.h"
 
 namespace nacre_python {
 namespace {
@@ -24,9 +25,9 @@ void Translate(std::exception_ptr thrown) {
   } catch (const nacre::Error& error) {
     py::list faults;
     for (const nacre::Fault& fault : error.faults()) {
-      faults.append(py::make_tuple(fault.where, fault.what, fault.hint));
+      faults.append(py::make_tuple(TextOf(fault.where), TextOf(fault.what), TextOf(fault.hint)));
     }
-    Throw("Error", py::make_tuple(error.what(), faults, error.exit_code()));
+    Throw("Error", py::make_tuple(TextOf(error.what()), faults, error.exit_code()));
   } catch (const py::cast_error&) {
     PyErr_SetString(PyExc_TypeError, "nacre: an argument is of the wrong type");
   } catch (const nacre::Cancelled&) {

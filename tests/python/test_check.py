@@ -26,6 +26,7 @@ def test_a_right_model_passes(capsys):
     assert found.error.max() < 1e-6 and found.values.shape == found.reference.shape
     assert found.comparison.layers["beauty"].max_abs < 1e-4
     assert found.picture().pixels.shape[0] == 64
+    assert repr(found) == "<nacre.Check of brdf: ok>"  # as the last line of a notebook's cell
 
 
 @pytest.mark.parametrize("wrong, hint", [
@@ -88,6 +89,42 @@ def test_samplers_are_judged():
     wrong = nacre.Brdf(evaluate, sample=gold.sample, pdf=lambda n, v, l: 0.8 * gold.pdf(n, v, l))
     assert not nacre.check(wrong, size=32, quiet=True).verdicts["sampler"].ok
     assert nacre.check(gold, against=gold, size=32, quiet=True)
+
+
+def test_faults_of_samplers_are_named():
+    def phong(n, v, l, exponent=40):
+        mirrored = 2 * (n * l).sum(axis=1, keepdims=True) * n - l
+        return 0.1 * np.maximum((mirrored * v).sum(axis=1, keepdims=True), 0)**exponent
+
+    def about_z(n, v, u):  # as if all normals were +z
+        return nacre.Brdf("lambert").sample([0, 0, 1], [0, 0, 1], u)
+    lambert_pdf = nacre.Brdf("lambert").pdf
+    found = nacre.check(nacre.Brdf(phong, sample=about_z, pdf=lambert_pdf), size=16, quiet=True)
+    assert "sampler" in verdicts(found) and "only where the normal is not +z" in str(found)
+
+    def too_large(n, v, l):
+        return 1.02 * lambert_pdf(n, v, l)
+    wrong = nacre.Brdf(lambert(0.5), sample=nacre.Brdf("lambert").sample, pdf=too_large)
+    found = nacre.check(wrong, size=16, quiet=True)
+    assert "its pdf is 1.0200 in all, more than 1" in found.verdicts["sampler"].text
+
+
+def test_what_makes_light_is_named():
+    bright = nacre.check(lambert(1.5), size=16, quiet=True)
+    assert verdicts(bright) == {"energy"} and "at all angles" in bright.hints[0]
+
+    def without_shadowing(n, v, l):
+        half = (v + l) / np.linalg.norm(v + l, axis=1, keepdims=True)
+        n_l, n_v, n_h = ((n * x).sum(axis=1, keepdims=True) for x in (l, v, half))
+        return 42 / (2 * np.pi) * n_h**40 / (4 * n_l * n_v)
+    lobe = nacre.check(without_shadowing, size=16, quiet=True)
+    assert "energy" in verdicts(lobe) and "shadowing term" in lobe.hints[0]
+
+
+def test_functions_are_compared():
+    assert nacre.check(lambert(0.5), against=lambert(0.5), size=16, quiet=True)
+    found = nacre.check(lambert(0.5), against=lambert(0.25), size=16, quiet=True)
+    assert verdicts(found) == {"agrees"} and found.hints == ["it is the other times 2"]
 
 
 def test_errors_come_out():

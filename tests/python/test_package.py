@@ -17,7 +17,7 @@ def test_everything_shown_is_documented():
         assert inspect.getdoc(thing), name
         if inspect.isclass(thing):
             for member, value in vars(thing).items():
-                if not member.startswith("_") and callable(value):
+                if not member.startswith("_") and (callable(value) or isinstance(value, property)):
                     assert inspect.getdoc(value), f"{name}.{member}"
     assert "Scene" in pydoc.render_doc(nacre)
 

@@ -118,7 +118,7 @@ def test_settings_out_of_range_are_refused(settings, error):
 @pytest.mark.parametrize("call, error", [
     (lambda s: s.add_spheres([[0, 0]], 1, "red"), ValueError),
     (lambda s: s.add_spheres([[0, 0, 0]], [1, 2], "red"), ValueError),
-    (lambda s: s.add_spheres([["a", 0, 0]], 1, "red"), ValueError),
+    (lambda s: s.add_spheres([["a", 0, 0]], 1, "red"), TypeError),
     (lambda s: s.add_mesh([[0, 0, 0]], [[0.5, 0, 0]], "red"), TypeError),
     (lambda s: s.add_mesh([[0, 0, 0]], [[-1, 0, 0]], "red"), ValueError),
     (lambda s: s.add_mesh([[0, 0, 0]], [0, 0, 0], "red"), ValueError),

@@ -32,6 +32,7 @@ import os as _os
 from typing import List
 
 from . import _nacre
+from ._arguments import text as _text
 from ._brdf import Brdf
 from ._check import Check, Verdict, check
 from ._errors import Cancelled, Error, Fault
@@ -58,7 +59,7 @@ def active_target() -> str:
 def set_target(target: str) -> None:
     """Chooses a SIMD target for the whole process, before anything runs. Pictures differ in their
     last digits."""
-    _nacre.set_target(target)
+    _nacre.set_target(_text(target, "a target"))
 
 
 def scene_schema() -> str:

@@ -5,6 +5,7 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple, Union
 import numpy as np
 
 from . import _nacre
+from ._arguments import numbers, text
 from ._errors import Error, fault
 from ._image import Array
 from ._json import to_json
@@ -12,18 +13,12 @@ from ._json import to_json
 Function = Callable[[Array, Array, Array], Any]
 
 
-def _numbers(values: Any, name: str) -> Array:
-    try:
-        array = np.asarray(values)
-    except ValueError as error:  # rows of different lengths
-        raise ValueError(f"{name} is no array: {error}") from None
-    if array.dtype.kind not in "fiu":
-        raise TypeError(f"{name} is an array of {array.dtype}, not of real numbers")
-    return array
+# Pairs in one call of C++, which Ctrl-C does not end: a second or less.
+_PIECE = 2**20
 
 
 def _vectors(values: Any, name: str, columns: int = 3) -> Array:
-    array = _numbers(values, name)
+    array = numbers(values, name)
     if array.ndim == 0 or array.shape[-1] != columns:
         raise ValueError(f"{name} has the shape {array.shape}, not (..., {columns})")
     return array
@@ -31,31 +26,37 @@ def _vectors(values: Any, name: str, columns: int = 3) -> Array:
 
 def _common_shape(*arrays: Tuple[str, Array]) -> Tuple[int, ...]:
     """That of the arrays together, without their last axis."""
+    shapes = {array.shape[:-1] for _, array in arrays}
+    shapes.discard(())
+    if len(shapes) < 2:
+        return shapes.pop() if shapes else ()
     try:
-        return np.broadcast_shapes(*(array.shape[:-1] for _, array in arrays))
+        return np.broadcast_shapes(*shapes)
     except ValueError:
-        shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays)
-        raise ValueError(f"the shapes do not go together: {shapes}") from None
+        named = ", ".join(f"{name} {array.shape}" for name, array in arrays)
+        raise ValueError(f"the shapes do not go together: {named}") from None
 
 
 def _broadcast(*arrays: Tuple[str, Array]) -> Tuple[Tuple[int, ...], List[Array]]:
-    """The common shape without the last axis, and the arrays as planes, of shape (columns, count)."""
+    """The common shape without the last axis, and copies of the arrays as planes, of shape (columns,
+    count): functions may write to them."""
     shape = _common_shape(*arrays)
     planes = []
     for _, array in arrays:
-        columns = array.shape[-1]
-        whole = np.broadcast_to(array, shape + (columns,)).reshape(-1, columns)
-        planes.append(np.array(whole.T, np.float64, order="C"))  # a copy: functions may write to it
+        block = np.empty((array.shape[-1],) + shape)
+        rows = block.T if len(shape) < 2 else np.moveaxis(block, 0, -1)
+        rows[...] = array
+        planes.append(block.reshape(array.shape[-1], -1) if len(shape) != 1 else block)
     return shape, planes
 
 
 def _check_units(planes: Mapping[str, Array]) -> None:
     """As nacre's own models do: |v|^2 may be off by what float32 rounds to."""
     for name, plane in planes.items():
-        squared = (plane * plane).sum(axis=0)
-        wrong = ~(np.abs(squared - 1) <= 16 * 2.0**-24)
-        if wrong.any():
-            i = int(np.argmax(wrong))
+        squared = np.einsum("ij,ij->j", plane, plane)
+        right = np.abs(squared - 1) <= 16 * 2.0**-24
+        if not right.all():
+            i = int(np.argmin(right))
             raise fault("Brdf", f"{name} {i} {tuple(plane[:, i].tolist())} has length "
                         f"{float(np.sqrt(squared[i])):.6g}, not 1",
                         "directions are unit vectors: divide them by their lengths in double")
@@ -64,6 +65,50 @@ def _check_units(planes: Mapping[str, Array]) -> None:
 def _rows(planes: Array, shape: Tuple[int, ...]) -> Array:
     """Planes of shape (3, count) as (..., 3)."""
     return planes.T.reshape(shape + (planes.shape[0],))
+
+
+def _named(planes: List[Array]) -> Dict[str, Array]:
+    return dict(zip(("normal", "to_view", "to_light"), planes))
+
+
+def _hemisphere(cosine: float) -> Tuple[Array, Array, Array]:
+    """A viewer at n.v = cosine about +z, and a quadrature over directions to light: (i, j, 3), and their
+    weights. By circles about the mirror direction, each as far as it is above the horizon."""
+    sine = float(np.sqrt((1 - cosine) * (1 + cosine)))
+    mirror = np.array([-sine, 0, cosine])
+    along, across = np.array([cosine, 0, sine]), np.array([0.0, 1, 0])
+    gauss: Any = np.polynomial.legendre.leggauss
+    # Of the circles' radii: panels that halve towards the mirror direction, with an edge where
+    # circles begin to touch the horizon.
+    touch = float(np.arctan2(cosine, sine))
+    edges = np.unique([0, touch, *((np.pi - touch) * 0.5**np.arange(13))])
+    nodes, weights = gauss(6)
+    radius = (edges[:-1, None] + np.diff(edges)[:, None] * (nodes + 1) / 2).reshape(-1, 1)
+    w_radius = (np.diff(edges)[:, None] * weights / 2).reshape(-1, 1) * np.sin(radius)
+    # Whole circles by equal steps, closer where lobes of grazing viewers are narrow: these are
+    # about `cosine` times as wide across the plane of incidence as along it.
+    count = 96
+    step = (np.arange(count) + 0.5) * (2 * np.pi / count)
+    squeeze = np.clip(radius, cosine, 1)
+    whole = np.arctan2(squeeze * np.sin(step), np.cos(step))
+    w_whole = squeeze / (np.cos(step)**2 + (squeeze * np.sin(step))**2) * (2 * np.pi / count)
+    # Arcs by Gauss's rule, closer about their middle for the same reason.
+    end = np.arccos(np.clip(-cosine * np.cos(radius) / np.maximum(sine * np.sin(radius), 1e-300),
+                            -1, 1))
+    x, w_x = gauss(count)
+    is_arc = end < np.pi
+    phi = np.where(is_arc, end * (0.05 * x + 0.95 * x**3), whole)
+    w_phi = np.where(is_arc, end * (0.05 + 2.85 * x**2) * w_x, w_whole)
+    light = (np.cos(radius)[..., None] * mirror + (np.sin(radius) * np.cos(phi))[..., None] * along +
+             (np.sin(radius) * np.sin(phi))[..., None] * across)
+    light /= np.linalg.norm(light, axis=-1, keepdims=True)
+    return np.array([sine, 0, cosine]), light, w_radius * w_phi
+
+
+def _of_material(material: Dict[str, Any]) -> "Brdf":
+    """What pickle makes of one of nacre's models."""
+    parameters = dict(material)
+    return Brdf(parameters.pop("model"), **parameters)
 
 
 class _Own:
@@ -76,7 +121,7 @@ class _Own:
         count = len(arrays[0])
         try:
             returned = self.function(*arrays)
-        except Exception as error:
+        except (TypeError, ValueError, IndexError) as error:
             if hasattr(error, "add_note"):  # Python 3.11
                 error.add_note(f"{self.what} was called with arrays of the shapes "
                                f"{', '.join(str(array.shape) for array in arrays)}: one row for each "
@@ -89,6 +134,9 @@ class _Own:
             raise fault(self.what, f"returned no array: {error}") from None
         if result.dtype.kind not in "fiub":
             raise fault(self.what, f"returned an array of {result.dtype}, not of real numbers")
+        if isinstance(returned, np.ma.MaskedArray) and np.any(returned.mask):
+            raise fault(self.what, "returned an array that is masked in part",
+                        "its method filled gives it values there")
         wanted = (count,) if self.columns is None else (count, self.columns)
         grey = self.columns is not None and result.shape == (count, 1)
         if result.shape != wanted and not grey:
@@ -114,7 +162,12 @@ class Brdf:
     Directions are arrays of shape (..., 3) that broadcast against one another, of unit length, and
     point away from the surface. Where light or viewer is not above it, nothing is reflected. Of
     nacre's models maps, emission, ambient light and the lobe of a perfect mirror (roughness below
-    2^-20) are left out.
+    2^-20) are left out. scenes/README.md lists their parameters, with the papers that they are from.
+
+    Calls raise `nacre.Error` for vectors that are not finite and unit, with the number of the first (its
+    |v|^2 may be off by 1e-6, which float32 makes of it), and for what functions return that is not
+    finite or of another shape; ValueError for shapes that do not broadcast; TypeError for what is no
+    array of real numbers.
     """
 
     def __init__(self, model: Union[str, Function], *, sample: Optional[Callable[..., Any]] = None,
@@ -146,8 +199,9 @@ class Brdf:
             self.name = model
             if albedo is not None:  # a parameter of some models
                 parameters["albedo"] = albedo
-            members = [(name, to_json(value, name)) for name, value in parameters.items()]
-            self._native = _nacre.Brdf(model, members)
+            members = [(text(name, "a parameter"), to_json(value, name))
+                       for name, value in parameters.items()]
+            self._native = _nacre.Brdf(text(model, "a model"), members)
             self._material = {"model": model, **parameters}
             return
         if not callable(model):
@@ -169,13 +223,25 @@ class Brdf:
     @classmethod
     def from_scene(cls, scene: Any, material: str) -> "Brdf":
         """The model of a scene's material."""
-        if not hasattr(scene, "_native"):
+        if not isinstance(getattr(scene, "_native", None), _nacre.Scene):
             raise TypeError(f"a nacre.Scene is wanted, not {type(scene).__name__}")
         brdf = cls.__new__(cls)
-        brdf.name = material
+        brdf.name = text(material, "a material")
         brdf._evaluate = brdf._sample = brdf._pdf = brdf._albedo = brdf._material = None
         brdf._native = _nacre.Brdf(scene._native, material)
         return brdf
+
+    # It never changes.
+    def __copy__(self) -> "Brdf":
+        return self
+
+    def __deepcopy__(self, memo: Any) -> "Brdf":
+        return self
+
+    def __reduce__(self) -> Any:
+        if self._material is None:
+            return super().__reduce__()  # with a function that pickle finds by its name
+        return _of_material, (self._material,)
 
     @property
     def is_own(self) -> bool:
@@ -191,13 +257,28 @@ class Brdf:
                           ("to_view", _vectors(to_view, "to_view")),
                           ("to_light", _vectors(to_light, "to_light")))
 
+    def _in_pieces(self, function: Callable[..., Any], planes: Mapping[str, Array]) -> List[Array]:
+        """What a function of C++ returns, of any number of pairs; Ctrl-C comes between its calls."""
+        count = next(iter(planes.values())).shape[1]
+        pieces = []
+        try:
+            for i in range(0, max(count, 1), _PIECE):
+                piece = function(*(plane[:, i:i + _PIECE] for plane in planes.values()))
+                pieces.append(piece if isinstance(piece, tuple) else (piece,))
+        except Error:
+            if pieces:  # it counts vectors from a piece's beginning
+                _check_units({name: plane for name, plane in planes.items() if len(plane) == 3})
+            raise
+        return [parts[0] if len(parts) == 1 else np.concatenate(parts, axis=-1)
+                for parts in zip(*pieces)]
+
     def _own(self, function: _Own, planes: List[Array]) -> Tuple[Array, Array]:
         """What a function returns where light and viewer are above the surface, as planes, 0
         elsewhere; and n.l."""
         n, v, l = planes
         _check_units({"normal": n, "to_view": v, "to_light": l})
-        n_dot_l = (n * l).sum(axis=0)
-        above = (n_dot_l > 0) & ((n * v).sum(axis=0) > 0)
+        n_dot_l = np.einsum("ij,ij->j", n, l)
+        above = (n_dot_l > 0) & (np.einsum("ij,ij->j", n, v) > 0)
         whole = above.all()
         rows = [plane.T if whole else plane[:, above].T for plane in planes]
         values = function(*rows)
@@ -232,7 +313,7 @@ class Brdf:
                 return result
             nothing = np.zeros_like(result)
             return (nothing, result) if self._sample else (result, nothing)
-        diffuse, specular = self._native.evaluate(*planes)
+        diffuse, specular = self._in_pieces(self._native.evaluate, _named(planes))
         if components:
             return _rows(diffuse, shape), _rows(specular, shape)
         return _rows(diffuse + specular, shape)
@@ -245,7 +326,7 @@ class Brdf:
         try:
             found = self._native.shade(*rows, components)
         except Error:  # which counts vectors from a piece's beginning
-            _check_units({name: array.T for (name, _), array in zip(named, rows)})
+            _check_units({name: array.T.astype(np.float64) for (name, _), array in zip(named, rows)})
             raise
         if components:
             return tuple(part.reshape(shape + (3,)) for part in found)
@@ -257,14 +338,15 @@ class Brdf:
         shape, (n, v, points) = _broadcast(("normal", _vectors(normal, "normal")),
                                            ("to_view", _vectors(to_view, "to_view")),
                                            ("u", _vectors(u, "u", 2)))
-        if self._evaluate is None:
-            return _rows(self._native.sample(n, v, points), shape)
         _check_units({"normal": n, "to_view": v})
-        wrong = ~((points >= 0) & (points < 1)).all(axis=0)
-        if wrong.any():
-            i = int(np.argmax(wrong))
+        right = ((points >= 0) & (points < 1)).all(axis=0)
+        if not right.all():
+            i = int(np.argmin(right))
             raise fault("Brdf.sample", f"point {i} is {tuple(points[:, i].tolist())}",
                         "points lie in [0, 1)^2")
+        if self._evaluate is None:
+            sampled, = self._in_pieces(self._native.sample, {"normal": n, "to_view": v, "u": points})
+            return _rows(sampled, shape)
         if self._sample is not None:
             directions = self._sample(n.T, v.T, points.T)
             _check_units({"a sampled direction": directions})
@@ -276,7 +358,7 @@ class Brdf:
         """How often `sample` chooses directions, per solid angle: an array of shape (...)."""
         shape, planes = self._directions(normal, to_view, to_light)
         if self._evaluate is None:
-            return self._native.pdf(*planes).reshape(shape)
+            return self._in_pieces(self._native.pdf, _named(planes))[0].reshape(shape)
         if self._pdf is None:
             return _nacre.Brdf("lambert", []).pdf(*planes).reshape(shape)
         return self._own(self._pdf, planes)[0].reshape(shape)
@@ -285,50 +367,28 @@ class Brdf:
         """The directional albedo: what is seen at n.v, an array of cosines in (0, 1], of light of
         radiance 1 from everywhere, of shape (..., 3). By quadrature; of functions to about 3e-4, if
         they are isotropic, without edges, and their lobes no narrower than GGX's at roughness 0.05."""
-        cosines = _numbers(n_dot_v, "n_dot_v").astype(np.float64)
+        cosines = numbers(n_dot_v, "n_dot_v").astype(np.float64)
         flat = cosines.reshape(-1)
         if not ((flat > 0) & (flat <= 1)).all():
             raise fault("Brdf.albedo", "n.v is not above 0 and up to 1")
         if self._evaluate is None:
-            return _rows(self._native.albedo(flat.tolist()), cosines.shape)
+            pieces = [self._native.albedo(flat[i:i + 256].tolist())
+                      for i in range(0, max(len(flat), 1), 256)]
+            return _rows(np.concatenate(pieces, axis=-1), cosines.shape)
         if self._albedo is not None:
-            return _rows(_Own(self._albedo, f"the albedo of {self.name}", 3)(flat), cosines.shape)
+            values = _Own(self._albedo, f"the albedo of {self.name}", 3)(flat)
+            if not np.isfinite(values).all():
+                i = int(np.argmin(np.isfinite(values).all(axis=0)))
+                raise fault(f"the albedo of {self.name}", f"returned {values[:, i].tolist()} for n.v = "
+                            f"{flat[i]:g}")
+            return _rows(values, cosines.shape)
         result = np.array([self._integrate(float(cosine)) for cosine in flat]).reshape(-1, 3)
         return result.reshape(cosines.shape + (3,))
 
     def _integrate(self, cosine: float) -> Array:
-        """int f n.l dl over the hemisphere: by circles about the mirror direction, each as far as it is
-        above the horizon."""
-        sine = float(np.sqrt((1 - cosine) * (1 + cosine)))
-        mirror = np.array([-sine, 0, cosine])
-        along, across = np.array([cosine, 0, sine]), np.array([0.0, 1, 0])
-        gauss: Any = np.polynomial.legendre.leggauss
-        # Of the circles' radii: panels that halve towards the mirror direction, with an edge where
-        # circles begin to touch the horizon.
-        touch = float(np.arctan2(cosine, sine))
-        edges = np.unique([0, touch, *((np.pi - touch) * 0.5**np.arange(13))])
-        nodes, weights = gauss(6)
-        radius = (edges[:-1, None] + np.diff(edges)[:, None] * (nodes + 1) / 2).reshape(-1, 1)
-        w_radius = (np.diff(edges)[:, None] * weights / 2).reshape(-1, 1) * np.sin(radius)
-        # Whole circles by equal steps, closer where lobes of grazing viewers are narrow: these are
-        # about `cosine` times as wide across the plane of incidence as along it.
-        count = 96
-        step = (np.arange(count) + 0.5) * (2 * np.pi / count)
-        squeeze = np.clip(radius, cosine, 1)
-        whole = np.arctan2(squeeze * np.sin(step), np.cos(step))
-        w_whole = squeeze / (np.cos(step)**2 + (squeeze * np.sin(step))**2) * (2 * np.pi / count)
-        # Arcs by Gauss's rule, closer about their middle for the same reason.
-        end = np.arccos(np.clip(-cosine * np.cos(radius) / np.maximum(sine * np.sin(radius), 1e-300),
-                                -1, 1))
-        x, w_x = gauss(count)
-        is_arc = end < np.pi
-        phi = np.where(is_arc, end * (0.05 * x + 0.95 * x**3), whole)
-        w_phi = np.where(is_arc, end * (0.05 + 2.85 * x**2) * w_x, w_whole)
-        light = (np.cos(radius)[..., None] * mirror + (np.sin(radius) * np.cos(phi))[..., None] * along +
-                 (np.sin(radius) * np.sin(phi))[..., None] * across)
-        light /= np.linalg.norm(light, axis=-1, keepdims=True)
-        reflected = self.evaluate([0.0, 0, 1], [sine, 0, cosine], light)
-        albedo: Array = np.einsum("ijk,ij->k", reflected, w_radius * w_phi)
+        """int f n.l dl over the hemisphere."""
+        view, light, weights = _hemisphere(cosine)
+        albedo: Array = np.einsum("ijk,ij->k", self.evaluate([0.0, 0, 1], view, light), weights)
         return albedo
 
     def terms(self, normal: Any, to_view: Any, to_light: Any) -> Dict[str, Array]:
@@ -338,7 +398,7 @@ class Brdf:
         if self._evaluate is not None:
             raise fault("Brdf.terms", "a function has no terms", "nacre's microfacet models have")
         shape, planes = self._directions(normal, to_view, to_light)
-        d, g, f, lambda_view, lambda_light = self._native.terms(*planes)
+        d, g, f, lambda_view, lambda_light = self._in_pieces(self._native.terms, _named(planes))
         return {"D": d.reshape(shape), "G": g.reshape(shape), "F": _rows(f, shape),
                 "lambda_view": lambda_view.reshape(shape),
                 "lambda_light": lambda_light.reshape(shape)}

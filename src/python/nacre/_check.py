@@ -6,7 +6,8 @@ from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 
-from ._brdf import Brdf, Function
+from ._arguments import real, whole
+from ._brdf import Brdf, Function, _hemisphere
 from ._image import Array, Comparison, Image, Picture, difference
 from ._scene import Scene
 
@@ -18,6 +19,10 @@ _PHI = (0.0, 30.0, 60.0, 90.0, 120.0, 150.0, 165.0, 175.0, 180.0)
 _ROUNDING = 1e-4
 # What `Brdf.albedo` of a function is right to, and a margin for what other quadratures call 1.
 _ENERGY = 1e-3
+# The same of the integral of a pdf.
+_CHANCE = 1e-3
+# Of a mean of samples: chance reaches that far once in 1e9 times.
+_SIGMAS = 6
 # A numpy function takes some 100 ns for a sample; a Python loop over the samples, thousands.
 _SLOW = 2e-6
 
@@ -29,7 +34,7 @@ class Verdict(NamedTuple):
     text: str
 
 
-@dataclasses.dataclass
+@dataclasses.dataclass(repr=False, eq=False)
 class Check:
     """What `check` has found. True where all verdicts are; str(check) is its page.
 
@@ -87,6 +92,10 @@ class Check:
         lines.append(f"  cost: {1e9 * self.seconds:.0f} ns a sample")
         return "\n".join(lines)
 
+    def __repr__(self) -> str:
+        wrong = [name for name, verdict in self.verdicts.items() if not verdict.ok]
+        return f"<nacre.Check of {self.name}: {'FAIL: ' + ', '.join(wrong) if wrong else 'ok'}>"
+
     def picture(self) -> Picture:
         """The ball with the model, with the reference, and where their radiance differs."""
         if self.image_reference is None:
@@ -143,25 +152,37 @@ def _worst(grid: Array, light: Array, view: Array, phi: Array) -> str:
     return f"light {light[i]:g}, viewer {view[j]:g}, phi {phi[k]:g} degrees"
 
 
+def _unbiased(brdf: Brdf, up: Array, view: Array, points: Array, albedo: float) -> Tuple[float, str]:
+    """How many standard errors the mean of f n.l / pdf over the model's own samples is off its albedo."""
+    light = brdf.sample(up, view, points)
+    f = brdf.evaluate(up, view, light).max(axis=-1)
+    pdf = brdf.pdf(up, view, light)
+    if ((f > 0) & ~(pdf > 0)).any():
+        return np.inf, "samples have pdf 0"
+    weight = np.where(pdf > 0, f / np.where(pdf > 0, pdf, 1), 0)
+    error = abs(weight.mean() - albedo)
+    sigmas = error / (weight.std() / len(points)**0.5 + 1e-3 * albedo + 1e-12)
+    return float(sigmas), f"samples mean {weight.mean():.4f}, the albedo is {albedo:.4f}"
+
+
 def _sampler(brdf: Brdf, cosines: Array, furnace: Array) -> Verdict:
-    """The mean of f n.l / pdf over the model's own samples is its albedo."""
+    """Whether samples are unbiased, also where the normal is no axis, and the pdf is one."""
     rng = np.random.default_rng(7)
-    worst, text = 0.0, ""
+    worst, found, turned_only = 0.0, "unbiased", False
     for cosine, albedo in zip(cosines, furnace.max(axis=1)):
-        view = [float(np.sqrt((1 - cosine) * (1 + cosine))), 0.0, float(cosine)]
-        light = brdf.sample(_UP, view, rng.random((16384, 2)))
-        f = brdf.evaluate(_UP, view, light).max(axis=-1)
-        pdf = brdf.pdf(_UP, view, light)
-        lost = (f > 0) & ~(pdf > 0)
-        weight = np.where(pdf > 0, f / np.where(pdf > 0, pdf, 1), 0)
-        error = abs(weight.mean() - albedo)
-        sigmas = error / (weight.std() / 128 + 1e-3 * albedo + 1e-12)
-        if lost.any() or sigmas > worst:
-            worst = np.inf if lost.any() else sigmas
-            text = ("samples have pdf 0" if lost.any() else
-                    f"at {np.degrees(np.arccos(cosine)):.0f} degrees samples mean "
-                    f"{weight.mean():.4f}, the albedo is {albedo:.4f}")
-    return Verdict(worst < 6, text or "unbiased")
+        at = f"at {np.degrees(np.arccos(cosine)):.0f} degrees "
+        view, around, weights = _hemisphere(float(cosine))
+        chance = float((brdf.pdf(_UP, view, around) * weights).sum())
+        if chance > 1 + _CHANCE:
+            return Verdict(False, f"{at}its pdf is {chance:.4f} in all, more than 1")
+        upright, text = _unbiased(brdf, _UP, view, rng.random((8192, 2)), albedo)
+        turned, of_turned = _unbiased(brdf, _turned(_UP), _turned(view), rng.random((8192, 2)), albedo)
+        if max(upright, turned) > worst:
+            worst, found = max(upright, turned), at + (text if upright >= turned else of_turned)
+        turned_only |= turned >= _SIGMAS > upright
+    if worst >= _SIGMAS and turned_only:
+        found += ": only where the normal is not +z"
+    return Verdict(worst < _SIGMAS, found)
 
 
 def _cost(brdf: Brdf) -> float:
@@ -219,6 +240,19 @@ def _other_roughness(values: Array, against: str, parameters: Dict[str, Any], to
     return []
 
 
+def _energy_hint(furnace: Array, cosines: Array) -> str:
+    """Where a model makes light, and what usually does."""
+    too_much = furnace > 1 + _ENERGY
+    if too_much.all():
+        return ("it makes light at all angles: a diffuse part without its 1/pi, or one that does not give "
+                "up what the highlight takes?")
+    if too_much[-1] and not too_much[0]:
+        first = np.degrees(np.arccos(cosines[int(np.argmax(too_much))]))
+        return (f"it makes light for viewers at {first:.0f} degrees and more alone: a lobe over "
+                "4 n.l n.v without a shadowing term G, or a highlight on top of a whole diffuse part?")
+    return "the table below tells at which angles it makes light"
+
+
 def _hints(found: Check, known: List[str]) -> List[str]:
     """What may be wrong, of what is not right, and what is known of that."""
     hints = list(known)
@@ -232,13 +266,15 @@ def _hints(found: Check, known: List[str]) -> List[str]:
         steep = np.maximum(found.theta_light[:, None], found.theta_view) >= 80
         if not hints and found.error[~steep].max() < 1e-3 < found.error[steep].max():
             hints.append("only grazing angles are wrong: a denominator that is kept above 0 by too much?")
+    if "energy" in wrong and not hints:
+        hints.append(_energy_hint(found.furnace.max(axis=1), found.cosines))
     if found.seconds > _SLOW:
         hints.append(f"{1e6 * found.seconds:.1f} us a sample: a loop over the samples? One expression "
                      "over whole arrays takes about a hundredth")
     return hints
 
 
-def check(model: Union[Function, Brdf], against: Union[str, Brdf, None] = None, *,
+def check(model: Union[Function, Brdf], against: Union[str, Function, Brdf, None] = None, *,
           tolerance: float = 1e-3, size: int = 192, quiet: bool = False, **parameters: Any) -> Check:
     """Checks a BRDF, prints one page, and returns its numbers.
 
@@ -246,7 +282,7 @@ def check(model: Union[Function, Brdf], against: Union[str, Brdf, None] = None, 
                     shadowing="separable", compensation="none")
 
     model: a function, as of `nacre.Brdf`, or a Brdf.
-    against: a Brdf, or the name of one of nacre's models, with its parameters; None: nothing.
+    against: another such, or the name of one of nacre's models, with its parameters; None: nothing.
     tolerance: the relative difference from it that is right.
     size: of the pictures of a ball, in pixels.
     quiet: prints nothing.
@@ -257,9 +293,14 @@ def check(model: Union[Function, Brdf], against: Union[str, Brdf, None] = None, 
     angles. An error of the function itself comes out of it.
     """
     brdf = model if isinstance(model, Brdf) else Brdf(model)
-    other = Brdf(against, **parameters) if isinstance(against, str) else against
+    other = (against if against is None or isinstance(against, Brdf) else
+             Brdf(against, **(parameters if isinstance(against, str) else {})))
     if parameters and not isinstance(against, str):
         raise TypeError("parameters are those of the model that `against` names")
+    if not real(tolerance, "tolerance") > 0:
+        raise ValueError(f"tolerance is above 0, not {tolerance}")
+    if whole(size, "size") < 1:
+        raise ValueError(f"size is a number of pixels, not {size}")
     theta, phi = np.array(_THETA), np.array(_PHI)
     light = _direction(theta[:, None, None], phi)
     view = _direction(theta[:, None], np.array(0.0))

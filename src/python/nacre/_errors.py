@@ -34,7 +34,11 @@ class Cancelled(Exception):
     """A render that `Session.cancel` has ended."""
 
 
-def fault(where: str, what: str, hint: str = "") -> Error:
+# As which users know them.
+Error.__module__ = Cancelled.__module__ = "nacre"
+
+
+def fault(where: str, what: str, hint: str = "", exit_code: int = 64) -> Error:
     """An error of one fault."""
     text = f"error: {where}: {what}" + (f"\n  hint: {hint}" if hint else "")
-    return Error(text, [(where, what, hint)])
+    return Error(text, [(where, what, hint)], exit_code)

@@ -8,10 +8,10 @@ from typing import Any, Dict, Iterator, List, Mapping, NamedTuple, Optional, Seq
 import numpy as np
 
 from . import _nacre
+from ._arguments import PathLike, numbers, path as _path, real, refuse_masked, text, whole
 from ._errors import fault
 
 Array = np.ndarray
-PathLike = Union[str, "os.PathLike[str]"]
 
 
 class Window(NamedTuple):
@@ -45,16 +45,26 @@ class Picture:
 
     def jpeg(self, quality: int = 90) -> bytes:
         """The bytes of a JPEG file, quality 1 to 100, colours at full resolution."""
-        return _nacre.encode_jpeg(self.pixels, quality)
+        return _nacre.encode_jpeg(self.pixels, whole(quality, "quality"))
 
     def write(self, path: PathLike) -> None:
-        """Writes a .png or .jpg file."""
-        name = os.fspath(path)
+        """Writes a .png or .jpg file, whole or not at all."""
+        name = os.fsdecode(_path(path))
         if not name.lower().endswith((".png", ".jpg", ".jpeg")):
             raise fault(name, "unknown output extension", "pictures are written to .png and .jpg")
         data = self.png() if name.lower().endswith(".png") else self.jpeg()
-        with open(name, "wb") as file:
-            file.write(data)
+        part = f"{name}.{os.getpid()}.part"
+        try:
+            try:
+                with open(part, "wb") as file:
+                    file.write(data)
+                os.replace(part, name)
+            except BaseException:
+                if os.path.exists(part):
+                    os.remove(part)
+                raise
+        except OSError as error:
+            raise fault(name, f"cannot be written: {error.strerror}", exit_code=74) from None
 
     def __repr__(self) -> str:
         return f"<nacre.Picture of {self.pixels.shape[1]} x {self.pixels.shape[0]} pixels>"
@@ -62,29 +72,44 @@ class Picture:
 
 @dataclasses.dataclass
 class LayerMetrics:
-    """How far a layer is from the reference's."""
+    """How far a layer is from the reference's.
+
+    samples: how many were compared. mean, mean_reference: of them.
+    rmse: the root of the mean of difference^2.
+    rel_mse: the mean of difference^2 / (reference^2 + 1e-4).
+    psnr_db: in decibels, relative to the reference's largest magnitude.
+    max_abs: the largest |difference|. max_rel: of |difference| / |reference|, where that is not 0;
+        zero_mismatches: how many samples differ where it is 0.
+    ssim, flip, hdr_flip: with perceptual=True, of layers that are colours; else None. SSIM (Wang et al.
+        2004) is 1 for equal images, FLIP (Andersson et al. 2020, 2021) 0.
+    """
 
     layer: str
     samples: int
     rmse: float
-    rel_mse: float  #: the mean of difference^2 / (reference^2 + 1e-4)
-    psnr_db: float  #: relative to the reference's largest magnitude
+    rel_mse: float
+    psnr_db: float
     max_abs: float
-    max_rel: float  #: of |difference| / |reference|, where the reference is not 0
-    zero_mismatches: int  #: samples that differ where the reference is 0
+    max_rel: float
+    zero_mismatches: int
     mean: float
     mean_reference: float
-    ssim: Optional[float] = None  #: with perceptual=True, of layers that are colours
+    ssim: Optional[float] = None
     flip: Optional[float] = None
     hdr_flip: Optional[float] = None
 
 
-@dataclasses.dataclass
+@dataclasses.dataclass(repr=False)
 class Comparison:
-    """What `compare` finds. True where the images match."""
+    """What `compare` finds. True where the images match; str(comparison) is a line for each layer.
+
+    match: whether all layers are within the tolerances; reason: why not, in words.
+    pixels, exceeding_pixels: how many there are, and how many are beyond the tolerances.
+    layers: a `LayerMetrics` by name.
+    """
 
     match: bool
-    reason: str  #: in words
+    reason: str
     pixels: int
     exceeding_pixels: int
     layers: Dict[str, LayerMetrics]
@@ -95,15 +120,22 @@ class Comparison:
     def __str__(self) -> str:
         lines = ["match" if self.match else f"no match: {self.reason}"]
         for m in self.layers.values():
-            numbers = [("rmse", m.rmse), ("relMSE", m.rel_mse), ("PSNR", m.psnr_db),
-                       ("max", m.max_abs), ("SSIM", m.ssim), ("FLIP", m.flip),
-                       ("HDR-FLIP", m.hdr_flip)]
+            numbers_of = [("rmse", m.rmse), ("relMSE", m.rel_mse), ("PSNR", m.psnr_db),
+                          ("max", m.max_abs), ("SSIM", m.ssim), ("FLIP", m.flip),
+                          ("HDR-FLIP", m.hdr_flip)]
             lines.append(f"{m.layer:12} " + "  ".join(
-                f"{name} {number:.4g}" for name, number in numbers if number is not None))
+                f"{name} {number:.4g}" for name, number in numbers_of if number is not None))
         return "\n".join(lines)
+
+    __repr__ = __str__
 
 
 _COLORS, _VECTORS = ("R", "G", "B"), ("X", "Y", "Z")
+
+
+def _layer(name: Any) -> str:
+    """As C++ has it."""
+    return "" if text(name, "a layer") == "beauty" else name
 
 
 class Image:
@@ -129,6 +161,7 @@ class Image:
         shape (height, width, 3 or 4), the beauty and A; or several by the names of channels, of
         shape (height, width), and of layers, of shape (height, width, 3)."""
         if not isinstance(channels, Mapping):
+            refuse_masked(channels, "the image")
             array = np.asarray(channels)
             if array.ndim != 3 or array.shape[2] not in (3, 4):
                 raise ValueError("an image is an array of shape (height, width, 3 or 4), or several "
@@ -140,9 +173,7 @@ class Image:
                 raise TypeError(f"image: the name of a channel is a text, not {name!r}")
             if not name.isprintable() or not name.rpartition(".")[2]:
                 raise ValueError(f"image: {name!r} is no name of a channel")
-            array = np.asarray(values)
-            if array.dtype.kind not in "fiub":
-                raise TypeError(f"image: {name} is an array of {array.dtype}, not of real numbers")
+            array = numbers(values, f"image: {name}", "fiub")
             if array.ndim == 3 and array.shape[2] == 3:
                 prefix = "" if name == "beauty" else name + "."
                 parts = _VECTORS if name in ("N", "P") else _COLORS
@@ -189,10 +220,12 @@ class Image:
 
     @property
     def width(self) -> int:
+        """In pixels, of the channels."""
         return self.data.x1 - self.data.x0
 
     @property
     def height(self) -> int:
+        """In pixels, of the channels."""
         return self.data.y1 - self.data.y0
 
     @property
@@ -223,6 +256,8 @@ class Image:
         return iter(self.layers)
 
     def __getitem__(self, name: str) -> Array:
+        """A channel, of shape (height, width), or a layer, of shape (height, width, 3): a view. KeyError
+        where there is no such."""
         if name in self._names:
             i = self._names.index(name)
             return self._block[i].view(np.uint32) if self._types[i] == "uint" else self._block[i]
@@ -234,9 +269,10 @@ class Image:
         raise KeyError(f"the image has no channel or layer {name!r}; it has {', '.join(self)}")
 
     def __setitem__(self, name: str, values: Any) -> None:
+        """Of a channel or layer that there is: what broadcasts to its shape."""
         view = self[name]
         if view is not values:
-            view[...] = values
+            view[...] = numbers(values, name, "fiub")
 
     def copy(self) -> "Image":
         """One that shares no memory with this one."""
@@ -244,6 +280,9 @@ class Image:
                           self.data, dict(self.metadata))
         image.stats = self.stats
         return image
+
+    def __copy__(self) -> "Image":
+        return self.copy()
 
     def write(self, path: PathLike, *, half_floats: bool = True, compression: str = "zip",
               small: bool = False, tonemap: str = "neutral", exposure: float = 0) -> None:
@@ -255,7 +294,8 @@ class Image:
         small: smaller files, several times slower to write.
         tonemap, exposure: of PNG; see `tone_map`.
         """
-        _nacre.write(self, os.fspath(path), half_floats, compression, small, tonemap, exposure)
+        _nacre.write(self, _path(path), bool(half_floats), text(compression, "compression"), bool(small),
+                     text(tonemap, "tonemap"), real(exposure, "exposure"))
 
     def tone_map(self, layer: str = "beauty", *, tonemap: str = "neutral",
                  exposure: float = 0) -> Array:
@@ -265,12 +305,8 @@ class Image:
         exposure: in stops, -60 to 60.
         Pixels that hold a NaN are magenta.
         """
-        of_layer = "" if layer == "beauty" else layer
-        try:
-            return _nacre.tone_map(self, of_layer, tonemap, exposure)[:, :, :3]
-        except TypeError:
-            raise TypeError("tone_map: layer and tonemap are texts, and exposure is a number, not "
-                            f"{layer!r}, {tonemap!r} and {exposure!r}") from None
+        return _nacre.tone_map(self, _layer(layer), text(tonemap, "tonemap"),
+                               real(exposure, "exposure"))[:, :, :3]
 
     def picture(self, layer: str = "beauty", *, tonemap: str = "neutral",
                 exposure: float = 0) -> Picture:
@@ -294,7 +330,7 @@ class Image:
 
 def read(path: PathLike) -> Image:
     """Reads an image file: EXR, PNG, JPEG, TIFF, Radiance HDR, PNM, TGA, as the program does."""
-    return _nacre.read(os.fspath(path))
+    return _nacre.read(_path(path))
 
 
 def _want_images(*values: object) -> None:
@@ -316,10 +352,11 @@ def compare(image: Image, reference: Image, *, layers: Union[str, Sequence[str]]
     crop: compares only the pixels that both have; else windows that differ are a difference.
     """
     _want_images(image, reference)
-    names = ["" if name == "beauty" else name for name in
-             ([layers] if isinstance(layers, str) else layers)]
+    names = [_layer(name) for name in ([layers] if isinstance(layers, str) else layers)]
     match, reason, pixels, exceeding, measured = _nacre.compare(
-        image, reference, names, max_abs, max_rel, exceeding_fraction, max_rmse, perceptual, crop)
+        image, reference, names, real(max_abs, "max_abs"), real(max_rel, "max_rel"),
+        real(exceeding_fraction, "exceeding_fraction"), real(max_rmse, "max_rmse"), bool(perceptual),
+        bool(crop))
     return Comparison(match, reason, pixels, exceeding,
                       {m["layer"]: LayerMetrics(**m) for m in measured})
 
@@ -333,8 +370,8 @@ def heat_map(image: Image, reference: Image, layer: str = "beauty", *, relative:
     image only. relative: errors relative to the reference's magnitude.
     """
     _want_images(image, reference)
-    of_layer = "" if layer == "beauty" else layer
-    return _nacre.heat_map(image, reference, of_layer, relative, low, high)[:, :, :3]
+    return _nacre.heat_map(image, reference, _layer(layer), bool(relative), real(low, "low"),
+                           real(high, "high"))[:, :, :3]
 
 
 Showable = Union[Image, Picture, Array]
@@ -351,7 +388,7 @@ def side_by_side(*pictures: Showable, gap: int = 4) -> Picture:
     tone-mapped; arrays are uint8 of shape (height, width, 3)."""
     if not pictures:
         raise ValueError("side_by_side: there is no picture")
-    if gap < 0:
+    if whole(gap, "gap") < 0:
         raise ValueError(f"side_by_side: the gap is {gap}")
     parts = [_pixels(picture) for picture in pictures]
     height = max(part.shape[0] for part in parts)

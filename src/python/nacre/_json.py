@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Values of scenes as JSON text."""
 import json
+import os
 from typing import Any
 
 import numpy as np
 
+from ._arguments import refuse_masked
 from ._errors import fault
 
 
@@ -12,10 +14,16 @@ def to_json(value: Any, what: str) -> str:
     """The JSON text of a value that may hold numpy's numbers and arrays."""
     def plain(other: Any) -> Any:
         if isinstance(other, (np.ndarray, np.generic)):
+            refuse_masked(other, "the array")
             return other.tolist()
+        if isinstance(other, os.PathLike):
+            return os.fspath(other)
         raise TypeError(f"{what}: a {type(other).__name__} is no value of a scene: these are numbers, "
                         "texts, lists and dictionaries")
     try:
         return json.dumps(value, allow_nan=False, default=plain)
+    except RecursionError:
+        raise ValueError(f"{what}: lists in lists in lists are too deep") from None
     except ValueError as error:
-        raise fault(what, f"{error}", "numbers of scenes are finite") from None
+        hint = "numbers of scenes are finite" if "float" in str(error) else ""
+        raise fault(what, f"{error}", hint) from None

@@ -2,15 +2,15 @@
 """Scenes, sessions, and renders of them."""
 import json
 import operator
-import os
 import sys
 from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _nacre
+from ._arguments import PathLike, numbers, path as _path, real, text, whole
 from ._brdf import Brdf, Function
-from ._image import Array, Image, PathLike
+from ._image import Array, Image
 from ._json import to_json
 
 Progress = Union[bool, Callable[[float], object], None]
@@ -40,34 +40,20 @@ def _report(progress: Progress) -> Tuple[Optional[Callable[[float], object]], Ca
     return update, bar.close
 
 
-def _whole(value: Optional[int], name: str) -> int:
-    try:
-        number = operator.index(0 if value is None else value)
-    except TypeError:
-        raise TypeError(f"{name} is a whole number, not {value!r}") from None
-    if abs(number) >= 2**31:
-        raise ValueError(f"{name} is out of range: {number}")
-    return number
-
-
-def _text(value: Any, name: str) -> str:
-    if not isinstance(value, str):
-        raise TypeError(f"{name} is a text, not {value!r}")
-    return value
-
-
-def _real(value: Any, name: str) -> float:
-    try:
-        return float(value)
-    except (TypeError, ValueError):
-        raise TypeError(f"{name} is a number, not {value!r}") from None
+def _count(value: Optional[int], name: str) -> int:
+    """As C++ has it, where 0 is what None is here."""
+    if value is None:
+        return 0
+    if whole(value, name) == 0:
+        raise ValueError(f"{name} is 0; None is the default")
+    return whole(value, name)
 
 
 def _settings(width: Optional[int], height: Optional[int], samples: Optional[int],
               max_error: Optional[float], seed: Optional[int], region: Optional[Sequence[int]],
               layers: Union[str, Sequence[str]], threads: Optional[int],
               intersector: str) -> Dict[str, Any]:
-    window = (0, 0, 0, 0) if region is None else tuple(_whole(x, "region") for x in region)
+    window = (0, 0, 0, 0) if region is None else tuple(whole(x, "region") for x in region)
     if len(window) != 4:
         raise ValueError(f"region is (x0, y0, x1, y1), not {region!r}")
     if seed is not None:
@@ -77,12 +63,14 @@ def _settings(width: Optional[int], height: Optional[int], samples: Optional[int
             raise TypeError(f"seed is a whole number, not {seed!r}") from None
         if not 0 <= seed < 2**32:
             raise ValueError(f"seed is out of range: {seed}")
-    return {"width": _whole(width, "width"), "height": _whole(height, "height"),
-            "samples": _whole(samples, "samples"),
-            "max_error": _real(0 if max_error is None else max_error, "max_error"), "seed": seed,
-            "region": window, "layers": [_text(layer, "a layer") for layer in
+    if max_error is not None and real(max_error, "max_error") == 0:
+        raise ValueError("max_error is 0, which takes for ever; None is a fixed number of samples")
+    return {"width": _count(width, "width"), "height": _count(height, "height"),
+            "samples": _count(samples, "samples"),
+            "max_error": 0.0 if max_error is None else real(max_error, "max_error"), "seed": seed,
+            "region": window, "layers": [text(layer, "a layer") for layer in
                                          ([layers] if isinstance(layers, str) else layers)],
-            "threads": _whole(threads, "threads"), "intersector": _text(intersector, "intersector")}
+            "threads": whole(0 if threads is None else threads, "threads"), "intersector": text(intersector, "intersector")}
 
 
 class _Values:
@@ -92,21 +80,21 @@ class _Values:
 
     def __getitem__(self, pointer: str) -> Any:
         """The value at a JSON pointer, as the file and what was set since say it."""
-        text = self._native.get(_text(pointer, "a JSON pointer"))
-        if text is None:
+        value = self._native.get(text(pointer, "a JSON pointer"))
+        if value is None:
             raise KeyError(f"nothing is set at {pointer!r}: there a default holds, or nothing")
-        return json.loads(text)
+        return json.loads(value)
 
     def __setitem__(self, pointer: str, value: Any) -> None:
-        self._native.set(_text(pointer, "a JSON pointer"), to_json(value, pointer))
+        self._native.set(text(pointer, "a JSON pointer"), to_json(value, pointer))
 
     def get(self, pointer: str, default: Any = None) -> Any:
         """The value at a JSON pointer, or `default` where nothing is set."""
-        text = self._native.get(_text(pointer, "a JSON pointer"))
-        return default if text is None else json.loads(text)
+        value = self._native.get(text(pointer, "a JSON pointer"))
+        return default if value is None else json.loads(value)
 
     def __contains__(self, pointer: object) -> bool:
-        return isinstance(pointer, str) and self._native.get(pointer) is not None
+        return isinstance(pointer, str) and self.get(pointer) is not None
 
     def to_dict(self) -> Dict[str, Any]:
         """The scene as a scene file has it, without the shapes of add_spheres and add_mesh."""
@@ -138,13 +126,15 @@ class Scene(_Values):
     @classmethod
     def from_file(cls, path: PathLike) -> "Scene":
         """Reads a scene file (.json) or a model (.gltf, .glb, .obj, .ply)."""
-        return cls._of(_nacre.Scene.from_file(os.fspath(path)))
+        return cls._of(_nacre.Scene.from_file(_path(path)))
 
     @classmethod
     def from_dict(cls, scene: Mapping[str, Any], folder: PathLike = ".") -> "Scene":
         """Of what a scene file would hold. `folder` is where files that it names are looked for."""
-        whole = {"nacre": 1, **scene}
-        return cls._of(_nacre.Scene.from_json(to_json(whole, "scene"), os.fspath(folder)))
+        if not isinstance(scene, Mapping):
+            raise TypeError(f"a scene is a dictionary, not a {type(scene).__name__}")
+        whole_scene = {"nacre": 1, **scene}
+        return cls._of(_nacre.Scene.from_json(to_json(whole_scene, "scene"), _path(folder)))
 
     def copy(self) -> "Scene":
         """Another scene of the same values."""
@@ -165,7 +155,7 @@ class Scene(_Values):
         self["/background"] = radiance
 
     def _add(self, part: str, name: str, value: Dict[str, Any]) -> None:
-        self[f"/{part}/" + _text(name, "a name").replace("~", "~0").replace("/", "~1")] = value
+        self[f"/{part}/" + text(name, "a name").replace("~", "~0").replace("/", "~1")] = value
 
     def add_material(self, name: str, model: Union[str, Brdf, Function], **parameters: Any) -> None:
         """add_material("gold", "conductor", preset="gold", roughness=0.2)
@@ -191,8 +181,8 @@ class Scene(_Values):
             raise TypeError("the material of another scene is added by its values: "
                             "add_material(name, model, ...)")
         members = {"model": parameters.pop("rest", "lambert"), **parameters}
-        self._native.add_user_material(_text(name, "a name"), *brdf._functions(), [
-            (key, to_json(value, key)) for key, value in members.items()])
+        self._native.add_user_material(text(name, "a name"), *brdf._functions(), [
+            (text(key, "a parameter"), to_json(value, key)) for key, value in members.items()])
 
     def add_light(self, name: str, type: str, **parameters: Any) -> None:
         """add_light("key", "point", position=(3, 4, 5), intensity=100)"""
@@ -206,7 +196,7 @@ class Scene(_Values):
         """add_shape("sphere", center=(0, 0, 0), radius=1, material="gold"); also "mesh", "icosphere",
         "uv_sphere", "grid", "pair", "cloud" and the others of the schema."""
         members = [("type", to_json(type, "type"))]
-        members += [(name, to_json(value, name)) for name, value in parameters.items()]
+        members += [(text(name, "a parameter"), to_json(value, name)) for name, value in parameters.items()]
         self._native.add_shape(members)
 
     def add_sphere(self, center: Point, radius: float, material: str) -> None:
@@ -216,14 +206,15 @@ class Scene(_Values):
     def add_spheres(self, centers: Any, radii: Any, material: str) -> None:
         """Many spheres as arrays: centers of shape (count, 3), radii of shape (count,) or a
         number."""
-        where = np.asarray(centers, np.float64)
+        where = numbers(centers, "centers").astype(np.float64)
         if where.ndim != 2 or where.shape[1] != 3:
             raise ValueError(f"centers has the shape (count, 3), not {where.shape}")
-        sizes = np.asarray(radii, np.float64)
+        sizes = numbers(radii, "radii").astype(np.float64)
         if sizes.shape not in ((), (len(where),)):
             raise ValueError(f"radii has one number for each of {len(where)} centers, not the shape "
                              f"{sizes.shape}")
-        self._native.add_spheres(where, np.broadcast_to(sizes, (len(where),)), material)
+        self._native.add_spheres(where, np.broadcast_to(sizes, (len(where),)),
+                                 text(material, "a material"))
 
     def add_mesh(self, positions: Any, triangles: Any, material: str, *, normals: Any = None,
                  uvs: Any = None) -> None:
@@ -232,14 +223,15 @@ class Scene(_Values):
         positions: (vertices, 3). triangles: (count, 3) indices, counter-clockwise from outside.
         normals: (vertices, 3), or None for flat faces. uvs: (vertices, 2), or None.
         """
-        indices = np.asarray(triangles)
+        indices = numbers(triangles, "triangles")
         if indices.dtype.kind not in "iu":
             raise TypeError(f"triangles are indices, not {indices.dtype}")
         if indices.size and (indices.min() < 0 or indices.max() >= 2**32):
             raise ValueError("triangles: an index is negative or too large")
-        self._native.add_mesh(np.asarray(positions, np.float64), indices.astype(np.uint32), material,
-                              None if normals is None else np.asarray(normals, np.float64),
-                              None if uvs is None else np.asarray(uvs, np.float64))
+        self._native.add_mesh(numbers(positions, "positions").astype(np.float64),
+                              indices.astype(np.uint32), text(material, "a material"),
+                              None if normals is None else numbers(normals, "normals").astype(np.float64),
+                              None if uvs is None else numbers(uvs, "uvs").astype(np.float64))
 
     def check(self) -> None:
         """Raises `nacre.Error` with everything that is wrong."""
@@ -247,18 +239,22 @@ class Scene(_Values):
 
     @property
     def sphere_count(self) -> int:
+        """Of all shapes together. Raises `nacre.Error` where the scene is wrong."""
         return self._native.sphere_count()
 
     @property
     def mesh_count(self) -> int:
+        """Of all shapes together. Raises `nacre.Error` where the scene is wrong."""
         return self._native.mesh_count()
 
     @property
     def material_names(self) -> List[str]:
+        """In the scene's order."""
         return self._native.material_names()
 
     @property
     def light_names(self) -> List[str]:
+        """In the scene's order."""
         return self._native.light_names()
 
     def render(self, *, width: Optional[int] = None, height: Optional[int] = None,
@@ -362,6 +358,8 @@ def grid(model: Union[str, Callable[..., Any]], **parameters: Any) -> Scene:
     The scene has a camera, the size of its image and the point light "key", all of which may be set
     anew; its materials are named by their values, "roughness=0.2 f0=0.04".
     """
+    if not isinstance(model, str) and not callable(model):
+        raise TypeError(f"grid: a model is a name or a function, not a {type(model).__name__}")
     axes = [(name, list(values)) for name, values in parameters.items()
             if isinstance(values, (list, range, np.ndarray))]
     if not 1 <= len(axes) <= 2 or not all(values for _, values in axes):
@@ -389,4 +387,6 @@ def grid(model: Union[str, Callable[..., Any]], **parameters: Any) -> Scene:
 
 def render(scene: Scene, **settings: Any) -> Image:
     """`scene.render(...)`."""
+    if not isinstance(scene, Scene):
+        raise TypeError(f"a nacre.Scene is wanted, not {type(scene).__name__}")
     return scene.render(**settings)
