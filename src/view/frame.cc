@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <span>
 
 #include "base/parallel.h"
 
@@ -23,6 +24,8 @@ SharedBytes PictureBytes(FrameHead head, const std::array<const float*, 3>& rgb,
                          const DisplaySettings& display) {
   const size_t pixels = size_t{head.width} * head.height;
   head.kind = 1;
+  head.part_width = head.width;
+  head.part_height = head.height;
   const auto message = WithHead(head, 4 * pixels);
   uint8_t* const rgba = message->data() + kFrameHeadBytes;
   constexpr size_t kBlock = size_t{1} << 13;
@@ -38,6 +41,44 @@ SharedBytes PictureBytes(FrameHead head, const std::array<const float*, 3>& rgb,
       out[3] = 255;
     }
   });
+  return message;
+}
+
+SharedBytes PartSince(const SharedBytes& before, const SharedBytes& now) {
+  if (!before) return now;
+  FrameHead old, head;
+  std::memcpy(&old, before->data(), kFrameHeadBytes);
+  std::memcpy(&head, now->data(), kFrameHeadBytes);
+  if (old.width != head.width || old.height != head.height) return now;
+  const size_t row_bytes = size_t{4} * head.width;
+  const auto row_of = [&](const SharedBytes& bytes, size_t y) {
+    return bytes->data() + kFrameHeadBytes + y * row_bytes;
+  };
+  size_t top = head.height, bottom = 0, left = head.width, right = 0;
+  for (size_t y = 0; y < head.height; ++y) {
+    const uint8_t *const a = row_of(before, y), *const b = row_of(now, y);
+    const auto same = [&](size_t x) { return std::memcmp(a + 4 * x, b + 4 * x, 4) == 0; };
+    if (std::memcmp(a, b, row_bytes) == 0) continue;
+    top = std::min(top, y);
+    bottom = y + 1;
+    size_t x = 0, end = head.width;
+    while (x < left && same(x)) ++x;
+    while (end > right && same(end - 1)) --end;
+    left = std::min(left, x);
+    right = std::max(right, end);
+  }
+  const size_t width = right > left ? right - left : 0, height = bottom > top ? bottom - top : 0;
+  // What is copied for little is sent as it is, to all pages the same bytes.
+  if (8 * width * height > 7 * size_t{head.width} * head.height) return now;
+  head.part_x = static_cast<uint32_t>(width > 0 ? left : 0);
+  head.part_y = static_cast<uint32_t>(height > 0 ? top : 0);
+  head.part_width = static_cast<uint32_t>(width);
+  head.part_height = static_cast<uint32_t>(height);
+  auto message = WithHead(head, 4 * width * height);
+  for (size_t y = 0; y < height; ++y) {
+    std::memcpy(message->data() + kFrameHeadBytes + 4 * width * y, row_of(now, top + y) + 4 * left,
+                4 * width);
+  }
   return message;
 }
 

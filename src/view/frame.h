@@ -21,13 +21,15 @@ struct FrameHead {
   uint32_t kind = 1;      // 1: a picture, R, G, B, A of a pixel side by side; 2: planes of floats;
                           // a FileKind: a file
   uint32_t revision = 0;  // of the scene that it shows
-  uint32_t width = 0, height = 0;              // pixels that follow
+  uint32_t width = 0, height = 0;              // of the picture
   uint32_t frame_width = 0, frame_height = 0;  // of the whole picture; larger while things move
   uint32_t samples = 0, of_samples = 0;        // of each pixel
   uint32_t done = 0;                           // 1: nothing is refined any more
   uint32_t render_us = 0;                      // what it took to render
+  // Of a picture: the pixels that follow. The others are as they were.
+  uint32_t part_x = 0, part_y = 0, part_width = 0, part_height = 0;
 };
-inline constexpr size_t kFrameHeadBytes = 40;
+inline constexpr size_t kFrameHeadBytes = 56;
 
 // Files that are taken away.
 enum class FileKind : uint32_t { kExr = 3, kReport = 4 };
@@ -35,6 +37,10 @@ enum class FileKind : uint32_t { kExr = 3, kReport = 4 };
 // The picture that a display shows of three planes of the image.
 SharedBytes PictureBytes(FrameHead head, const std::array<const float*, 3>& rgb,
                          const DisplaySettings& display);
+
+// The picture `now` for who has `before`: the rectangle of it that is another, or all of it. `before`
+// may be null.
+SharedBytes PartSince(const SharedBytes& before, const SharedBytes& now);
 
 SharedBytes FileBytes(FileKind kind, const std::vector<uint8_t>& file);
 

@@ -86,7 +86,8 @@ struct Server::Impl {
 
 // ---- A page's WebSocket -------------------------------------------------------------------------
 
-// At most one picture is on its way to a page: it says "taken" when it has it.
+// At most one picture is on its way to a page: it says "taken" when it has it. Of each it is sent what
+// is not as in the one before.
 class PageSocket : public std::enable_shared_from_this<PageSocket> {
  public:
   PageSocket(Server::Impl* server, Tcp::socket socket, ClientId id)
@@ -122,8 +123,8 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
     if (in_flight_ || shown_ == server_->latest || !server_->latest) return;
     in_flight_ = true;
     sent_at_ = Clock::now();
+    Add({nullptr, PartSince(shown_, server_->latest)});
     shown_ = server_->latest;
-    Add({nullptr, shown_});
   }
 
  private:

@@ -34,7 +34,7 @@ class LiveViewer extends Viewer {
       canvas.width = head.width;
       canvas.height = head.height;
     }
-    this.context.putImageData(new ImageData(bytes, head.width, head.height), 0, 0);
+    if (bytes.length) this.context.putImageData(new ImageData(bytes, head.partWidth, head.partHeight), head.partX, head.partY);
     const reframed = frame.width !== head.frameWidth || frame.height !== head.frameHeight;
     live.cell = head.frameWidth / head.width;
     this.head = head;

@@ -2,7 +2,8 @@
 // view/html/socket.js: the connection: changes go out, pictures come in. When it breaks, it is tried
 // again until the server is back.
 
-const HEAD = ['kind', 'revision', 'width', 'height', 'frameWidth', 'frameHeight', 'samples', 'ofSamples', 'done', 'renderUs'];
+const HEAD = ['kind', 'revision', 'width', 'height', 'frameWidth', 'frameHeight', 'samples', 'ofSamples', 'done', 'renderUs',
+              'partX', 'partY', 'partWidth', 'partHeight'];
 const HEAD_BYTES = 4 * HEAD.length;
 const FILES = {3: 'exr', 4: 'html'};  // kinds of messages that are files
 
