@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
-#include <span>
+#include <utility>
 
 #include "base/parallel.h"
 
@@ -16,6 +16,28 @@ std::shared_ptr<std::vector<uint8_t>> WithHead(const FrameHead& head, size_t byt
   auto message = std::make_shared<std::vector<uint8_t>>(kFrameHeadBytes + bytes);
   std::memcpy(message->data(), &head, kFrameHeadBytes);
   return message;
+}
+
+// Makes the part of a picture's head the rectangle around all pixels that differ: none if none do.
+void FindChange(const uint8_t* before, const uint8_t* now, FrameHead* head) {
+  const size_t row_bytes = size_t{4} * head->width;
+  uint32_t top = head->height, bottom = 0, left = head->width, right = 0;
+  for (uint32_t y = 0; y < head->height; ++y) {
+    const uint8_t *const a = before + y * row_bytes, *const b = now + y * row_bytes;
+    if (std::memcmp(a, b, row_bytes) == 0) continue;
+    const auto same = [&](size_t x) { return std::memcmp(a + 4 * x, b + 4 * x, 4) == 0; };
+    top = std::min(top, y);
+    bottom = y + 1;
+    uint32_t x = 0, end = head->width;
+    while (x < left && same(x)) ++x;
+    while (end > right && same(end - 1)) --end;
+    left = std::min(left, x);
+    right = std::max(right, end);
+  }
+  head->part_x = bottom > 0 ? left : 0;
+  head->part_y = bottom > 0 ? top : 0;
+  head->part_width = bottom > 0 ? right - left : 0;
+  head->part_height = bottom > 0 ? bottom - top : 0;
 }
 
 }  // namespace
@@ -44,40 +66,37 @@ SharedBytes PictureBytes(FrameHead head, const std::array<const float*, 3>& rgb,
   return message;
 }
 
-SharedBytes PartSince(const SharedBytes& before, const SharedBytes& now) {
-  if (!before) return now;
-  FrameHead old, head;
-  std::memcpy(&old, before->data(), kFrameHeadBytes);
-  std::memcpy(&head, now->data(), kFrameHeadBytes);
-  if (old.width != head.width || old.height != head.height) return now;
-  const size_t row_bytes = size_t{4} * head.width;
-  const auto row_of = [&](const SharedBytes& bytes, size_t y) {
-    return bytes->data() + kFrameHeadBytes + y * row_bytes;
-  };
-  size_t top = head.height, bottom = 0, left = head.width, right = 0;
-  for (size_t y = 0; y < head.height; ++y) {
-    const uint8_t *const a = row_of(before, y), *const b = row_of(now, y);
-    const auto same = [&](size_t x) { return std::memcmp(a + 4 * x, b + 4 * x, 4) == 0; };
-    if (std::memcmp(a, b, row_bytes) == 0) continue;
-    top = std::min(top, y);
-    bottom = y + 1;
-    size_t x = 0, end = head.width;
-    while (x < left && same(x)) ++x;
-    while (end > right && same(end - 1)) --end;
-    left = std::min(left, x);
-    right = std::max(right, end);
+FrameHead HeadOf(const std::vector<uint8_t>& message) {
+  FrameHead head;
+  std::memcpy(&head, message.data(), kFrameHeadBytes);
+  return head;
+}
+
+PicturePieces::PicturePieces(const std::vector<uint8_t>* before, SharedBytes now,
+                             size_t piece_bytes)
+    : picture_(std::move(now)), head_(HeadOf(*picture_)) {
+  if (before != nullptr) {
+    const FrameHead old = HeadOf(*before);
+    if (old.width == head_.width && old.height == head_.height) {
+      FindChange(before->data() + kFrameHeadBytes, picture_->data() + kFrameHeadBytes, &head_);
+    }
   }
-  const size_t width = right > left ? right - left : 0, height = bottom > top ? bottom - top : 0;
-  // What is copied for little is sent as it is, to all pages the same bytes.
-  if (8 * width * height > 7 * size_t{head.width} * head.height) return now;
-  head.part_x = static_cast<uint32_t>(width > 0 ? left : 0);
-  head.part_y = static_cast<uint32_t>(height > 0 ? top : 0);
-  head.part_width = static_cast<uint32_t>(width);
-  head.part_height = static_cast<uint32_t>(height);
-  auto message = WithHead(head, 4 * width * height);
-  for (size_t y = 0; y < height; ++y) {
-    std::memcpy(message->data() + kFrameHeadBytes + 4 * width * y, row_of(now, top + y) + 4 * left,
-                4 * width);
+  const size_t row_bytes = size_t{4} * std::max(head_.part_width, 1U);
+  rows_ = static_cast<uint32_t>(std::max<size_t>(piece_bytes / row_bytes, 1));
+  head_.pieces = std::max((head_.part_height + rows_ - 1) / rows_, 1U);
+}
+
+SharedBytes PicturePieces::Piece(uint32_t number) const {
+  FrameHead head = head_;
+  head.piece = number;
+  head.part_y += number * rows_;
+  head.part_height = std::min(rows_, head_.part_height - number * rows_);
+  const size_t row_bytes = size_t{4} * head.part_width;
+  auto message = WithHead(head, row_bytes * head.part_height);
+  for (size_t y = 0; y < head.part_height; ++y) {
+    const size_t pixel = (head.part_y + y) * head.width + head.part_x;
+    std::memcpy(message->data() + kFrameHeadBytes + row_bytes * y,
+                picture_->data() + kFrameHeadBytes + 4 * pixel, row_bytes);
   }
   return message;
 }

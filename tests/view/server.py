@@ -156,13 +156,16 @@ class WebSocket:
                 message = json.loads(payload)
             else:
                 names = ('kind', 'revision', 'width', 'height', 'frame_width', 'frame_height', 'samples', 'of_samples',
-                         'done', 'render_us', 'part_x', 'part_y', 'part_width', 'part_height')
-                message = dict(zip(names, struct.unpack('<14I', payload[:56])), pixels=payload[56:])
+                         'done', 'render_us', 'moving', 'part_x', 'part_y', 'part_width', 'part_height',
+                         'piece', 'pieces')
+                message = dict(zip(names, struct.unpack('<17I', payload[:68])), pixels=payload[68:])
                 if message['kind'] == 1:
                     message['part'] = message['pixels']
                     message['pixels'] = self._whole(message)
-                if take and message['kind'] == 1:
-                    self.send('taken')
+                    if take:
+                        self.send('taken')
+                    if message['piece'] + 1 < message['pieces']:
+                        continue
             if wanted(message):
                 return message
 
