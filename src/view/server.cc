@@ -45,6 +45,10 @@ constexpr std::chrono::seconds kIdleTime(60);
 // What may wait for a page that is slow.
 constexpr size_t kMaxWaitingBytes = size_t{192} << 20;
 constexpr std::chrono::milliseconds kTick(50);
+// Pictures go out in pieces, so many ahead of what a page has taken: of one that is refined, and that a
+// change overtakes, the rest need not be sent.
+constexpr size_t kPieceBytes = size_t{512} << 10;
+constexpr int kPiecesAhead = 2;
 
 std::string_view View(beast::string_view text) { return {text.data(), text.size()}; }
 
@@ -86,7 +90,8 @@ struct Server::Impl {
 
 // ---- A page's WebSocket -------------------------------------------------------------------------
 
-// At most one picture is on its way to a page: it says "taken" when it has it.
+// At most one picture is on its way to a page, which says "taken" to each piece that it has. Of each
+// it is sent what is not as in the one that it had whole before.
 class PageSocket : public std::enable_shared_from_this<PageSocket> {
  public:
   PageSocket(Server::Impl* server, Tcp::socket socket, ClientId id)
@@ -117,13 +122,19 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
   void Say(std::shared_ptr<const std::string> text) { Add({std::move(text), nullptr}); }
   void Send(SharedBytes bytes) { Add({nullptr, std::move(bytes)}); }
 
-  // There is a newer picture.
+  // There is a newer picture, or room for a piece.
   void Show() {
-    if (in_flight_ || shown_ == server_->latest || !server_->latest) return;
-    in_flight_ = true;
-    sent_at_ = Clock::now();
-    shown_ = server_->latest;
-    Add({nullptr, shown_});
+    const SharedBytes& latest = server_->latest;
+    if (sending_ == nullptr || IsOvertaken()) {
+      if (latest == shown_ || latest == nullptr) return;
+      sending_ = latest;
+      pieces_.emplace(shown_.get(), latest, kPieceBytes);
+      next_piece_ = 0;
+      sent_at_ = Clock::now();
+    }
+    for (; in_flight_ < kPiecesAhead && next_piece_ < pieces_->count(); ++in_flight_) {
+      Add({nullptr, pieces_->Piece(next_piece_++)});
+    }
   }
 
  private:
@@ -132,6 +143,25 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
     SharedBytes bytes;
     size_t size() const { return text ? text->size() : bytes->size(); }
   };
+
+  // Those made while things move reach every page, however slow it is.
+  bool IsOvertaken() const {
+    if (sending_ == server_->latest) return false;
+    return HeadOf(*sending_).moving == 0 && HeadOf(*server_->latest).moving != 0;
+  }
+
+  void Taken() {
+    if (in_flight_ == 0) return;
+    --in_flight_;
+    if (in_flight_ > 0 || next_piece_ < pieces_->count()) return Show();
+    const bool moving = HeadOf(*sending_).moving != 0;
+    shown_ = std::exchange(sending_, nullptr);
+    pieces_.reset();
+    if (shown_ != server_->latest) return Show();
+    const std::chrono::duration<double, std::milli> taken = Clock::now() - sent_at_;
+    // What else is on the page's way is no measure for what moves.
+    server_->events.ready(taken.count(), moving ? shown_->size() : 0);
+  }
 
   void Read() {
     socket_.async_read(buffer_, [self = shared_from_this()](error_code error, size_t) {
@@ -145,14 +175,7 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
   }
 
   void Received(const std::string& text) {
-    if (text == "taken") {
-      if (!std::exchange(in_flight_, false)) return;
-      const std::chrono::duration<double, std::milli> taken = Clock::now() - sent_at_;
-      const double taken_ms = taken.count();
-      const size_t taken_bytes = shown_->size();
-      if (shown_ != server_->latest) return Show();
-      return server_->events.ready(taken_ms, taken_bytes);
-    }
+    if (text == "taken") return Taken();
     try {
       server_->events.message(id_, text);
     } catch (const Error& error) {
@@ -193,9 +216,11 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
   bool open_ = false;
   std::deque<Outgoing> waiting_;  // the first is being written
   size_t waiting_bytes_ = 0;
-  bool in_flight_ = false;
-  Clock::time_point sent_at_;  // of the picture in flight
-  SharedBytes shown_;
+  SharedBytes shown_, sending_;  // the last picture that has been taken, and one on its way
+  std::optional<PicturePieces> pieces_;
+  uint32_t next_piece_ = 0;
+  int in_flight_ = 0;          // pieces on their way, some of a picture that was overtaken
+  Clock::time_point sent_at_;  // of the first piece
 };
 
 // ---- An HTTP connection -------------------------------------------------------------------------

@@ -33,7 +33,7 @@ struct ServerEvents {
   std::function<void(ClientId)> opened, closed;
   std::function<void(ClientId, std::string_view)> message;  // throws Error for a bad one
   // A page could take a picture. It took `ms` to have the last one, of so many bytes; 0: it has had
-  // none.
+  // none that was made while things move.
   std::function<void(double ms, size_t bytes)> ready;
   std::function<void()> tick;  // twenty times a second; what it throws comes out of Run
 };

@@ -568,27 +568,28 @@ int Worker::FitDivisor() const {
   return 32;
 }
 
-void Worker::Plan(int divisor) {
+void Worker::Plan(int divisor, bool moving) {
   plan_.reset();
   ImageSettings image = FullImage();
+  if (moving) image.spp = 1;  // which takes the ways of pictures that have no more
   image.width = DividedBy(image.width, divisor);
   image.height = DividedBy(image.height, divisor);
   document_->UseImage(image);
   plan_.emplace(MakePlan(document_->scene(), Settings(), document_->prepared()));
   film_ = {};
   image_ = EmptyImage(*plan_);
-  planned_divisor_ = divisor;
 }
 
 void Worker::RenderMoving() {
   const auto start = Clock::now();
-  Plan(std::max(divisor_, FitDivisor()));
-  RenderPass(*plan_, Settings(), 1, &film_, [&](const Strip& strip) { CopyStrip(strip, &image_); });
+  const int divisor = std::max(divisor_, FitDivisor());
+  Plan(divisor, true);
+  Render(*plan_, Settings(), [&](const Strip& strip) { CopyStrip(strip, &image_); });
+  plan_.reset();  // refined pictures have more samples
   moved_ = false;
   render_ms_ = MsSince(start);
-  done_ =
-      plan_->scene->image.spp == 1 && planned_divisor_ == FitDivisor() && !(options_.max_error > 0);
-  Publish(done_);
+  done_ = FullImage().spp == 1 && divisor == FitDivisor() && !(options_.max_error > 0);
+  Publish(done_, true);
   // The first picture makes all that later ones keep: it says nothing of these.
   if (revision_ <= 1) return;
   double way_ms = 0;
@@ -616,9 +617,8 @@ void Worker::Adapt(double ms) {
 
 void Worker::Refine() {
   const auto start = Clock::now();
-  const int full = FitDivisor();
   RenderSettings settings = Settings();
-  if (options_.max_error > 0 && plan_ && planned_divisor_ == full && film_.samples > 0) {
+  if (options_.max_error > 0 && plan_ && film_.samples > 0) {
     settings.max_error = options_.max_error;
     settings.max_samples = options_.samples > 0 ? options_.samples : settings.max_samples;
     plan_.reset();
@@ -629,7 +629,7 @@ void Worker::Refine() {
     done_ = true;
     return Publish(true);
   }
-  if (!plan_ || planned_divisor_ != full) Plan(full);
+  if (!plan_) Plan(FitDivisor());
   const int spp = plan_->scene->image.spp;
   double last_shown = film_.samples == 0 ? -kRefinedEveryMs : 0;
   do {
@@ -645,7 +645,7 @@ void Worker::Refine() {
   done_ = film_.samples == spp && !(options_.max_error > 0);
 }
 
-void Worker::Publish(bool done) {
+void Worker::Publish(bool done, bool moving) {
   std::vector<const Channel*> channels = ChannelsOf(image_, layer_);
   if (channels.empty()) channels = ChannelsOf(image_, "");
   const std::array<const float*, 3> rgb = {channels[0]->samples.data(),
@@ -658,7 +658,8 @@ void Worker::Publish(bool done) {
   head.height = static_cast<uint32_t>(image_.data.height());
   head.frame_width = static_cast<uint32_t>(own.width);
   head.frame_height = static_cast<uint32_t>(own.height);
-  head.samples = static_cast<uint32_t>(film_.samples);
+  head.samples = static_cast<uint32_t>(std::max(film_.samples, 1));
+  head.moving = moving ? 1 : 0;
   head.of_samples = static_cast<uint32_t>(FullImage().spp);
   head.done = done ? 1 : 0;
   head.render_us = static_cast<uint32_t>(std::min(1e3 * render_ms_, 4e9));

@@ -92,11 +92,11 @@ class Worker {
   void CheckFiles();
   ImageSettings FullImage() const;
   int FitDivisor() const;
-  void Plan(int divisor);
+  void Plan(int divisor, bool moving = false);
   void RenderMoving();
   void Refine();
   void Adapt(double ms);
-  void Publish(bool done);
+  void Publish(bool done, bool moving = false);
   RenderSettings Settings();
 
   const WorkerOptions options_;
@@ -122,7 +122,6 @@ class Worker {
   std::optional<FramePlan> plan_;
   FrameFilm film_;
   Image image_;
-  int planned_divisor_ = 0;
   bool done_ = false;
   std::map<ClientId, KeptPicture> kept_;
   double render_ms_ = 0;

@@ -91,6 +91,7 @@ class WebSocket:
 
     def __init__(self, connection):
         self.connection = connection
+        self.picture = b''
 
     def frame(self, opcode, payload, fin=True, masked=True, length=None):
         size = len(payload) if length is None else length
@@ -134,6 +135,16 @@ class WebSocket:
             raise ConnectionError('closed by the server')
         return first & 15, payload
 
+    def _whole(self, head):
+        """The picture, of which a part came, and the others before it."""
+        width, height, left = (head[name] for name in ('part_width', 'part_height', 'part_x'))
+        if len(self.picture) != 4 * head['width'] * head['height']:
+            self.picture = bytearray(4 * head['width'] * head['height'])
+        for y in range(height):
+            at = 4 * ((head['part_y'] + y) * head['width'] + left)
+            self.picture[at:at + 4 * width] = head['part'][4 * width * y:4 * width * (y + 1)]
+        return bytes(self.picture)
+
     def until(self, wanted, take=True):
         """Messages up to the first that `wanted` likes, which is returned: dict or head of a picture."""
         while True:
@@ -145,10 +156,16 @@ class WebSocket:
                 message = json.loads(payload)
             else:
                 names = ('kind', 'revision', 'width', 'height', 'frame_width', 'frame_height', 'samples', 'of_samples',
-                         'done', 'render_us')
-                message = dict(zip(names, struct.unpack('<10I', payload[:40])), pixels=payload[40:])
-                if take and message['kind'] == 1:
-                    self.send('taken')
+                         'done', 'render_us', 'moving', 'part_x', 'part_y', 'part_width', 'part_height',
+                         'piece', 'pieces')
+                message = dict(zip(names, struct.unpack('<17I', payload[:68])), pixels=payload[68:])
+                if message['kind'] == 1:
+                    message['part'] = message['pixels']
+                    message['pixels'] = self._whole(message)
+                    if take:
+                        self.send('taken')
+                    if message['piece'] + 1 < message['pieces']:
+                        continue
             if wanted(message):
                 return message
 

@@ -27,18 +27,21 @@ class LiveViewer extends Viewer {
     for (const name of ['stage']) new ResizeObserver(() => this.hand.placeLamps()).observe(this[name]);
   }
 
-  // A picture came. It is drawn at once: the screen takes it when it takes the next one.
-  frame(head, bytes) {
+  // A picture came, what is new of it. It is drawn at once: the screen takes it when it takes the next
+  // one. The finest smoothing takes milliseconds, which a hand that goes on does not have.
+  frame(head, parts) {
     const {live} = this, {canvas} = live, frame = this.set.frame;
     if (canvas.width !== head.width || canvas.height !== head.height) {
       canvas.width = head.width;
       canvas.height = head.height;
     }
-    this.context.putImageData(new ImageData(bytes, head.width, head.height), 0, 0);
+    for (const {x, y, image} of parts) this.context.putImageData(image, x, y);
     const reframed = frame.width !== head.frameWidth || frame.height !== head.frameHeight;
     live.cell = head.frameWidth / head.width;
     this.head = head;
-    this.smoothing = head.done ? 'high' : 'low';  // the finest takes milliseconds
+    this.smoothing = 'low';
+    clearTimeout(this.smooth);
+    if (head.done) this.smooth = setTimeout(() => { this.smoothing = 'high'; this.draw(); }, 250);
     this.kept.clear();
     if (reframed) {
       Object.assign(frame, {width: head.frameWidth, height: head.frameHeight});

@@ -32,7 +32,7 @@ class View {
            this.banner, this.viewer.element, this.explanation.element),
         this.panel.element));
     document.addEventListener('keydown', event => this.key(event));
-    this.connection = new Connection({text: message => this.received(message), frame: (head, bytes) => this.frame(head, bytes),
+    this.connection = new Connection({text: message => this.received(message), frame: (head, parts) => this.frame(head, parts),
                                       file: (extension, bytes) => {
                                         save(`${baseName(this)}.${extension}`, new Blob([bytes]));
                                         this.status.textContent = this.spoken.textContent = 'the file is made';
@@ -114,8 +114,8 @@ class View {
     this.banner.hidden = !text;
   }
 
-  frame(head, bytes) {
-    this.viewer.frame(head, bytes);
+  frame(head, parts) {
+    this.viewer.frame(head, parts);
     const size = head.width === head.frameWidth ? `${head.width}×${head.height}` : `${head.width}×${head.height} of ${head.frameWidth}×${head.frameHeight}`;
     this.status.textContent = `${head.samples} of ${head.ofSamples} samples · ${size} · ${show(head.renderUs / 1000, 3)} ms`;
     this.keep.disabled = this.both.disabled = !head.done;

@@ -2,16 +2,18 @@
 // view/html/socket.js: the connection: changes go out, pictures come in. When it breaks, it is tried
 // again until the server is back.
 
-const HEAD = ['kind', 'revision', 'width', 'height', 'frameWidth', 'frameHeight', 'samples', 'ofSamples', 'done', 'renderUs'];
+const HEAD = ['kind', 'revision', 'width', 'height', 'frameWidth', 'frameHeight', 'samples', 'ofSamples', 'done', 'renderUs',
+              'moving', 'partX', 'partY', 'partWidth', 'partHeight', 'piece', 'pieces'];
 const HEAD_BYTES = 4 * HEAD.length;
 const FILES = {3: 'exr', 4: 'html'};  // kinds of messages that are files
 
 class Connection {
-  // `on`: {text(message), frame(head, bytes), file(extension, bytes), state(open)}
+  // `on`: {text(message), frame(head, parts), file(extension, bytes), state(open)}
   constructor(on) {
     this.on = on;
     this.serial = 0;
     this.waiting = new Map();  // samples that were asked for, by id
+    this.parts = [];  // of the picture that comes
     this.nextId = 1;
     this.open();
   }
@@ -37,7 +39,10 @@ class Connection {
     const head = Object.fromEntries(HEAD.map((name, i) => [name, words[i]]));
     if (head.kind === 1) {
       this.socket.send('taken');  // the next one may be made while this one is drawn
-      return this.on.frame(head, new Uint8ClampedArray(data, HEAD_BYTES));
+      if (head.piece === 0) this.parts = [];
+      if (head.partHeight) this.parts.push({x: head.partX, y: head.partY, image: new ImageData(new Uint8ClampedArray(data, HEAD_BYTES), head.partWidth)});
+      if (head.piece + 1 === head.pieces) this.on.frame(head, this.parts.splice(0));
+      return undefined;
     }
     if (head.kind in FILES) return this.on.file(FILES[head.kind], new Uint8Array(data, HEAD_BYTES));
     const done = this.waiting.get(head.samples), size = head.width * head.height, planes = [];
