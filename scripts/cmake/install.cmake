@@ -126,6 +126,6 @@ if(TARGET nacre_python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
     "python3 (>= ${python_version}), python3 (<< ${CMAKE_MATCH_1}.${next_minor}), python3-numpy")
 endif()
-set(CPACK_DEBIAN_PYTHON_PACKAGE_DESCRIPTION "The library in Python: scenes, renders, images as numpy arrays, reflection
-models over arrays, and renders of one's own.")
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "The library in Python: scenes, renders, images as numpy arrays, reflection
+models over arrays, and checks and renders of one's own.")
 include(CPack)
