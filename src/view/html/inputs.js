@@ -82,7 +82,7 @@ function numberInput(schema, label, edit) {
 function threeInput(names, label, edit) {
   let value = [0, 0, 0];
   const fields = names.map((name, i) => el('input', {type: 'number', step: 'any', 'aria-label': `${label}, ${name}`, onchange: event => {
-    if (event.target.value === '') { event.target.value = tidy(value[i]); return; }
+    if (event.target.value === '') { event.target.value = value[i]; return; }
     value = [...value];
     value[i] = Number(event.target.value);
     edit(value, newGesture());
@@ -92,7 +92,11 @@ function threeInput(names, label, edit) {
     show(now) {
       if (!Array.isArray(now)) return;
       value = now;
-      fields.forEach((field, i) => { if (document.activeElement !== field) field.value = tidy(now[i]); });
+      fields.forEach((field, i) => {
+        if (document.activeElement === field) return;
+        field.value = Number(Number(now[i]).toPrecision(4));  // what there is room for
+        field.title = now[i];
+      });
     },
   };
 }
