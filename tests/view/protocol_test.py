@@ -208,6 +208,24 @@ class ProtocolTest(unittest.TestCase):
         whole = slow.until(is_done)
         self.assertEqual(whole['pixels'], quick.until(is_done)['pixels'])
 
+    def test_pieces_that_were_left_are_no_picture(self):
+        """What a page has of a picture that was overtaken is not what the next one is told against."""
+        server, quick = self.open(SCENE, '--size', '1280x720', '--spp', '1')
+        quick.until(is_done)
+        slow = server.upgrade()
+        self.addCleanup(slow.close)
+        slow.until(is_done)
+        quick.send({'look': 'neutral', 'layer': '', 'exposure': 1})
+        quick.until(is_done)
+        pieces = [m for m in (slow.message() for _ in range(2)) if m.get('kind') == 1]
+        self.assertEqual([m['piece'] for m in pieces], [0, 1])
+        self.assertGreater(pieces[0]['pieces'], 2)
+        answer = self.set(quick, '/materials/red/roughness', 0.3)
+        now = quick.until(lambda m: is_done(m) and m['revision'] >= answer['revision'])
+        slow.send('taken')
+        slow.send('taken')
+        self.assertEqual(slow.until(lambda m: is_done(m) and m['revision'] >= answer['revision'])['pixels'], now['pixels'])
+
     def test_conversions_are_those_of_convert(self):
         _, page = self.open()
         page.until(is_done)
