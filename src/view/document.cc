@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "base/error.h"
 #include "base/path.h"
 #include "scene/material_parameters.h"
 #include "scene_io/material_json.h"
@@ -142,6 +143,11 @@ bool ViewDocument::CompleteLight(const std::string& pointer) {
 }
 
 void ViewDocument::Set(const std::string& pointer, const Json& value, uint64_t gesture) {
+  // Then none of the model's own would be left, and no value of "/lights" would bring them back.
+  if (pointer == "/lights" && is_model()) {
+    throw Error(ExitCode::kUsage, pointer, "a model's lights are set one by one",
+                "/lights/NAME is one of them");
+  }
   std::string place = ExistingPart(live_.root(), pointer);
   // A value for all lights of a model would leave none of its own: the history keeps the whole.
   if (place == "/lights" && place != pointer && is_model()) place.clear();

@@ -27,7 +27,8 @@ struct FrameHead {
   uint32_t done = 0;                           // 1: nothing is refined any more
   uint32_t render_us = 0;                      // what it took to render
   uint32_t moving = 0;                         // 1: made while things move
-  // Of a picture, which comes in pieces: the pixels that follow. Those in no piece are as they were.
+  // Of a picture, which comes in pieces: the pixels that follow. Those in no piece are as they
+  // were.
   uint32_t part_x = 0, part_y = 0, part_width = 0, part_height = 0;
   uint32_t piece = 0, pieces = 1;
 };

@@ -45,8 +45,8 @@ constexpr std::chrono::seconds kIdleTime(60);
 // What may wait for a page that is slow.
 constexpr size_t kMaxWaitingBytes = size_t{192} << 20;
 constexpr std::chrono::milliseconds kTick(50);
-// Pictures go out in pieces, so many ahead of what a page has taken: of one that is refined, and that a
-// change overtakes, the rest need not be sent.
+// Pictures go out in pieces, so many ahead of what a page has taken: of one that is refined, and
+// that a change overtakes, the rest need not be sent.
 constexpr size_t kPieceBytes = size_t{512} << 10;
 constexpr int kPiecesAhead = 2;
 
@@ -90,8 +90,8 @@ struct Server::Impl {
 
 // ---- A page's WebSocket -------------------------------------------------------------------------
 
-// At most one picture is on its way to a page, which says "taken" to each piece that it has. Of each
-// it is sent what is not as in the one that it had whole before.
+// At most one picture is on its way to a page, which says "taken" to each piece that it has. Of
+// each it is sent what is not as in the one that it had whole before.
 class PageSocket : public std::enable_shared_from_this<PageSocket> {
  public:
   PageSocket(Server::Impl* server, Tcp::socket socket, ClientId id)
@@ -280,8 +280,25 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 
 // ---- The server ---------------------------------------------------------------------------------
 
+namespace {
+
+// As browsers name it: a scheme and a host, and nothing behind.
+bool IsOrigin(std::string_view text) {
+  const size_t host = text.starts_with("https://") ? 8 : text.starts_with("http://") ? 7 : 0;
+  return host > 0 && text.size() > host &&
+         text.substr(host).find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789.-:[]") ==
+             std::string_view::npos;
+}
+
+}  // namespace
+
 void Server::Impl::Listen() {
   error_code error;
+  if (!options.origin.empty() && !IsOrigin(options.origin)) {
+    throw Error(
+        ExitCode::kUsage, "--origin", fmt::format("\"{}\" is no origin", options.origin),
+        "https://HOST in lower case, as browsers call the proxy, with its port if it has one");
+  }
   const auto address = asio::ip::make_address(options.address, error);
   if (error) {
     throw Error(ExitCode::kUsage, "--listen", fmt::format("\"{}\" is no address", options.address),

@@ -324,7 +324,7 @@ void Worker::ServeConvert(ClientId client, const ConvertRequest& convert) {
   try {
     const Json tree = document_->Tree();
     const Json::json_pointer pointer(convert.pointer);
-    if (!tree.contains(pointer)) {
+    if (pointer.empty() || !tree.contains(pointer)) {
       throw Error(ExitCode::kUsage, convert.pointer, "there is no material here");
     }
     Json own = tree.at(pointer);

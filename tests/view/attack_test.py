@@ -278,6 +278,10 @@ class EndTest(unittest.TestCase):
         refused = subprocess.run([*command, SCENE], capture_output=True, text=True, timeout=60, check=False)
         self.assertEqual((refused.returncode, refused.stdout), (64, ''))
         self.assertIn('--origin', refused.stderr)
+        for origin in ('nacre.example', 'javascript:x', 'https://', 'https://nacre.example/view', 'https://NACRE.example'):
+            refused = subprocess.run([*command, '--origin', origin, SCENE], capture_output=True, text=True, timeout=60, check=False)
+            self.assertEqual((refused.returncode, refused.stdout), (64, ''))
+            self.assertIn('is no origin', refused.stderr)
         with Server(PROGRAM, SCENE, *SMALL, '--listen', '0.0.0.0', '--origin', 'https://nacre.example/') as server:
             self.assertTrue(server.url.startswith('https://nacre.example/'))
             self.assertIn('TLS', server.process.stderr.readline())

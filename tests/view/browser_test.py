@@ -311,6 +311,10 @@ class ViewTest(unittest.TestCase):
         # One step back.
         self.click('[aria-label="Undo"]')
         self.browser.wait('return VIEW.scene.materials.red.model === "metallic_roughness"')
+        # A lobe without a colour over a base that has one is a dielectric's, any other a metal's.
+        nearest = [self.browser.script('return convertible({materials: {m: arguments[0]}})[0].other', {'model': 'phong', 'ks': ks})
+                   for ks in (0.3, [0.2, 0.2, 0.2], [0.9, 0.6, 0.2])]
+        self.assertEqual(nearest, ['dielectric', 'dielectric', 'metallic_roughness'])
 
     def test_a_pixel_is_explained(self):
         server = self.view()
@@ -324,6 +328,16 @@ class ViewTest(unittest.TestCase):
         for value, digits in ((key['terms']['D'], 5), (key['terms']['G'], 5), (key['n_dot_l'], 4), (key['n_dot_h'], 4)):
             self.assertIn(self.browser.script('return show(...arguments)', value, digits), text)
         self.assertEqual(self.browser.script('return document.querySelectorAll(".explain svg").length'), 4)
+        # It explains what is seen, after a change as well.
+        self.slide('/materials/red/roughness', 800)
+        page = server.upgrade()
+        page.send({'explain': 96, 'y': 54})
+        told = page.until(lambda m: 'explained' in m)['explained']
+        page.close()
+        key = next(light for light in told['lights'] if light['name'] == 'key')
+        now = self.browser.script('return show(...arguments)', key['terms']['D'], 5)
+        self.assertNotIn(now, text)
+        self.browser.wait('return document.querySelector(".explain:not(.old)")?.textContent.includes(arguments[0])', now)
 
     def test_the_page_finds_a_server_that_starts_anew(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -531,6 +545,15 @@ class ViewTest(unittest.TestCase):
         self.view(path, *QUICK)
         self.assertEqual(self.browser.script('return document.querySelectorAll("img").length'), 0)
         self.assertIn(name, self.browser.script('return document.body.textContent'))
+
+    def test_parameters_say_what_they_mean(self):
+        self.view()
+        self.browser.script("""document.querySelector('[data-pointer="/materials/red/roughness"] input').focus()""")
+        about = self.browser.wait('const a = document.querySelector(".about"); return !a.hidden && a.textContent')
+        self.assertTrue(about.startswith('roughness '), about)
+        self.assertEqual(about, self.browser.script("""
+            const row = document.querySelector('[data-pointer="/materials/red/roughness"]');
+            return 'roughness ' + row.querySelector('input').getAttribute('aria-description')"""))
 
     def test_search(self):
         self.view()

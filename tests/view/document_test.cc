@@ -77,6 +77,8 @@ TEST_CASE("a model's lights are changed by their members") {
   CHECK(document.Tree()["lights"]["rim"] == before["lights"]["rim"]);
   document.Undo();
   CHECK(document.Tree() == before);
+  CHECK_THROWS_AS(document.Set("/lights", Json::object(), 5), Error);
+  CHECK(document.Tree() == before);
 }
 
 TEST_CASE("reset is a step like others") {

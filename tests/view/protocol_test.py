@@ -158,6 +158,74 @@ class ProtocolTest(unittest.TestCase):
         self.assertEqual(counts, sorted(counts))
         self.assertEqual(counts[0], 1)
 
+    def test_a_page_is_sent_what_has_changed(self):
+        server, page = self.open(SCENE, '--size', '320x180', '--spp', '1')
+        page.until(is_done)
+        answer = self.set(page, '/materials/red/base_color', [0, 1, 0])
+        head = page.until(lambda m: is_done(m) and m['revision'] >= answer['revision'])
+        self.assertLess(head['part_width'] * head['part_height'], 320 * 180 / 2)
+        other = server.upgrade()
+        self.addCleanup(other.close)
+        self.assertEqual(other.until(is_done)['pixels'], head['pixels'])
+        # Nothing of it.
+        answer = self.set(page, '/materials/red/base_color', [0, 1, 0])
+        again = page.until(lambda m: is_done(m) and m['revision'] >= answer['revision'])
+        self.assertEqual((again['part_width'], again['part_height'], again['pixels']), (0, 0, head['pixels']))
+
+    def test_pieces_of_pictures(self):
+        """A picture made while things move comes whole; a refined one is left where a change overtakes it."""
+        def piece(page, wanted=lambda m: True):
+            return next(m for m in iter(page.message, None) if m.get('kind') == 1 and wanted(m))
+
+        server, slow = self.open(SCENE, '--size', '1280x720', '--spp', '4')
+        head = piece(slow)
+        self.assertEqual((head['moving'], head['piece']), (1, 0))
+        self.assertGreater(head['pieces'], 2)
+        quick = server.upgrade()
+        self.addCleanup(quick.close)
+        quick.until(is_done)
+        slow.whole(head)
+        while head['piece'] + 1 < head['pieces']:
+            slow.send('taken')
+            before, head = head, piece(slow)
+            slow.whole(head)
+            self.assertEqual((head['moving'], head['piece']), (1, before['piece'] + 1))
+        slow.send('taken')
+        # Now the refined one, of which two pieces come.
+        head = piece(slow)
+        self.assertEqual((head['moving'], head['piece']), (0, 0))
+        self.assertGreater(head['pieces'], 2)
+        answer = self.set(quick, '/materials/red/base_color', [0, 1, 0])
+        quick.until(lambda m: m.get('kind') == 1 and m['revision'] >= answer['revision'])
+        self.assertEqual(piece(slow)['piece'], 1)
+        slow.send('taken')
+        slow.send('taken')
+        head = piece(slow)
+        self.assertEqual((head['moving'], head['piece']), (1, 0))
+        self.assertGreaterEqual(head['revision'], answer['revision'])
+        slow.send('taken')
+        slow.whole(head)
+        whole = slow.until(is_done)
+        self.assertEqual(whole['pixels'], quick.until(is_done)['pixels'])
+
+    def test_pieces_that_were_left_are_no_picture(self):
+        """What a page has of a picture that was overtaken is not what the next one is told against."""
+        server, quick = self.open(SCENE, '--size', '1280x720', '--spp', '1')
+        quick.until(is_done)
+        slow = server.upgrade()
+        self.addCleanup(slow.close)
+        slow.until(is_done)
+        quick.send({'look': 'neutral', 'layer': '', 'exposure': 1})
+        quick.until(is_done)
+        pieces = [m for m in (slow.message() for _ in range(2)) if m.get('kind') == 1]
+        self.assertEqual([m['piece'] for m in pieces], [0, 1])
+        self.assertGreater(pieces[0]['pieces'], 2)
+        answer = self.set(quick, '/materials/red/roughness', 0.3)
+        now = quick.until(lambda m: is_done(m) and m['revision'] >= answer['revision'])
+        slow.send('taken')
+        slow.send('taken')
+        self.assertEqual(slow.until(lambda m: is_done(m) and m['revision'] >= answer['revision'])['pixels'], now['pixels'])
+
     def test_conversions_are_those_of_convert(self):
         _, page = self.open()
         page.until(is_done)

@@ -24,7 +24,7 @@ def main():
             browser.script('VIEW.viewer.inspect(345, 205)')
             browser.wait('return !document.querySelector(".explain").hidden')
             # Times are another every time.
-            browser.script('VIEW.status.textContent = VIEW.status.textContent.replace(/ · [^·]*ms$/, "")')
+            browser.script('VIEW.status.textContent = VIEW.status.textContent.replace(/ · [^·]*s$/, "")')
             picture = browser.request('GET', browser.session + '/screenshot')
             out.write_bytes(base64.b64decode(picture))
     finally:

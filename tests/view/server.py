@@ -91,7 +91,7 @@ class WebSocket:
 
     def __init__(self, connection):
         self.connection = connection
-        self.picture = b''
+        self.picture, self.pieces = b'', []
 
     def frame(self, opcode, payload, fin=True, masked=True, length=None):
         size = len(payload) if length is None else length
@@ -135,37 +135,44 @@ class WebSocket:
             raise ConnectionError('closed by the server')
         return first & 15, payload
 
-    def _whole(self, head):
-        """The picture, of which a part came, and the others before it."""
-        width, height, left = (head[name] for name in ('part_width', 'part_height', 'part_x'))
-        if len(self.picture) != 4 * head['width'] * head['height']:
-            self.picture = bytearray(4 * head['width'] * head['height'])
-        for y in range(height):
-            at = 4 * ((head['part_y'] + y) * head['width'] + left)
-            self.picture[at:at + 4 * width] = head['part'][4 * width * y:4 * width * (y + 1)]
-        return bytes(self.picture)
-
-    def until(self, wanted, take=True):
-        """Messages up to the first that `wanted` likes, which is returned: dict or head of a picture."""
+    def message(self):
+        """The next one: a dict, or the head of what came as bytes with its "pixels"."""
         while True:
             opcode, payload = self.receive()
-            if opcode == self.PING:
-                self.frame(self.PONG, payload)
-                continue
             if opcode == self.TEXT:
-                message = json.loads(payload)
-            else:
-                names = ('kind', 'revision', 'width', 'height', 'frame_width', 'frame_height', 'samples', 'of_samples',
-                         'done', 'render_us', 'moving', 'part_x', 'part_y', 'part_width', 'part_height',
-                         'piece', 'pieces')
-                message = dict(zip(names, struct.unpack('<17I', payload[:68])), pixels=payload[68:])
-                if message['kind'] == 1:
-                    message['part'] = message['pixels']
-                    message['pixels'] = self._whole(message)
-                    if take:
-                        self.send('taken')
-                    if message['piece'] + 1 < message['pieces']:
-                        continue
+                return json.loads(payload)
+            if opcode != self.PING:
+                break
+            self.frame(self.PONG, payload)
+        names = ('kind', 'revision', 'width', 'height', 'frame_width', 'frame_height', 'samples', 'of_samples', 'done',
+                 'render_us', 'moving', 'part_x', 'part_y', 'part_width', 'part_height', 'piece', 'pieces')
+        return dict(zip(names, struct.unpack('<17I', payload[:68])), pixels=payload[68:])
+
+    def whole(self, piece):
+        """All pixels once this piece of a picture, and those before it, have come; or None."""
+        if piece['piece'] == 0:
+            self.pieces = []
+        self.pieces.append(dict(piece))
+        if piece['piece'] + 1 < piece['pieces']:
+            return None
+        if len(self.picture) != 4 * piece['width'] * piece['height']:
+            self.picture = bytearray(4 * piece['width'] * piece['height'])
+        for part in self.pieces:
+            row = 4 * part['part_width']
+            for y in range(part['part_height']):
+                at = 4 * ((part['part_y'] + y) * part['width'] + part['part_x'])
+                self.picture[at:at + row] = part['pixels'][row * y:row * (y + 1)]
+        return bytes(self.picture)
+
+    def until(self, wanted):
+        """Messages up to the first that `wanted` likes, which is returned; of pictures the whole ones."""
+        while True:
+            message = self.message()
+            if message.get('kind') == 1:
+                self.send('taken')
+                message['pixels'] = self.whole(message)
+                if message['pixels'] is None:
+                    continue
             if wanted(message):
                 return message
 

@@ -56,7 +56,8 @@ class Viewer {
   // The pictures of the present mode, by pane: [{label, second, pictures: [promise of canvas]}...]
   async pictures() {
     const part = async (index, from = 0, to = 1) => this.place(this.images[index], await this.paint(index), from, to);
-    const name = index => `${index + 1} ${this.images[index].name}` +
+    const several = this.images.length > 1;  // and a number that is also a key
+    const name = index => (several ? `${index + 1} ` : '') + this.images[index].name +
                           (index === this.reference && this.images.length > 1 ? ' (reference)' : '');
     if (this.mode === 'side') {
       return Promise.all(this.images.map(async (_, i) => ({label: name(i), pictures: [await part(i)]})));

@@ -12,8 +12,17 @@ class Explanation {
     this.element = el('details', {class: 'explain', open: true, hidden: true}, el('summary', {}, 'Where this value comes from'), this.body);
   }
 
-  show(json, look) {
+  // Whether it explains a picture before this one; then it is seen to.
+  outdated(revision) {
+    const old = !this.element.hidden && this.revision !== revision;
+    this.element.classList.toggle('old', old);
+    return old && this.element.open;
+  }
+
+  show(json, look, revision) {
     this.element.hidden = false;
+    this.revision = revision;
+    this.element.classList.remove('old');
     const {x, y, value} = json, codes = [0, 0, 0];
     displayCodes(TONES[look.tone], 2 ** look.exposure, ...value, codes, 0);
     const end = [['linear value', three(value)], [`display code, ${look.tone.replaceAll('_', ' ')}, ${show(look.exposure, 3)} stops`, codes.join('  ')]];
@@ -36,7 +45,7 @@ class Explanation {
                   ...this.covers(lights, row),
                   row('diffuse radiance', l => l.diffuse ? three(l.diffuse) : ''), row('specular radiance', l => l.specular ? three(l.specular) : ''),
                   row('rendered, diffuse', l => three(l.rendered_diffuse)), row('rendered, specular', l => three(l.rendered_specular)),
-                  row('rendered, both', l => three(l.rendered))];
+                  row('rendered, both', l => three(l.rendered))].filter(([, ...cells]) => cells.some(Boolean));
     const parts = [...lights.map(l => [`light ${l.name}`, l.rendered]), ['ambient light', layers.ambient], ['emission', layers.emission]];
     const total = [...parts.map(([name, v]) => [name, three(v)]), ['sum', three(sum3(parts.map(([, v]) => v)))],
                    ['of it diffuse', three(layers.diffuse)], ['of it specular', three(layers.specular)], ...end];
@@ -104,7 +113,7 @@ class Explanation {
     const byDegree = values => values.map((v, i) => [i, v]);
     return el('figure', {},
         curves.distribution ? plot('D, angle of h 0–90°', byDegree(curves.distribution), lit.map(l => degrees(l.n_dot_h))) : null,
-        curves.fresnel ? plot('F (green), angle of v and h 0–90°', byDegree(curves.fresnel.map(f => f[1])), lit.map(l => degrees(l.v_dot_h))) : null,
+        curves.fresnel ? plot('F of the green channel, angle of v and h 0–90°', byDegree(curves.fresnel.map(f => f[1])), lit.map(l => degrees(l.v_dot_h))) : null,
         plot('albedo, angle of v 0–90°', curves.albedo, [degrees(dot(normal, view))]),
         el('figcaption', {class: 'soft'}, 'Dashed: the angles here. Albedo: the share of light from everywhere that is seen, mean of the channels.'));
   }

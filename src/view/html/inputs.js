@@ -82,7 +82,7 @@ function numberInput(schema, label, edit) {
 function threeInput(names, label, edit) {
   let value = [0, 0, 0];
   const fields = names.map((name, i) => el('input', {type: 'number', step: 'any', 'aria-label': `${label}, ${name}`, onchange: event => {
-    if (event.target.value === '') { event.target.value = tidy(value[i]); return; }
+    if (event.target.value === '') { event.target.value = value[i]; return; }
     value = [...value];
     value[i] = Number(event.target.value);
     edit(value, newGesture());
@@ -92,7 +92,11 @@ function threeInput(names, label, edit) {
     show(now) {
       if (!Array.isArray(now)) return;
       value = now;
-      fields.forEach((field, i) => { if (document.activeElement !== field) field.value = tidy(now[i]); });
+      fields.forEach((field, i) => {
+        if (document.activeElement === field) return;
+        field.value = Number(Number(now[i]).toPrecision(4));  // what there is room for
+        field.title = now[i];
+      });
     },
   };
 }
@@ -157,14 +161,14 @@ function textInput(label, edit) {
 }
 
 // A texture by its name, or a file of the scene's folder, of which one is made.
-function mapInput(names, files, label, edit, useFile) {
+function mapInput(names, files, label, edit, useFile, none) {
   const select = el('select', {'aria-label': label, onchange: () => {
     const {kind} = select.selectedOptions[0].dataset;
     if (kind === 'file') useFile(select.value, newGesture());
     else edit(select.value, newGesture());
   }});
   const group = (title, kind, values) => values.length ? el('optgroup', {label: title}, values.map(value => el('option', {value, 'data-kind': kind}, value))) : null;
-  select.append(...[el('option', {value: '', disabled: true}, 'none'), group('Textures', 'texture', names), group('Files of the scene’s folder', 'file', files)].filter(Boolean));
+  select.append(...[el('option', {value: '', disabled: true}, none), group('Textures', 'texture', names), group('Files of the scene’s folder', 'file', files)].filter(Boolean));
   return {element: select, focus: select, show(now) { select.value = typeof now === 'string' ? now : ''; }};
 }
 
@@ -179,8 +183,8 @@ function fileInput(files, label, edit) {
 }
 
 // The control that suits a schema.
-function makeInput(schema, label, edit, {names, files, useFile, value}) {
-  if (useFile) return mapInput(names, files, label, edit, useFile);
+function makeInput(schema, label, edit, {names, files, useFile, none, value}) {
+  if (useFile) return mapInput(names, files, label, edit, useFile, none);
   if (files) return fileInput(files, label, edit);
   if (schema.enum) return choiceInput(schema.enum, label, edit);
   if (schema.type === 'boolean') return switchInput(label, edit);
@@ -197,6 +201,7 @@ function makeControl(name, schema, pointer, edit, drop, known = {}) {
   const label = name.replaceAll('_', ' '), id = `control${++lastControl}`;
   const input = makeInput({...schema, turns: name.endsWith('_deg')}, label, (value, gesture) => edit(pointer, value, gesture), known);
   input.focus.id = id;
+  if (schema.description) input.focus.setAttribute('aria-description', schema.description);
   const fault = el('div', {class: 'fault', role: 'alert', hidden: true});
   const dropper = drop ? el('button', {class: 'drop', title: 'Back to the default', 'aria-label': `${label}: back to the default`,
                                        onclick: () => drop(pointer)}, '×') : null;

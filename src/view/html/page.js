@@ -63,7 +63,7 @@ class View {
     if ('scene' in message) this.sceneIs(message);
     else if ('changed' in message) this.changed(message);
     else if ('fault' in message) this.fault(message);
-    else if ('explained' in message) this.explanation.show(message.explained, this.viewer.look);
+    else if ('explained' in message) this.explanation.show(message.explained, this.viewer.look, message.revision);
     else if ('kept' in message) { if (!message.kept && this.viewer.images.length > 1) this.viewer.showMetrics(null); }
     else if ('metrics' in message) this.viewer.showMetrics(message.metrics, message.revision);
     else if ('not_kept' in message) this.panel.fault(message.convert, `What is not the same: ${message.not_kept.join('; ')}`, true);
@@ -82,6 +82,7 @@ class View {
     this.scene = scene;
     this.name.textContent = name;
     this.panel.files = files;
+    this.panel.ofModel = isModel(file);
     this.panel.build(scene, camera);
     this.viewer.layersAre(layers);
     this.viewer.hand.show(camera, scene.lights);
@@ -117,7 +118,10 @@ class View {
   frame(head, parts) {
     this.viewer.frame(head, parts);
     const size = head.width === head.frameWidth ? `${head.width}×${head.height}` : `${head.width}×${head.height} of ${head.frameWidth}×${head.frameHeight}`;
-    this.status.textContent = `${head.samples} of ${head.ofSamples} samples · ${size} · ${show(head.renderUs / 1000, 3)} ms`;
+    const ms = head.renderUs / 1000, time = ms < 1000 ? `${show(ms, 3)} ms` : `${show(ms / 1000, 3)} s`;
+    this.status.textContent = `${head.samples} of ${head.ofSamples} samples · ${size} · ${time}`;
+    // What is explained is what is seen.
+    if (this.explanation.outdated(head.revision) && head.done) this.act.explain(this.viewer.mark.x, this.viewer.mark.y);
     this.keep.disabled = this.both.disabled = !head.done;
     if (head.done) this.spoken.textContent = `Picture complete, ${head.ofSamples} samples`;
   }
@@ -139,7 +143,7 @@ class View {
     const all = convertible(this.scene), [first] = all, gesture = newGesture();
     if (!first) return this.showBanner('No material here is a Phong or a physically based one that converts');
     if (!await this.compare()) return;
-    for (const {pointer, phong} of all) if (phong === first.phong) this.act.convert(pointer, phong ? 'metallic_roughness' : 'phong', gesture);
+    for (const {pointer, phong, other} of all) if (phong === first.phong) this.act.convert(pointer, other, gesture);
   }
 
   key(event) {

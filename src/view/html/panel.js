@@ -18,7 +18,10 @@ class Panel {
     this.controls = new Map();  // by pointer
     this.find = el('input', {type: 'search', placeholder: 'Find a parameter ( / )', 'aria-label': 'Find a parameter', oninput: () => this.filter()});
     this.list = el('div', {});
-    this.element = el('div', {class: 'panel', role: 'region', 'aria-label': 'Scene'}, el('div', {class: 'find'}, this.find), this.list);
+    // What the parameter at hand means: the schema's words, which its row has as a tooltip as well.
+    this.about = el('p', {class: 'about', hidden: true, 'aria-hidden': 'true'});
+    for (const event of ['focusin', 'pointerover']) this.list.addEventListener(event, ({target}) => this.tell(target));
+    this.element = el('div', {class: 'panel', role: 'region', 'aria-label': 'Scene'}, el('div', {class: 'find'}, this.find), this.list, this.about);
     this.files = [];  // images of the scene's folder
     this.open = new Map();  // whether a group is open, by pointer
   }
@@ -107,11 +110,12 @@ class Panel {
     return control;
   }
 
-  // The names and files that a value may be: {names, files, useFile}.
+  // The names and files that a value may be, and what it is without: {names, files, useFile, none}.
   choices(name, pointer) {
     const {scene, files} = this, textures = Object.keys(scene.textures || {});
     if ((name.endsWith('_map') || name === 'texture') && textures.length + files.length) {
-      return {names: textures, files, useFile: (file, gesture) => this.useFile(pointer, file, gesture)};
+      return {names: textures, files, useFile: (file, gesture) => this.useFile(pointer, file, gesture),
+              none: this.ofModel && pointer.startsWith('/materials/') ? 'as in the model' : 'none'};
     }
     if (name === 'file' && pointer.startsWith('/textures/')) return {files};
     if (name === 'image' && pointer.startsWith('/lights/')) return {files: files.filter(file => /\.(exr|hdr)$/i.test(file))};
@@ -181,6 +185,13 @@ class Panel {
     control.fault(text, note);
     control.show(this.valueOf(control.pointer));
     return control.element.checkVisibility();  // in a group that is closed nobody sees it
+  }
+
+  tell(element) {
+    const row = element.closest('.control[title]');
+    if (!row) return;
+    this.about.hidden = false;
+    this.about.replaceChildren(el('b', {}, row.querySelector('label, .label').textContent), ` ${row.title}`);
   }
 
   filter() {

@@ -55,15 +55,24 @@ const isPoint = schema => schema.type === 'array' && schema.minItems === 3 && sc
 // Other forms of the value of which one is an object: {schema of the object}.
 const objectForm = schema => schema.properties ? schema : (schema.anyOf || []).map(resolve).find(s => s.properties || s.oneOf);
 
-// Materials that nacre convert can make Phong of physically based and back: [{pointer, phong}...]. Those
+// Materials that nacre convert can make Phong of physically based and back: [{pointer, phong, other}...]. Those
 // of grids stay, whose axes are parameters of one model.
 const PHONG = ['phong', 'modified_phong', 'blinn_phong'], PBR = ['metallic_roughness', 'dielectric', 'conductor'];
 function convertible(scene) {
   const named = Object.entries(scene.materials || {}).map(([name, material]) => [`/materials/${token(name)}`, material]);
   const own = (scene.shapes || []).map((shape, i) => [`/shapes/${i}/material`, !shape.rows && !shape.columns && shape.material]);
   return [...named, ...own].filter(([, material]) => material && typeof material === 'object')
-      .map(([pointer, {model = 'metallic_roughness'}]) => ({pointer, model, phong: PHONG.includes(model)}))
-      .filter(({model}) => PHONG.includes(model) || PBR.includes(model));
+      .map(([pointer, material]) => ({pointer, material, model: material.model ?? 'metallic_roughness'}))
+      .filter(({model}) => PHONG.includes(model) || PBR.includes(model))
+      .map(found => ({...found, phong: PHONG.includes(found.model)}))
+      .map(found => ({...found, other: found.phong ? nearestPbr(found.material) : 'phong'}));
+}
+
+// The model by which a Phong material is nearest to a physically based one: a lobe without a colour over
+// a base that has one is a dielectric's.
+function nearestPbr(material) {
+  const {ks} = material;
+  return Array.isArray(ks) && ks.some(v => v !== ks[0]) ? 'metallic_roughness' : 'dielectric';
 }
 
 // Parameters of models that mean the same, and how a value becomes another's.
