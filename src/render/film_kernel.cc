@@ -39,16 +39,14 @@ HWY_INLINE void RoundRow(const double* sums, const double* coverage, const Resol
   const V background = hn::Set(d, by.background);
   const V weight = hn::Set(d, by.weight);
   const V scale = hn::Set(d, by.scale);
-  size_t i = 0;
-  for (; i + hn::Lanes(d) <= width; i += hn::Lanes(d)) {
+  const auto rounded = [&](size_t i) HWY_ATTR {
     const V missed = hn::Sub(weight, hn::LoadU(d, coverage + i));
     const V sum = hn::Add(hn::LoadU(d, sums + i), hn::Mul(background, missed));
-    hn::StoreU(hn::DemoteTo(F(), hn::Mul(sum, scale)), F(), out + i);
-  }
-  for (; i < width; ++i) {
-    const double sum = sums[i] + by.background * (by.weight - coverage[i]);
-    out[i] = static_cast<float>(sum * by.scale);
-  }
+    return hn::DemoteTo(F(), hn::Mul(sum, scale));
+  };
+  size_t i = 0;
+  for (; i + hn::Lanes(d) <= width; i += hn::Lanes(d)) hn::StoreU(rounded(i), F(), out + i);
+  if (i < width) hn::BlendedStore(rounded(i), hn::FirstN(F(), width - i), F(), out + i);
 }
 
 void RoundSumsT(const double* sums, const double* coverage, const Resolution& by,
