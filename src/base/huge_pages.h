@@ -56,8 +56,8 @@ struct HugeAllocator {
   using value_type = T;
   HugeAllocator() = default;
   template <typename U>
-  HugeAllocator(const HugeAllocator<U>&) {
-  }  // NOLINT(google-explicit-constructor): as allocators do
+  // NOLINTNEXTLINE(google-explicit-constructor): as allocators do
+  HugeAllocator(const HugeAllocator<U>&) {}
 
   T* allocate(size_t count) {
     T* const data = std::allocator<T>().allocate(count);

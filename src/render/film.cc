@@ -130,7 +130,8 @@ void FillBackground(const FilmPlan& plan, const Window& tile, Strip* strip) {
   size_t color = 0;
   for (const Layer& layer : plan.layers) {
     const Rgb background = IsAveraged(layer.kind) ? BackgroundOf(layer, plan) : Rgb(0, 0, 0);
-    const Rgb mean = background * plan.weight * (1.0 / plan.spp);  // as of sums that are 0
+    // As of sums that are 0, to which a background of -0 is added.
+    const Rgb mean = (Rgb(0, 0, 0) + background * plan.weight) * (1.0 / plan.spp);
     for (int c = 0; c < FloatChannels(layer.kind); ++c) {
       FillPixels(static_cast<float>(mean[c]), RowsIn(strip->window, tile, &strip->colors[color++]));
     }

@@ -130,9 +130,10 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
       sending_ = latest;
       pieces_.emplace(shown_.get(), latest, kPieceBytes);
       next_piece_ = 0;
-      sent_at_ = Clock::now();
+      behind_others_ = in_flight_ > 0;
     }
     for (; in_flight_ < kPiecesAhead && next_piece_ < pieces_->count(); ++in_flight_) {
+      if (next_piece_ == 0) sent_at_ = Clock::now();
       Add({nullptr, pieces_->Piece(next_piece_++)});
     }
   }
@@ -144,9 +145,10 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
     size_t size() const { return text ? text->size() : bytes->size(); }
   };
 
-  // Those made while things move reach every page, however slow it is.
+  // Those made while things move reach every page, however slow it is; and one that is sent to its
+  // last piece will be what the page shows.
   bool IsOvertaken() const {
-    if (sending_ == server_->latest) return false;
+    if (sending_ == server_->latest || next_piece_ == pieces_->count()) return false;
     return HeadOf(*sending_).moving == 0 && HeadOf(*server_->latest).moving != 0;
   }
 
@@ -160,7 +162,8 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
     if (shown_ != server_->latest) return Show();
     const std::chrono::duration<double, std::milli> taken = Clock::now() - sent_at_;
     // What else is on the page's way is no measure for what moves.
-    server_->events.ready(taken.count(), moving ? shown_->size() : 0);
+    const bool is_measure = moving && !behind_others_;
+    server_->events.ready(taken.count(), is_measure ? shown_->size() : 0);
   }
 
   void Read() {
@@ -219,8 +222,9 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
   SharedBytes shown_, sending_;  // the last picture that has been taken, and one on its way
   std::optional<PicturePieces> pieces_;
   uint32_t next_piece_ = 0;
-  int in_flight_ = 0;          // pieces on their way, some of a picture that was overtaken
-  Clock::time_point sent_at_;  // of the first piece
+  int in_flight_ = 0;           // pieces on their way, some of a picture that was overtaken
+  Clock::time_point sent_at_;   // of the first piece
+  bool behind_others_ = false;  // of a picture that was overtaken
 };
 
 // ---- An HTTP connection -------------------------------------------------------------------------
@@ -286,7 +290,7 @@ namespace {
 bool IsOrigin(std::string_view text) {
   const size_t host = text.starts_with("https://") ? 8 : text.starts_with("http://") ? 7 : 0;
   return host > 0 && text.size() > host &&
-         text.substr(host).find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789.-:[]") ==
+         text.substr(host).find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789._-:[]") ==
              std::string_view::npos;
 }
 

@@ -32,8 +32,8 @@ struct ServedPage {
 struct ServerEvents {
   std::function<void(ClientId)> opened, closed;
   std::function<void(ClientId, std::string_view)> message;  // throws Error for a bad one
-  // A page could take a picture. It took `ms` to have the last one, of so many bytes; 0: it has had
-  // none that was made while things move.
+  // A page could take a picture. It took `ms` to have what was new of the last one, which is of so
+  // many bytes in all; 0: that is no measure for one that is made while things move.
   std::function<void(double ms, size_t bytes)> ready;
   std::function<void()> tick;  // twenty times a second; what it throws comes out of Run
 };

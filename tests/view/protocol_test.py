@@ -226,6 +226,23 @@ class ProtocolTest(unittest.TestCase):
         slow.send('taken')
         self.assertEqual(slow.until(lambda m: is_done(m) and m['revision'] >= answer['revision'])['pixels'], now['pixels'])
 
+    def test_pictures_on_their_way_are_what_the_next_is_told_against(self):
+        """A refined picture that is sent whole will be shown, though the page has not said so yet."""
+        server, quick = self.open(SCENE, '--size', '320x180', '--spp', '1')
+        quick.until(is_done)
+        slow = server.upgrade()
+        self.addCleanup(slow.close)
+        slow.until(is_done)
+        quick.send({'look': 'neutral', 'layer': '', 'exposure': 1})
+        quick.until(is_done)
+        head = next(m for m in iter(slow.message, None) if m.get('kind') == 1)
+        self.assertEqual((head['moving'], head['piece'], head['pieces']), (0, 0, 1))
+        slow.whole(head)
+        answer = self.set(quick, '/materials/red/roughness', 0.3)
+        now = quick.until(lambda m: is_done(m) and m['revision'] >= answer['revision'])
+        slow.send('taken')
+        self.assertEqual(slow.until(lambda m: is_done(m) and m['revision'] >= answer['revision'])['pixels'], now['pixels'])
+
     def test_conversions_are_those_of_convert(self):
         _, page = self.open()
         page.until(is_done)
