@@ -228,20 +228,25 @@ class ProtocolTest(unittest.TestCase):
 
     def test_pictures_on_their_way_are_what_the_next_is_told_against(self):
         """A refined picture that is sent whole will be shown, though the page has not said so yet."""
-        server, quick = self.open(SCENE, '--size', '320x180', '--spp', '1')
+        server, quick = self.open(SCENE, '--size', '320x180', '--spp', '4')
         quick.until(is_done)
         slow = server.upgrade()
         self.addCleanup(slow.close)
         slow.until(is_done)
-        quick.send({'look': 'neutral', 'layer': '', 'exposure': 1})
-        quick.until(is_done)
+        answer = self.set(quick, '/materials/red/base_color', [0, 1, 0])
+        slow.until(lambda m: m.get('kind') == 1 and m['revision'] >= answer['revision'] and m['moving'] == 1)
         head = next(m for m in iter(slow.message, None) if m.get('kind') == 1)
         self.assertEqual((head['moving'], head['piece'], head['pieces']), (0, 0, 1))
         slow.whole(head)
-        answer = self.set(quick, '/materials/red/roughness', 0.3)
-        now = quick.until(lambda m: is_done(m) and m['revision'] >= answer['revision'])
+        quick.until(is_done)
+        answer = self.set(quick, '/materials/red/base_color', [0, 0, 1])
+
+        def moves(m):
+            return m.get('kind') == 1 and m['revision'] >= answer['revision'] and m['moving'] == 1
+
+        now = quick.until(moves)
         slow.send('taken')
-        self.assertEqual(slow.until(lambda m: is_done(m) and m['revision'] >= answer['revision'])['pixels'], now['pixels'])
+        self.assertEqual(slow.until(moves)['pixels'], now['pixels'])
 
     def test_conversions_are_those_of_convert(self):
         _, page = self.open()
