@@ -300,6 +300,9 @@ class Session(_Values):
     pictures have the bits that Scene.render would give them. Values are checked as they are set: one
     that is wrong raises `nacre.Error` and changes nothing. One call at a time; `cancel` alone may
     come from any thread.
+
+    Files are read when the session is made, and again only where a change touches what they are
+    named in. After a texture or a model has changed on disk, make a new session.
     """
 
     def __init__(self, scene: Scene) -> None:
