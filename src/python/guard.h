@@ -2,6 +2,7 @@
 // python/guard.h: objects that C++ works on while other Python threads run, and signals meanwhile.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -121,7 +122,7 @@ class Running {
  public:
   explicit Running(const std::function<void()>* stop) {
     if (Ending()) ExitThread();
-    if (FunctionLock::IsHere() && Stops().size() >= kMostNested) {
+    if (waiting_ >= kMostNested) {
       Refuse("render", std::to_string(kMostNested) + " renders wait for functions that render",
              "does a function render its own scene?");
     }
@@ -130,6 +131,9 @@ class Running {
   ~Running() { Stops().erase(place_); }
   Running(const Running&) = delete;
   Running& operator=(const Running&) = delete;
+
+  // Of a new thread that works for this render: what it calls has one more that waits for it.
+  void CallFromHere() const { Chain() = waiting_ + 1; }
 
   // Ends them all, and waits for that.
   static void StopAll() {
@@ -155,13 +159,22 @@ class Running {
   }
 
  private:
-  static constexpr size_t kMostNested = 64;
+  static constexpr int kMostNested = 64;
+
+  // How many renders wait for what this thread does. The threads that help a render are not told,
+  // and count as the first of a chain in its functions. Each of these waits in one chain at most,
+  // so that all chains end.
+  static int& Chain() {
+    static thread_local int chain = 0;
+    return chain;
+  }
 
   static std::list<const std::function<void()>*>& Stops() {
     static std::list<const std::function<void()>*> stops;
     return stops;
   }
 
+  int waiting_ = std::max(Chain(), FunctionLock::IsHere() ? 1 : 0);
   std::list<const std::function<void()>*>::iterator place_;
 };
 
@@ -182,6 +195,7 @@ auto Interruptibly(const std::function<void()>& stop, const Body& body) {
     std::condition_variable ended;
     bool done = false;
     std::thread worker([&] {
+      running.CallFromHere();
       try {
         result = body();
       } catch (...) {

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import nacre
+from nacre._check import _furnace, _sampler
 from models import WHITE_METAL, ggx, lambert, phong
 
 
@@ -107,6 +108,53 @@ def test_faults_of_samplers_are_named():
     wrong = nacre.Brdf(lambert(0.5), sample=nacre.Brdf("lambert").sample, pdf=too_large)
     found = nacre.check(wrong, size=16, quiet=True)
     assert "its pdf is 1.0200 in all, more than 1" in found.verdicts["sampler"].text
+
+
+def test_faults_where_the_normal_is_up_are_not_of_turned_ones():
+    own = nacre.Brdf("lambert")
+
+    def sample(n, v, u):  # about +z where the viewer is steep
+        steep = ((n * v).sum(axis=1) > 0.5)[:, None]
+        return np.where(steep, own.sample([0, 0, 1], [0, 0, 1], u), own.sample(n, v, u))
+
+    def pdf(n, v, l):  # too little where it grazes
+        return np.where((n * v).sum(axis=1) > 0.5, 1, 0.8) * own.pdf(n, v, l)
+    found = nacre.check(nacre.Brdf(lambert(0.5), sample=sample, pdf=pdf), size=16, quiet=True)
+    assert "sampler" in verdicts(found) and "only where" not in str(found)
+
+
+@pytest.mark.parametrize("roughness, alone", [(0.02, True), (0.01, False), (0.005, False)])
+def test_narrow_samplers_are_right(roughness, alone):
+    gold = nacre.Brdf("conductor", preset="gold", roughness=roughness, compensation="none")
+
+    def evaluate(n, v, l):
+        return gold.evaluate(n, v, l) / (n * l).sum(axis=1, keepdims=True)
+    mine = gold if alone else nacre.Brdf(evaluate, sample=gold.sample, pdf=gold.pdf)
+    cosines = np.cos(np.radians([0.5, 70, 80, 85, 88]))
+    furnace, settled = _furnace(mine, cosines)
+    assert settled.all() and np.abs(furnace - gold.albedo(cosines)).max() < 2.5e-4  # _ENERGY / 4
+    found = _sampler(mine, cosines, furnace, settled)
+    assert found.ok and "narrow" not in found.text
+
+    def too_large(n, v, l):
+        return 1.02 * gold.pdf(n, v, l)
+    wrong = nacre.Brdf(evaluate, sample=gold.sample, pdf=too_large)
+    found = _sampler(wrong, cosines, furnace, settled)
+    assert not found.ok and "pdf is 1.0200 in all" in found.text
+
+
+def test_what_is_too_narrow_is_not_judged():
+    def needle(n, v, l):  # of some 1e-9 sr about the mirror direction: no rule meets it
+        mirrored = 2 * (n * v).sum(axis=1, keepdims=True) * n - v
+        distance = ((l - mirrored)**2).sum(axis=1)
+        return 3e8 / np.pi * (distance < 1e-8 / 3)
+    own = nacre.Brdf("lambert")
+    cosines = np.cos(np.radians([30, 60]))
+    narrow = nacre.Brdf(lambda n, v, l: needle(n, v, l)[:, None], sample=own.sample, pdf=needle)
+    furnace, settled = _furnace(narrow, cosines)
+    assert not settled.any()
+    found = _sampler(narrow, cosines, furnace, settled)
+    assert found.ok and "too narrow to tell at 30, 60 degrees" in found.text
 
 
 def test_what_makes_light_is_named():

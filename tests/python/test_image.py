@@ -3,6 +3,7 @@
 import gc
 import io
 import math
+import os
 
 import numpy as np
 import pytest
@@ -147,6 +148,32 @@ def test_pictures_are_written(image, tmp_path):
     with pytest.raises(nacre.Error) as caught:
         image.write(tmp_path / "no" / "a.exr")
     assert caught.value.exit_code == 74
+
+
+def test_two_calls_write_one_picture(image, tmp_path, monkeypatch):
+    first, second, replace = image.picture(), image.picture("diffuse"), os.replace
+
+    def late(*names):  # another thread has written all of it meanwhile
+        monkeypatch.setattr(os, "replace", replace)
+        second.write(tmp_path / "a.png")
+        assert (tmp_path / "a.png").read_bytes() == second.png()
+        replace(*names)
+    monkeypatch.setattr(os, "replace", late)
+    first.write(tmp_path / "a.png")
+    assert (tmp_path / "a.png").read_bytes() == first.png()
+    assert [path.name for path in tmp_path.iterdir()] == ["a.png"]
+
+
+def test_pictures_are_written_through_links(image, tmp_path):
+    (tmp_path / "far").mkdir()
+    (tmp_path / "a.png").symlink_to("far/b")
+    for _ in range(2):  # where there is nothing yet, and where there is
+        image.picture().write(tmp_path / "a.png")
+        assert (tmp_path / "a.png").is_symlink()
+        assert (tmp_path / "far" / "b").read_bytes() == image.picture().png()
+    os.mkfifo(tmp_path / "pipe.png")
+    with pytest.raises(nacre.Error, match="not a regular file"):
+        image.picture().write(tmp_path / "pipe.png")
 
 
 @not_sanitized

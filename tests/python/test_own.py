@@ -146,6 +146,45 @@ def test_functions_may_render():
     assert np.isclose(render("point", waiting, samples=1).max(), np.pi * expected.max(), rtol=0.1)
 
 
+def small(model):
+    scene = spheres("point")
+    scene.add_material("ball", model)
+    return lambda **settings: scene.render(width=8, height=6, samples=1, **settings)
+
+
+def test_functions_may_render_beside_many_renders():
+    inner = small(lambert(0.5))
+
+    def brdf(n, v, l):
+        inner()
+        return np.full((len(n), 1), 0.3)
+    many, begun, end = 64, threading.Semaphore(0), threading.Event()
+
+    def wait(share):
+        begun.release()
+        end.wait()
+    threads = [threading.Thread(target=inner, kwargs={"progress": wait}) for _ in range(many)]
+    for thread in threads:
+        thread.start()
+    try:
+        for _ in threads:
+            assert begun.acquire(timeout=60)
+        assert small(brdf)()["beauty"].max() > 0
+    finally:
+        end.set()
+        for thread in threads:
+            thread.join()
+
+
+def test_functions_that_render_themselves_are_told():
+    def brdf(n, v, l):
+        render()
+        return np.full((len(n), 1), 0.3)
+    render = small(brdf)
+    with pytest.raises(nacre.Error, match="64 renders wait for functions that render"):
+        render()
+
+
 def test_models_of_nacre_are_materials():
     gold = nacre.Brdf("conductor", preset="gold", roughness=0.3)
     assert np.array_equal(render("sky", gold), render("sky", "conductor", preset="gold", roughness=0.3))

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import threading
 import time
+import tracemalloc
 
 import numpy as np
 import pytest
@@ -27,6 +28,19 @@ def ball():
 
 def same(a, b):
     return set(a.channels) == set(b.channels) and all(np.array_equal(a[n], b[n]) for n in a.channels)
+
+
+def test_arrays_of_doubles_are_not_copied():
+    scene, count = nacre.Scene(), 100_000
+    points, sizes = np.zeros((count, 3)), np.ones(count)
+    triangles, uvs = np.zeros((count, 3), np.uint32), np.zeros((count, 2))
+    for add in (lambda: scene.add_spheres(points, sizes, "red"),
+                lambda: scene.add_mesh(points, triangles, "red", normals=points, uvs=uvs)):
+        tracemalloc.start()  # of numpy's arrays, not of C++
+        add()
+        copied = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        assert copied < sizes.nbytes / 2  # the least of the arrays is that of sizes
 
 
 def test_a_render_has_the_bits_of_the_program(scenes, program, tmp_path):

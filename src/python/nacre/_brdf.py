@@ -71,9 +71,10 @@ def _named(planes: List[Array]) -> Dict[str, Array]:
     return dict(zip(("normal", "to_view", "to_light"), planes))
 
 
-def _hemisphere(cosine: float) -> Tuple[Array, Array, Array]:
+def _hemisphere(cosine: float, fine: int = 1) -> Tuple[Array, Array, Array]:
     """A viewer at n.v = cosine about +z, and a quadrature over directions to light: (i, j, 3), and their
-    weights. By circles about the mirror direction, each as far as it is above the horizon."""
+    weights. By circles about the mirror direction, each as far as it is above the horizon. `fine`: how
+    many times as dense."""
     sine = float(np.sqrt((1 - cosine) * (1 + cosine)))
     mirror = np.array([-sine, 0, cosine])
     along, across = np.array([cosine, 0, sine]), np.array([0.0, 1, 0])
@@ -81,13 +82,13 @@ def _hemisphere(cosine: float) -> Tuple[Array, Array, Array]:
     # Of the circles' radii: panels that halve towards the mirror direction, with an edge where
     # circles begin to touch the horizon.
     touch = float(np.arctan2(cosine, sine))
-    edges = np.unique([0, touch, *((np.pi - touch) * 0.5**np.arange(13))])
-    nodes, weights = gauss(6)
+    edges = np.unique([0, touch, *((np.pi - touch) * 0.5**np.arange(5 + 8 * fine))])
+    nodes, weights = gauss(6 * fine)
     radius = (edges[:-1, None] + np.diff(edges)[:, None] * (nodes + 1) / 2).reshape(-1, 1)
     w_radius = (np.diff(edges)[:, None] * weights / 2).reshape(-1, 1) * np.sin(radius)
     # Whole circles by equal steps, closer where lobes of grazing viewers are narrow: these are
     # about `cosine` times as wide across the plane of incidence as along it.
-    count = 96
+    count = 96 * fine
     step = (np.arange(count) + 0.5) * (2 * np.pi / count)
     squeeze = np.clip(radius, cosine, 1)
     whole = np.arctan2(squeeze * np.sin(step), np.cos(step))
@@ -367,7 +368,7 @@ class Brdf:
         """The directional albedo: what is seen at n.v, an array of cosines in (0, 1], of light of
         radiance 1 from everywhere, of shape (..., 3). By quadrature; of functions to about 3e-4, if
         they are isotropic, without edges, and their lobes no narrower than GGX's at roughness 0.05."""
-        cosines = numbers(n_dot_v, "n_dot_v").astype(np.float64)
+        cosines = numbers(n_dot_v, "n_dot_v").astype(np.float64, copy=False)
         flat = cosines.reshape(-1)
         if not ((flat > 0) & (flat <= 1)).all():
             raise fault("Brdf.albedo", "n.v is not above 0 and up to 1")

@@ -53,12 +53,15 @@ class Picture:
         if not name.lower().endswith((".png", ".jpg", ".jpeg")):
             raise fault(name, "unknown output extension", "pictures are written to .png and .jpg")
         data = self.png() if name.lower().endswith(".png") else self.jpeg()
-        part = f"{name}.{os.getpid()}.part"
+        target = os.path.realpath(name)  # a link stays one
+        if os.path.exists(target) and not os.path.isfile(target) and not os.path.isdir(target):
+            raise fault(name, "exists and is not a regular file", "choose another name", exit_code=74)
+        part = f"{target}.{os.urandom(6).hex()}.part"  # of this call: others may write the same file
         try:
             try:
                 with open(part, "wb") as file:
                     file.write(data)
-                os.replace(part, name)
+                os.replace(part, target)
             except BaseException:
                 if os.path.exists(part):
                     os.remove(part)

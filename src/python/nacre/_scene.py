@@ -40,6 +40,11 @@ def _report(progress: Progress) -> Tuple[Optional[Callable[[float], object]], Ca
     return update, bar.close
 
 
+def _doubles(values: Any, name: str) -> Array:
+    """Not a copy where they are doubles."""
+    return numbers(values, name).astype(np.float64, copy=False)
+
+
 def _count(value: Optional[int], name: str) -> int:
     """As C++ has it, where 0 is what None is here."""
     if value is None:
@@ -206,10 +211,10 @@ class Scene(_Values):
     def add_spheres(self, centers: Any, radii: Any, material: str) -> None:
         """Many spheres as arrays: centers of shape (count, 3), radii of shape (count,) or a
         number."""
-        where = numbers(centers, "centers").astype(np.float64)
+        where = _doubles(centers, "centers")
         if where.ndim != 2 or where.shape[1] != 3:
             raise ValueError(f"centers has the shape (count, 3), not {where.shape}")
-        sizes = numbers(radii, "radii").astype(np.float64)
+        sizes = _doubles(radii, "radii")
         if sizes.shape not in ((), (len(where),)):
             raise ValueError(f"radii has one number for each of {len(where)} centers, not the shape "
                              f"{sizes.shape}")
@@ -228,10 +233,10 @@ class Scene(_Values):
             raise TypeError(f"triangles are indices, not {indices.dtype}")
         if indices.size and (indices.min() < 0 or indices.max() >= 2**32):
             raise ValueError("triangles: an index is negative or too large")
-        self._native.add_mesh(numbers(positions, "positions").astype(np.float64),
-                              indices.astype(np.uint32), text(material, "a material"),
-                              None if normals is None else numbers(normals, "normals").astype(np.float64),
-                              None if uvs is None else numbers(uvs, "uvs").astype(np.float64))
+        self._native.add_mesh(_doubles(positions, "positions"), indices.astype(np.uint32, copy=False),
+                              text(material, "a material"),
+                              None if normals is None else _doubles(normals, "normals"),
+                              None if uvs is None else _doubles(uvs, "uvs"))
 
     def check(self) -> None:
         """Raises `nacre.Error` with everything that is wrong."""
