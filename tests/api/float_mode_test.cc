@@ -9,6 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include <unistd.h>
+
 #if defined(__SSE2__)
 #include <xmmintrin.h>
 #endif
@@ -80,8 +82,9 @@ void AddRenders(Results* results) {
       settings.layers = {"all"};
       const nacre::Image image = nacre::Render(scene, settings);
       results->Add(image);
-      const std::string path =
-          (std::filesystem::temp_directory_path() / "nacre_float_mode_test.png").string();
+      const std::string path = (std::filesystem::temp_directory_path() /
+                                ("nacre_float_mode_test_" + std::to_string(getpid()) + ".png"))
+                                   .string();
       nacre::Write(image, path, {true, "zip", false, "agx", 0.3});
       results->Add(nacre::Read(path));
       std::filesystem::remove(path);

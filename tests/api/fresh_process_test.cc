@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include <unistd.h>
+
 #include "catch.h"
 #include "nacre.h"
 
@@ -95,8 +97,9 @@ void CheckEqual(const nacre::Image& session, const nacre::Image& process) {
 }
 
 TEST_CASE("sessions have the bits of fresh processes, in hundreds of sequences of changes") {
-  const std::string output =
-      (std::filesystem::temp_directory_path() / "nacre_fresh_process_test.exr").string();
+  const std::string output = (std::filesystem::temp_directory_path() /
+                              ("nacre_fresh_process_test_" + std::to_string(getpid()) + ".exr"))
+                                 .string();
   nacre::RenderSettings settings;
   settings.width = 40;
   settings.height = 24;

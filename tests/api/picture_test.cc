@@ -7,6 +7,8 @@
 #include <iterator>
 #include <limits>
 
+#include <unistd.h>
+
 #include "catch.h"
 #include "nacre.h"
 
@@ -23,7 +25,7 @@ nacre::Image Rendered(const std::vector<std::string>& layers = {}) {
 }
 
 std::string PathOf(const std::string& name) {
-  return (std::filesystem::temp_directory_path() / name).string();
+  return (std::filesystem::temp_directory_path() / (std::to_string(getpid()) + name)).string();
 }
 
 // The file's codes, times 255.

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include <malloc.h>
+#include <unistd.h>
 
 #include "catch.h"
 #include "nacre.h"
@@ -27,7 +28,7 @@ nacre::RenderSettings Small(int threads = 2) {
 }
 
 std::string PathOf(const std::string& name) {
-  return (std::filesystem::temp_directory_path() / name).string();
+  return (std::filesystem::temp_directory_path() / (std::to_string(getpid()) + name)).string();
 }
 
 TEST_CASE("size, samples, seed, layers and regions are those asked for") {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <catch2/catch.hpp>
+#include <unistd.h>
 
 #include "base/error.h"
 #include "scene/hash.h"
@@ -320,8 +321,8 @@ TEST_CASE("Files change once they have come to rest", "[live_scene]") {
 // The mesh's file is gone: it could not be read again.
 TEST_CASE("A material is changed without reading shapes again, which have materials of their own",
           "[live_scene]") {
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / "nacre_live_scene_materials";
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() /
+                                       ("nacre_live_scene_materials_" + std::to_string(getpid()));
   std::filesystem::create_directories(folder);
   std::filesystem::copy_file(kScenes / "textures" / "tiles.png", folder / "tiles.png",
                              std::filesystem::copy_options::overwrite_existing);

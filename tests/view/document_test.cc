@@ -8,6 +8,7 @@
 #include <thread>
 
 #include <catch2/catch.hpp>
+#include <unistd.h>
 
 #include "base/error.h"
 
@@ -103,7 +104,8 @@ TEST_CASE("what is refused changes nothing") {
 }
 
 std::filesystem::path TemporaryFile() {
-  return std::filesystem::temp_directory_path() / "nacre_view_document_test.json";
+  return std::filesystem::temp_directory_path() /
+         ("nacre_view_document_test_" + std::to_string(getpid()) + ".json");
 }
 
 Json SphereJson(int i) {
