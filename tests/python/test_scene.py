@@ -265,6 +265,7 @@ def child_renders(expected):
     return False
 
 
+@not_sanitized  # the thread sanitizer allows no threads after a fork
 def test_a_child_renders_after_a_fork():
     expected = ball().render(**SMALL)
     assert child_renders(expected)
