@@ -43,8 +43,7 @@ void PlanSums(const Scene& scene, const RenderSettings& settings, const PixelSam
 // is the weight of the hits; the remaining weight shows the background.
 struct TileFilm {
   Window window;
-  // The pixels. All others of the window show the background alone. What AddToFilm adds is theirs,
-  // and ResolveTile reads them.
+  // The sampled pixels, in the order of the sums. All others of the window show the background.
   std::vector<PixelRun> runs;
   std::vector<AlignedArray<double>> sums;    // averaged channels, in layer order
   std::vector<AlignedArray<float>> nearest;  // P and Z channels, in layer order

@@ -208,13 +208,18 @@ class ProtocolTest(unittest.TestCase):
         whole = slow.until(is_done)
         self.assertEqual(whole['pixels'], quick.until(is_done)['pixels'])
 
-    def test_pieces_that_were_left_are_no_picture(self):
-        """What a page has of a picture that was overtaken is not what the next one is told against."""
-        server, quick = self.open(SCENE, '--size', '1280x720', '--spp', '1')
+    def two_pages(self, *options):
+        """Both have the first picture. Tests answer for the second themselves: "taken" comes late."""
+        server, quick = self.open(SCENE, *options)
         quick.until(is_done)
         slow = server.upgrade()
         self.addCleanup(slow.close)
         slow.until(is_done)
+        return quick, slow
+
+    def test_pieces_that_were_left_are_no_picture(self):
+        """What a page has of a picture that was overtaken is not what the next one is told against."""
+        quick, slow = self.two_pages('--size', '1280x720', '--spp', '1')
         quick.send({'look': 'neutral', 'layer': '', 'exposure': 1})
         quick.until(is_done)
         pieces = [m for m in (slow.message() for _ in range(2)) if m.get('kind') == 1]
@@ -228,11 +233,7 @@ class ProtocolTest(unittest.TestCase):
 
     def test_pictures_on_their_way_are_what_the_next_is_told_against(self):
         """A refined picture that is sent whole will be shown, though the page has not said so yet."""
-        server, quick = self.open(SCENE, '--size', '320x180', '--spp', '4')
-        quick.until(is_done)
-        slow = server.upgrade()
-        self.addCleanup(slow.close)
-        slow.until(is_done)
+        quick, slow = self.two_pages('--size', '320x180', '--spp', '4')
         answer = self.set(quick, '/materials/red/base_color', [0, 1, 0])
         slow.until(lambda m: m.get('kind') == 1 and m['revision'] >= answer['revision'] and m['moving'] == 1)
         head = next(m for m in iter(slow.message, None) if m.get('kind') == 1)
