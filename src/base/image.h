@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,6 +47,12 @@ inline Window BoundingWindow(const Window& a, const Window& b) {
 struct PixelRun {
   int x, y, count;
 };
+
+inline size_t CountPixels(std::span<const PixelRun> runs) {
+  size_t pixels = 0;
+  for (const PixelRun& run : runs) pixels += static_cast<size_t>(run.count);
+  return pixels;
+}
 
 // How a channel's samples are stored in a file.
 enum class PixelType : uint8_t { kHalf, kFloat, kUint };

@@ -13,7 +13,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "image_io/deflate.h"
-#include "image_io/exr_compress.h"
+#include "image_io/exr_chunk.h"
 #include "image_io/exr_container.h"
 #include "image_io/in_order.h"
 

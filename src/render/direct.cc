@@ -62,8 +62,8 @@ void ShadeRuns(const DirectBatch& batch, const ShadingLight& light, const LightB
   }
 }
 
-// Whether the kernels of the batch's materials evaluate the light, which casts no shadow here.
-bool IsEvaluatedInPlace(const DirectBatch& batch, const ShadingLight& light) {
+// Whether the light, which casts no shadow here, is left to the kernels of the batch's materials.
+bool IsLeftToKernels(const DirectBatch& batch, const ShadingLight& light) {
   const std::span<const MaterialRun> runs = LitRuns(batch.surfaces);
   return EvaluatedInPlace(light) && !batch.surface().turned &&
          std::all_of(runs.begin(), runs.end(),
@@ -74,7 +74,7 @@ void ShadeByPunctualLight(const DirectBatch& batch, const PlannedPunctualLight& 
                           ReflectedRadiance* radiance) {
   LightBatch* const on_hits = &batch.room.light;
   const bool shadow_rays = CastsShadowRays(batch.plan, planned, batch.hits());
-  const bool in_place = !shadow_rays && IsEvaluatedInPlace(batch, planned.light);
+  const bool in_place = !shadow_rays && IsLeftToKernels(batch, planned.light);
   if (!in_place) EvaluateLight(planned.light, batch.hits(), batch.surface(), on_hits);
   if (batch.surface().turned) HideLightsBelowHorizon(batch);
   batch.clock.Charge(Stage::kLight);

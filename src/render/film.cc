@@ -145,8 +145,7 @@ void FillBackground(const FilmPlan& plan, const Window& tile, Strip* strip) {
 }
 
 void ResolveTile(const FilmPlan& plan, const TileFilm& film, Strip* strip) {
-  size_t pixels = 0;
-  for (const PixelRun& run : film.runs) pixels += static_cast<size_t>(run.count);
+  const size_t pixels = CountPixels(film.runs);
   if (pixels < film.window.pixel_count()) FillBackground(plan, film.window, strip);
   if (pixels == 0) return;
   const double* const coverage = film.sums[kAlphaSum].data();

@@ -30,12 +30,6 @@ void ListSpans(const TileCandidates& candidates, std::vector<PixelRun>* runs) {
   }
 }
 
-size_t CountPixels(std::span<const PixelRun> runs) {
-  size_t pixels = 0;
-  for (const PixelRun& run : runs) pixels += static_cast<size_t>(run.count);
-  return pixels;
-}
-
 // Numbers the sampled pixels, for sampling of lights.
 void NumberPixels(const SamplingPlan& plan, std::span<const PixelRun> runs,
                   SampleNumbers* numbers) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// image_io/exr_compress.h: one chunk of an EXR file, compressed. Any thread.
+// image_io/exr_chunk.h: one chunk of an EXR file, compressed. Any thread.
 #pragma once
 
 #include <cstdint>
