@@ -82,7 +82,7 @@ void AddValidateCommand(CLI::App* app, int* exit_code) {
   command
       ->add_option("--threads", a->references.threads,
                    "Number of threads; 0: as many as the machine has")
-      ->check(CLI::Range(0, 1024));
+      ->check(WholeInRange(0, 1024));
   command->add_option("--target", a->target, "SIMD target: auto, avx3, avx2, sse4 or scalar")
       ->capture_default_str();
   command->add_flag("--allow-paths", a->references.allow_paths,

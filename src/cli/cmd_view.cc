@@ -280,7 +280,7 @@ void AddViewCommand(CLI::App* app, int* exit_code) {
       ->add_option("--port", arguments->server.port,
                    "Port to listen on; 0: one that is free. With a port the address stays the same "
                    "from one start to the next, and open pages find the server again")
-      ->check(CLI::Range(0, 65535))
+      ->check(WholeInRange(0, 65535))
       ->capture_default_str();
   command->add_flag("--no-open", arguments->no_open, "Open no browser, only print the address");
   RenderOptions* const o = &arguments->options;
@@ -293,7 +293,7 @@ void AddViewCommand(CLI::App* app, int* exit_code) {
   command
       ->add_option("--spp", o->spp,
                    "Samples per pixel once nothing moves; the scene's if not given")
-      ->check(CLI::Range(1, 65536));
+      ->check(WholeInRange(1, 65536));
   command
       ->add_option("--max-error", o->max_error,
                    "Once nothing moves, sample until each pixel's relative error is below this")

@@ -44,7 +44,7 @@ CLI::Option* AddMaxPrimitivesOption(CLI::App* command, std::optional<uint64_t>* 
       ->add_option("--max-primitives", *max_primitives,
                    "Most spheres and triangles that a file may be made into; if not given 20 "
                    "million, of a small model fewer")
-      ->check(CLI::Range(uint64_t{1}, limits::kMaxPrimitivesMade));
+      ->check(WholeInRange(1, limits::kMaxPrimitivesMade));
 }
 
 std::function<std::string(const std::string&)> InRange(double low, double high) {
@@ -54,6 +54,17 @@ std::function<std::string(const std::string&)> InRange(double low, double high) 
     if (end != text.c_str() && *end == '\0' && value >= low && value <= high) return {};
     return fmt::format("{} is not a number from {} to {}", text, low, high);
   };
+}
+
+CLI::Validator WholeInRange(uint64_t low, uint64_t high) {
+  const auto check = [=](const std::string& text) -> std::string {
+    uint64_t value = 0;
+    const char* const last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data(), last, value);
+    if (error == std::errc() && end == last && value >= low && value <= high) return {};
+    return fmt::format("{} is not a whole number from {} to {}", text, low, high);
+  };
+  return {check, fmt::format("{} to {}", low, high)};
 }
 
 void AddDisplayOptions(CLI::App* command, std::string* tonemap, double* exposure) {
@@ -74,7 +85,7 @@ void AddPictureOptions(CLI::App* command, RenderOptions* o) {
       ->type_name("WxH")
       ->group(picture);
   command->add_option("--spp", o->spp, "Samples per pixel; 1 goes through the pixel's centre")
-      ->check(CLI::Range(1, 65536))
+      ->check(WholeInRange(1, 65536))
       ->group(picture);
   command
       ->add_option("--max-error", o->max_error,
@@ -144,7 +155,7 @@ void AddExrOptions(CLI::App* command, RenderOptions* o) {
 void AddMachineOptions(CLI::App* command, RenderOptions* o) {
   const std::string machine = "Machine";
   command->add_option("--threads", o->threads, "Number of threads; 0: as many as the machine has")
-      ->check(CLI::Range(0, 1024))
+      ->check(WholeInRange(0, 1024))
       ->group(machine);
   command
       ->add_option("--target", o->target,
@@ -161,7 +172,7 @@ void AddMachineOptions(CLI::App* command, RenderOptions* o) {
   command
       ->add_option("--tile-size", o->tile_size,
                    "Width of tiles in pixels, 0: chosen by the plan; changes no bits")
-      ->check(CLI::Range(0, 64))
+      ->check(WholeInRange(0, 64))
       ->group(machine);
   command
       ->add_flag("--allow-paths", o->allow_paths,

@@ -2,12 +2,14 @@
 // cli/render_options.h: the options that every command that renders shares.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
 
 #include "color/display.h"
 #include "image_io/exr_compression.h"
@@ -77,6 +79,8 @@ FrameBand ParseTile(const std::string& text);
 
 // A check for numbers in [low, high]; CLI11's own lets NaN pass.
 std::function<std::string(const std::string&)> InRange(double low, double high);
+// The same for whole numbers; CLI11's own says of 1.5 that it is not in the range from 1 to 2.
+CLI::Validator WholeInRange(uint64_t low, uint64_t high);
 
 // "WxH". Throws Error (usage).
 void ParseSize(const std::string& text, int* width, int* height);

@@ -144,14 +144,17 @@ void IntersectTriangles(const RTCIntersectFunctionNArguments* args) {
 // origin's, the end's and the camera's coordinates, of the vector to the corner and of the edges.
 // The corners are off by 25 u R: a transform's sines and cosines, and the nine products that it is
 // made of, by 6 u each, on three coordinates, and 7 u for the sums and the camera. With the
-// evaluation's 12 u R altogether at most 59 u E R.
+// evaluation's 12 u R altogether at most 59 u E R. The shape of another lamp in the light's plane
+// is lifted out of it, too, by 512 u of its world coordinates and the camera's (LiftFromItsPlane of
+// scene/light_shapes.cc), together at most 1024 u R.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> EndsOnPlane(D d, const ShadowRaysV<D>& rays, const Vec3V<V>& to_a,
                                    const Plane& plane) {
   const Vec3V<V> from_end = Sub(to_a, ToEnd(rays));
   const V extent = hn::Add(hn::Add(EndExtent(d, rays), SumOfAbs(from_end)),
                            hn::Set(d, plane.size1 + plane.size2));
-  const auto on = WithinOfPlane(d, plane, from_end, hn::Mul(hn::Set(d, 64 * kUnit), extent));
+  const auto on =
+      WithinOfPlane(d, plane, from_end, hn::Mul(hn::Set(d, (64 + 1024) * kUnit), extent));
   return hn::And(hn::Lt(rays.t_max, hn::Inf(d)), on);
 }
 

@@ -21,7 +21,16 @@ namespace nacre {
 namespace {
 
 [[noreturn]] void RefuseOverride(const std::string& pointer, std::string what, std::string hint) {
-  throw Error(ExitCode::kUsage, "--set " + pointer, std::move(what), std::move(hint));
+  throw Error(ExitCode::kUsage, pointer, std::move(what), std::move(hint));
+}
+
+// The element of an array of `size` that a pointer's token names: RFC 6901 allows no leading zeros.
+std::optional<size_t> ElementOf(const std::string& token, size_t size) {
+  size_t index = 0;
+  const char* const last = token.data() + token.size();
+  const auto [end, error] = std::from_chars(token.data(), last, index);
+  const bool is_number = error == std::errc() && end == last && (token == "0" || token[0] != '0');
+  return is_number && index < size ? std::optional(index) : std::nullopt;
 }
 
 // The names that a pointer is made of, unescaped.
@@ -100,14 +109,12 @@ Json* Step(const std::string& pointer, const std::string& token, Json* parent) {
   if (parent->is_object()) return &(*parent)[token];  // made if missing
   if (!parent->is_array())
     RefuseOverride(pointer, fmt::format("there is no \"{}\" in a value", Excerpt(token)), {});
-  size_t index = 0;
-  const char* const last = token.data() + token.size();
-  const auto [end, error] = std::from_chars(token.data(), last, index);
-  if (error != std::errc() || end != last || index >= parent->size()) {
+  const std::optional<size_t> index = ElementOf(token, parent->size());
+  if (!index) {
     RefuseOverride(pointer, fmt::format("there is no element \"{}\"", Excerpt(token)),
                    fmt::format("the array has {}, counted from 0", parent->size()));
   }
-  return &(*parent)[index];
+  return &(*parent)[*index];
 }
 
 }  // namespace
@@ -121,10 +128,8 @@ std::optional<std::string> ValueAt(const std::string& pointer, const Json& root)
   for (const std::string& token : Split(pointer)) {
     if (place->is_object() && place->contains(token)) {
       place = &place->at(token);
-    } else if (place->is_array() && token.size() < 10 && !token.empty() &&
-               token.find_first_not_of("0123456789") == std::string::npos &&
-               std::stoul(token) < place->size()) {
-      place = &place->at(std::stoul(token));
+    } else if (const auto element = ElementOf(token, place->is_array() ? place->size() : 0)) {
+      place = &place->at(*element);
     } else {
       return std::nullopt;
     }

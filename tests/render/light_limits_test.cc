@@ -176,6 +176,32 @@ TEST_CASE("a lamp flush with its ceiling lights as if there were no ceiling") {
   });
 }
 
+TEST_CASE("lamps in one plane do not hide one another") {
+  const auto with = [](const Room& at, size_t first, size_t second, bool visible) {
+    const std::vector<decltype(Light::kind)> kinds = CeilingLights(at);
+    Scene scene = FloorUnder(at, kinds[first]);
+    scene.lights.push_back(Named("another lamp", kinds[second]));
+    for (Light& light : scene.lights) {
+      std::visit(
+          [&](auto& kind) {
+            if constexpr (requires { kind.visible; }) kind.visible = visible;
+          },
+          light.kind);
+    }
+    return RenderImage(scene, {});
+  };
+  ForEachTarget([&](Target) {
+    for (const Room& at : {StraightRoom(), TurnedRoom()}) {
+      for (const size_t first : {0, 1, 2}) {
+        for (const size_t second : {0, 1, 2}) {
+          CAPTURE(first, second);
+          CHECK(SameBits(with(at, first, second, true), with(at, first, second, false)));
+        }
+      }
+    }
+  });
+}
+
 TEST_CASE("a light on a sphere over a floor is seen from below, and hidden from above") {
   ForEachTarget([](Target) {
     for (const Room& at : {StraightRoom(), TurnedRoom()}) {
