@@ -538,6 +538,7 @@ class ViewTest(unittest.TestCase):
         # Nor where pictures that move must be smaller, which the status says.
         for width in (PHONE, (768, 1024), DESK, (1920, 1080)):
             self.browser.resize(*width)
+            self.later('const done = arguments[0]; requestAnimationFrame(() => setTimeout(done, 100))')  # panes fit themselves
             texts = [self.browser.script("VIEW.status.textContent = arguments[0]; " + places, text) for text in
                      ('1 of 1 samples · 1280×720 · 9 ms', '1024 of 1024 samples · 320×180 of 1280×720 · 10.5 ms')]
             self.assertEqual(*texts, width)
