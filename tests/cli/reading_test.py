@@ -112,7 +112,7 @@ class ReadingTest(unittest.TestCase):
         (self.out / 's.json').write_text(SCENE)
         for override in '/image/width/a=1', '/image=[]':
             result = self.run_nacre('render', 's.json', '-o', 'x.png', '--set', override, '--set', '/image/height/b=2')
-            self.check_refused(result, 64, '--set')
+            self.check_refused(result, 64, 'error: /image/')
 
     def test_a_name_with_a_line_end_hides_nothing(self):
         scene = json.loads(SCENE)
