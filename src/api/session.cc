@@ -64,7 +64,7 @@ Image Session::RenderProgressively(const RenderSettings& settings,
       return whole;
     }
     FrameFilm film;
-    nacre::Image so_far = EmptyImage(plan);
+    nacre::Image so_far = EmptyImage(plan, own.cancel);
     for (int end = 1;; end = std::min(2 * end, image.spp)) {
       const nacre::RenderStats pass = RenderPass(
           plan, own, end, &film, [&](const nacre::Strip& strip) { CopyStrip(strip, &so_far); });

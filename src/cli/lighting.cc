@@ -112,10 +112,11 @@ Json ReadLightsText(const std::string& text) {
               R"("irradiance": 3}}')");
 }
 
+// All but those that reach a point from one direction, or from everywhere alike.
 bool HasExtent(const Json& light) {
   const auto type = light.find("type");
   if (type == light.end()) return false;
-  return *type == "environment" || *type == "rectangle" || *type == "disk" || *type == "sphere";
+  return *type != "ambient" && *type != "directional" && *type != "point" && *type != "spot";
 }
 
 Json LightsOf(const std::string& set_up, double reach, bool centred) {

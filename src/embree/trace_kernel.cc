@@ -92,7 +92,7 @@ void Nearer(const TraceScene& scene, const RayBatch& rays, ClosestHits* hits) {
 void Occluded(const TraceScene& scene, ShadowRayBatch* rays) {
   EmbreePacket to(scene.packet_width, scene.scene, scene.geometry);
   for (size_t first = 0; first < rays->count; first += to.Width()) {
-    FillShadowRays(*rays, first, &to.packet);
+    FillShadowPacket(*rays, first, &to.packet);
     FillOrigins(scene.offset, &to);
     if (scene.is_large && AreIncoherent(to.packet)) {
       TraceOneByOne(&to, [&](RTCRayHit* one) { OccludedOne(to.scene, &to.context, &one->ray); });

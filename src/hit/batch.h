@@ -42,6 +42,15 @@ struct Soa3 {
 };
 
 template <typename T>
+AlignedArray<T>& ChannelOf(Soa3<T>& soa, int c) {
+  return c == 0 ? soa.x : c == 1 ? soa.y : soa.z;
+}
+template <typename T>
+const AlignedArray<T>& ChannelOf(const Soa3<T>& soa, int c) {
+  return c == 0 ? soa.x : c == 1 ? soa.y : soa.z;
+}
+
+template <typename T>
 Vec3d VectorAt(const Soa3<T>& soa, size_t i) {
   return {soa.x[i], soa.y[i], soa.z[i]};
 }
@@ -120,7 +129,7 @@ struct HitBatch {
   size_t count = 0;
   bool one_primitive = false;                        // all hits are known to be on the same one
   AlignedArray<uint32_t> ray{kBatchCapacity};        // index in FilmBatch
-  AlignedArray<uint32_t> primitive{kBatchCapacity};  // for excluding itself from its shadow rays
+  AlignedArray<uint32_t> primitive{kBatchCapacity};  // what was hit
   // Filled on request only (HitOutput).
   Soa3<double> position;  // on the surface
   // HitDirections in double, for lobes that are too sharp for float.
@@ -135,12 +144,13 @@ struct HitOutput {
   bool positions = true;  // HitBatch::position
 };
 
-// Shadow rays origin + t direction, 0 < t < t_max.
+// The light of shadow rays whose occluders were not searched for.
 inline constexpr uint32_t kAnyLight = 0xffffffffu;
+
+// Shadow rays origin + t direction, 0 < t < t_max.
 struct ShadowRayBatch {
   size_t count = 0;
-  // The light that all rays go to: its index in Intersector::FindOccluders, or kAnyLight for a
-  // light whose occluders were not searched for.
+  // The light that all rays go to: its index in Intersector::FindOccluders, or kAnyLight.
   uint32_t light = kAnyLight;
   // All rays leave the spheres that they start on outward, because these were hit from outside and
   // face the light. Such a sphere then never occludes its own rays, whatever the rounding.

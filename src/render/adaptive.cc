@@ -19,13 +19,13 @@ namespace {
 // the order of the additions, and with it their rounding, is the same everywhere.
 constexpr int kChunk = 16;
 
-using SampleEntry = CellScratch::SampleEntry;
+using SampleEntry = CellState::SampleEntry;
 
 // Samples [first, first + count) of each entry of the list, one entry after the other. `samplers`:
 // one per replicate.
 void MakeListSamples(const PixelSampler* samplers, const Window& cell,
                      std::span<const SampleEntry> list, int first, int count, TileWork* s,
-                     CellScratch* c) {
+                     CellState* c) {
   c->pixels.clear();
   for (const SampleEntry& entry : list) {
     const FilmPixel pixel = PixelOf(cell, entry.pixel);
@@ -46,7 +46,7 @@ std::array<PixelRun, kBlockSide> BlockRows(const Window& block) {
 
 // The same for one sample of each entry, where the list consists of whole blocks.
 void MakeBlockSamples(const PixelSampler* samplers, const Window& cell,
-                      std::span<const SampleEntry> list, int index, TileWork* s, CellScratch* c) {
+                      std::span<const SampleEntry> list, int index, TileWork* s, CellState* c) {
   for (size_t ray = 0; ray < list.size(); ray += kBlockPixels) {
     const Window block = BlockWindow(cell, list[ray].pixel / kBlockPixels);
     const PixelSampler& sampler = samplers[list[ray].replicate];
@@ -109,7 +109,7 @@ void UpdateExtremes(double value, double* lowest, double* second_lowest, double*
 }
 
 // One sample of each of a block's pixels.
-void UpdateBlockExtremes(const double* values, int channel, uint32_t pixel, CellScratch* c) {
+void UpdateBlockExtremes(const double* values, int channel, uint32_t pixel, CellState* c) {
   double* __restrict const lowest = c->lowest[channel] + pixel;
   double* __restrict const second_lowest = c->second_lowest[channel] + pixel;
   double* __restrict const second_highest = c->second_highest[channel] + pixel;
@@ -121,7 +121,7 @@ void UpdateBlockExtremes(const double* values, int channel, uint32_t pixel, Cell
 
 // `count` samples of one pixel.
 void UpdatePixelExtremes(const double* values, size_t count, int channel, uint32_t pixel,
-                         CellScratch* c) {
+                         CellState* c) {
   double lowest = c->lowest[channel][pixel], second_lowest = c->second_lowest[channel][pixel];
   double second_highest = c->second_highest[channel][pixel], highest = c->highest[channel][pixel];
   for (size_t i = 0; i < count; ++i)
@@ -140,7 +140,7 @@ void MarkHits(const TileWork& s, std::vector<double>* hits) {
 // The sums of an averaged layer's channel, by replicate. Beauty and coverage are summed for each
 // replicate, because the spread of the replicates tells when a pixel has converged; other layers
 // have one sum.
-void FindSums(LayerKind layer, int channel, double* film_sum, CellScratch* c,
+void FindSums(LayerKind layer, int channel, double* film_sum, CellState* c,
               double* (&sums)[kReplicates]) {
   for (size_t r = 0; r < kReplicates; ++r) {
     sums[r] = layer == LayerKind::kBeauty  ? c->replicate[r][channel]
@@ -150,7 +150,7 @@ void FindSums(LayerKind layer, int channel, double* film_sum, CellScratch* c,
 }
 
 void AddListSamples(const FramePlan& plan, const Window& cell, std::span<const SampleEntry> list,
-                    TileWork* work, CellScratch* c) {
+                    TileWork* work, CellState* c) {
   TileWork& s = *work;
   const size_t count = s.samples.weights.size();
   if (count == 1 && c->outlined != 0) MarkHits(s, &c->hits);
@@ -192,7 +192,7 @@ void AddListSamples(const FramePlan& plan, const Window& cell, std::span<const S
 }
 
 // Takes the samples of a level for all active pixels, in batches.
-void AddLevel(const FramePlan& plan, const Window& cell, size_t level, TileWork* s, CellScratch* c,
+void AddLevel(const FramePlan& plan, const Window& cell, size_t level, TileWork* s, CellState* c,
               StageClock* clock, RenderStats* stats) {
   const AdaptivePlan::Level& l = plan.adaptive.levels[level];
   const auto& samplers = plan.adaptive.patterns[l.pattern];
@@ -248,7 +248,7 @@ void ListPixels(uint32_t blocks, std::vector<uint32_t>* pixels) {
 // Returns, as bits, the blocks of `edge_free` that need no more. The film gets their values, and,
 // of all of `blocks`, positions, depths and ids.
 uint32_t AddCenters(const FramePlan& plan, const Window& cell, uint32_t blocks, uint32_t edge_free,
-                    TileWork* work, CellScratch* c, StageClock* clock, RenderStats* stats) {
+                    TileWork* work, CellState* c, StageClock* clock, RenderStats* stats) {
   if (blocks == 0) return 0;
   TileWork& s = *work;
   ListPixels(blocks, &c->active);
@@ -300,7 +300,7 @@ uint32_t AddCenters(const FramePlan& plan, const Window& cell, uint32_t blocks, 
 // Gives every pixel whose coverage is known one hit before its first sample, because all samples of
 // a barely covered pixel may miss. Of its hits only the mean is used, so that a point chosen in the
 // middle of the covered part does no harm.
-void AddCoveredHits(const FramePlan& plan, const Window& cell, TileWork* work, CellScratch* c,
+void AddCoveredHits(const FramePlan& plan, const Window& cell, TileWork* work, CellState* c,
                     StageClock* clock, RenderStats* stats) {
   if (c->covered_points.empty()) return;
   TileWork& s = *work;
@@ -352,9 +352,9 @@ uint32_t BlocksOf(const Window& cell, const Window& part) {
 }  // namespace
 
 void RenderCell(const FramePlan& plan, const Window& cell, const Window& part, TileWork* work,
-                CellScratch* cell_scratch, Strip* strip, StageClock* clock, RenderStats* stats) {
+                CellState* cell_scratch, Strip* strip, StageClock* clock, RenderStats* stats) {
   TileWork& s = *work;
-  CellScratch& c = *cell_scratch;
+  CellState& c = *cell_scratch;
   FindTileShapes(plan.hits, cell, &s.shapes);
   clock->Charge(Stage::kIntersect);
   if (!ShowsAnything(plan, s.shapes)) {
@@ -371,7 +371,7 @@ void RenderCell(const FramePlan& plan, const Window& cell, const Window& part, T
   c.projections = ProjectSpheres(plan.camera, s.shapes.spheres);
   const uint32_t edge_free = FindEdgeFreeBlocks(plan, cell, blocks, &s, &c);
   clock->Charge(Stage::kIntersect);
-  const bool all_centers = s.film.nearest_distance.size() > 0;
+  const bool all_centers = s.film.nearest_distance2.size() > 0;
   const uint32_t smooth =
       AddCenters(plan, cell, all_centers ? blocks : edge_free, edge_free, &s, &c, clock, stats);
   const uint32_t sampled = blocks & ~smooth;

@@ -20,12 +20,12 @@
 // estimate the radiance of the covered part.
 #pragma once
 
-#include "render/cell_scratch.h"
+#include "render/cell_state.h"
 
 namespace nacre {
 
 // Renders a cell of the frame and writes the pixels of `part`, a part of it, to the strip.
 void RenderCell(const FramePlan& plan, const Window& cell, const Window& part, TileWork* work,
-                CellScratch* cell_scratch, Strip* strip, StageClock* clock, RenderStats* stats);
+                CellState* cell_scratch, Strip* strip, StageClock* clock, RenderStats* stats);
 
 }  // namespace nacre

@@ -16,11 +16,11 @@ namespace {
 
 // The angle at which the material's narrowest lobe has fallen to about half its peak, in radians;
 // infinite without a lobe.
-double LobeWidth(const ShadingMaterial& material) {
+double NarrowestLobe(const ShadingMaterial& material) {
   if (material.coat) {
     ShadingMaterial below = material;
     below.coat = nullptr;
-    return std::min(LobeWidth(below), LobeWidth(*material.coat));
+    return std::min(NarrowestLobe(below), NarrowestLobe(*material.coat));
   }
   const double infinity = std::numeric_limits<double>::infinity();
   return std::visit(Overloaded{[&](const PhongFamilyModel& phong) {
@@ -109,7 +109,8 @@ AdaptivePlan PlanAdaptive(const Scene& scene, const std::vector<ShadingMaterial>
   // where a surface turns away from a light, up to three times that (for a box: 1/8 of the change
   // of slope instead of 1/24).
   plan.center_error = 1.5 * SecondMoment(filter);
-  for (const ShadingMaterial& material : materials) plan.lobe_widths.push_back(LobeWidth(material));
+  for (const ShadingMaterial& material : materials)
+    plan.lobe_widths.push_back(NarrowestLobe(material));
   return plan;
 }
 

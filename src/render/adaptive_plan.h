@@ -40,7 +40,7 @@ struct AdaptivePlan {
   double max_error = 0;  // relative, see ErrorBound; 0: all pixels take the same samples
   double white = 0;      // WhiteLevel
   double brightest = 0;  // BrightestObject
-  int max_samples = 0;   // of a pixel, approximately
+  int max_samples = 0;   // of a pixel; levels double, so that it may be up to twice as many
   // Samples are taken level by level; each level doubles the samples of each replicate. For most
   // filters a level continues one pattern, every prefix of which is as well distributed as a
   // pattern of that length, so that the error falls as with uniform sampling. The weights of a
@@ -61,13 +61,15 @@ struct AdaptivePlan {
   double filter_radius = 0.5;  // in pixels from a pixel's centre
   // The error of taking a pixel's centre for its mean, as a multiple of the second differences.
   double center_error = 0;
-  std::vector<double> lobe_widths;     // half-width of each material's narrowest lobe, in radians
+  // The half-width of each material's narrowest lobe, in radians: of the half vector's angle, for
+  // Phong of that from the mirrored direction, which is twice as wide (highlights.cc).
+  std::vector<double> lobe_widths;
   std::vector<HighlightLight> lights;  // all but skies
   SmallTriangles small_triangles;
   std::vector<Glint> mesh_glints;  // by ascending y
 };
 
-// `max_samples`: the largest number of samples of a pixel is at least this. `materials`: those of
+// `max_samples`: AdaptivePlan::max_samples. `materials`: those of
 // the scene, in its order.
 AdaptivePlan PlanAdaptive(const Scene& scene, const std::vector<ShadingMaterial>& materials,
                           double max_error, int max_samples);

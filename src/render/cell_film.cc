@@ -35,7 +35,7 @@ void ForEachBlock(uint32_t blocks, const Body& body) {
 
 }  // namespace
 
-void ClearReplicates(uint32_t blocks, CellScratch* c) {
+void ClearReplicates(uint32_t blocks, CellState* c) {
   ForEachBlock(blocks, [&](size_t first) {
     for (auto& replicate : c->replicate) {
       for (auto& channel : replicate) std::fill_n(channel + first, kBlockPixels, 0.0);
@@ -43,7 +43,7 @@ void ClearReplicates(uint32_t blocks, CellScratch* c) {
   });
 }
 
-void AddReplicates(uint32_t blocks, const CellScratch& c, TileFilm* film) {
+void AddReplicates(uint32_t blocks, const CellState& c, TileFilm* film) {
   ForEachBlock(blocks, [&](size_t first) {
     for (size_t channel = 0; channel < 4; ++channel) {
       double* const sums = film->sums[channel].data() + first;
@@ -54,7 +54,7 @@ void AddReplicates(uint32_t blocks, const CellScratch& c, TileFilm* film) {
   });
 }
 
-PixelSampleCounts CountSamples(const Window& cell, const Window& part, const CellScratch& c) {
+PixelSampleCounts CountSamples(const Window& cell, const Window& part, const CellState& c) {
   PixelSampleCounts counts;
   for (uint32_t i = 0; i < kCellPixels; ++i) {
     const FilmPixel at = PixelOf(cell, i);
@@ -68,7 +68,7 @@ PixelSampleCounts CountSamples(const Window& cell, const Window& part, const Cel
 // its n samples hit, their sum holds the background n - h times, so the pixel is s / h times the
 // sum plus 1 - s n / h times the background. Other pixels are the mean of all samples.
 void ResolveCell(const FramePlan& plan, const Window& cell, const Window& part,
-                 const TileFilm& film, const CellScratch& c, Strip* strip) {
+                 const TileFilm& film, const CellState& c, Strip* strip) {
   double of_sum[kCellPixels], of_background[kCellPixels];
   const double* const hits = film.sums[kAlphaSum].data();
   for (size_t i = 0; i < kCellPixels; ++i) {

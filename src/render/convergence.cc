@@ -23,12 +23,12 @@ constexpr double kNeighbourSlack = 8;
 // How many levels a block takes before it may stop: 16 samples a pixel with most filters, because
 // four samples miss an edge that cuts off the corner of a pixel too often. One level less, that is,
 // half of the samples, is enough where the only edges are outlines, whose pixels are known.
-size_t CommonLevels(const CellScratch& c, size_t block) {
+size_t CommonLevels(const CellState& c, size_t block) {
   return kCommonLevels - ((c.only_outlines & c.outlined) >> block & 1);
 }
 
 // The range of the samples that hit, over the outline pixels of each block.
-void FindOutlineRanges(CellScratch* c) {
+void FindOutlineRanges(CellState* c) {
   for (size_t channel = 0; channel < 3; ++channel) {
     std::fill_n(c->outline_range[channel], kCellBlocks, PixelRange{kUnbounded, -kUnbounded});
     for (const uint32_t pixel : c->active) {
@@ -41,8 +41,7 @@ void FindOutlineRanges(CellScratch* c) {
 }
 
 // The interval of an outline pixel in one channel of the beauty.
-Interval MeasureOutlineChannel(const CellScratch& c, uint32_t pixel, int channel,
-                               double background) {
+Interval MeasureOutlineChannel(const CellState& c, uint32_t pixel, int channel, double background) {
   const double scale = 1.0 / c.samples[pixel], samples = double{kReplicates} * c.samples[pixel];
   double values[kReplicates];
   for (size_t r = 0; r < kReplicates; ++r) values[r] = c.replicate[r][channel][pixel] * scale;
@@ -66,7 +65,7 @@ void CopyInterval(const BlockIntervals& from, uint32_t i, BlockIntervals* to) {
 // The interval and the tolerance of an outline pixel. Written so that NaN never converges; NaN is
 // counted and reported where the picture is written.
 void MeasureOutlinePixel(const ErrorBound& error, const Rgb& background, uint32_t pixel,
-                         CellScratch* c) {
+                         CellState* c) {
   BlockIntervals& intervals = c->intervals[pixel / kBlockPixels];
   const size_t i = pixel % kBlockPixels;
   double widest = 0, strictest = kUnbounded;
@@ -85,7 +84,7 @@ void MeasureOutlinePixel(const ErrorBound& error, const Rgb& background, uint32_
 
 // Measures a block's pixels. Outline pixels that are no longer active keep their intervals.
 void MeasureBlockOfCell(const ErrorBound& error, const Rgb& background, size_t block,
-                        uint32_t active, CellScratch* c) {
+                        uint32_t active, CellState* c) {
   const auto first = static_cast<uint32_t>(block * kBlockPixels);
   const double* sums[kReplicates][3];
   for (size_t r = 0; r < kReplicates; ++r) {
@@ -106,7 +105,7 @@ void MeasureBlockOfCell(const ErrorBound& error, const Rgb& background, size_t b
   }
 }
 
-void MeasureActive(const ErrorBound& error, const Rgb& background, CellScratch* c) {
+void MeasureActive(const ErrorBound& error, const Rgb& background, CellState* c) {
   uint32_t active[kCellBlocks] = {};  // pixels, as bits
   for (const uint32_t pixel : c->active) active[pixel / kBlockPixels] |= 1u << pixel % kBlockPixels;
   for (size_t block = 0; block < kCellBlocks; ++block) {
@@ -114,13 +113,13 @@ void MeasureActive(const ErrorBound& error, const Rgb& background, CellScratch* 
   }
 }
 
-bool IsWithinTolerance(const CellScratch& c, uint32_t pixel) {
+bool IsWithinTolerance(const CellState& c, uint32_t pixel) {
   return (c.intervals[pixel / kBlockPixels].narrow >> pixel % kBlockPixels & 1) != 0;
 }
 
 // Marks a pixel that an outline may cross, and computes its coverage if it shows one outline only.
 void FindCoverage(const FramePlan& plan, const VisibleOutlines& seen, uint32_t pixel, double x,
-                  double y, CellScratch* c) {
+                  double y, CellState* c) {
   const double square = plan.adaptive.square;
   double covered = -1;
   if (seen.only_sphere != nullptr && square > 0) {
@@ -139,7 +138,7 @@ void FindCoverage(const FramePlan& plan, const VisibleOutlines& seen, uint32_t p
 }
 
 // The largest half-width among the neighbours in the block that are not within their tolerance.
-double WidestNeighbour(const CellScratch& c, uint32_t pixel) {
+double WidestNeighbour(const CellState& c, uint32_t pixel) {
   const BlockIntervals& intervals = c.intervals[pixel / kBlockPixels];
   const int x = static_cast<int>(pixel % kBlockSide);
   const int y = static_cast<int>(pixel % kBlockPixels) / kBlockSide;
@@ -157,14 +156,14 @@ double WidestNeighbour(const CellScratch& c, uint32_t pixel) {
   return widest;
 }
 
-bool HasConverged(const CellScratch& c, uint32_t pixel) {
+bool HasConverged(const CellState& c, uint32_t pixel) {
   const double tolerance = c.intervals[pixel / kBlockPixels].tolerance[pixel % kBlockPixels];
   return IsWithinTolerance(c, pixel) && WidestNeighbour(c, pixel) <= kNeighbourSlack * tolerance;
 }
 
 }  // namespace
 
-void FindOutlinePixels(const FramePlan& plan, const Window& cell, CellScratch* c) {
+void FindOutlinePixels(const FramePlan& plan, const Window& cell, CellState* c) {
   c->outlined = 0;
   c->covered_points.clear();
   std::fill_n(c->on_outline, kCellPixels, false);
@@ -182,7 +181,7 @@ void FindOutlinePixels(const FramePlan& plan, const Window& cell, CellScratch* c
   }
 }
 
-void DropConverged(const FramePlan& plan, size_t level, CellScratch* c) {
+void DropConverged(const FramePlan& plan, size_t level, CellState* c) {
   if (level + 2 < kCommonLevels) return;
   if (level + 2 == kCommonLevels) FindOutlineRanges(c);
   const Rgb background = BackgroundOf(plan.film.layers[0], plan.film);  // the beauty's
@@ -200,8 +199,7 @@ void DropConverged(const FramePlan& plan, size_t level, CellScratch* c) {
   });
 }
 
-size_t CountUnsettled(const FramePlan& plan, const Window& cell, const Window& part,
-                      CellScratch* c) {
+size_t CountUnsettled(const FramePlan& plan, const Window& cell, const Window& part, CellState* c) {
   if (c->active.empty()) return 0;
   MeasureActive({plan.adaptive.max_error, kUnbounded}, BackgroundOf(plan.film.layers[0], plan.film),
                 c);

@@ -2,7 +2,7 @@
 // render/convergence.h: when a pixel of adaptive sampling has enough samples.
 #pragma once
 
-#include "render/cell_scratch.h"
+#include "render/cell_state.h"
 
 namespace nacre {
 
@@ -12,16 +12,16 @@ inline constexpr size_t kCommonLevels = 3;
 
 // Before the first sample: finds the active pixels that outlines of spheres may cross, and the
 // coverage of those that show a single outline in front of the background.
-void FindOutlinePixels(const FramePlan& plan, const Window& cell, CellScratch* cell_scratch);
+void FindOutlinePixels(const FramePlan& plan, const Window& cell, CellState* cell_scratch);
 
 // After a level: removes the pixels that have converged from the active ones. After a block's
 // common levels the block is removed if all of its pixels are within their tolerances; later,
 // single pixels whose neighbours are not far from their tolerances either.
-void DropConverged(const FramePlan& plan, size_t level, CellScratch* cell_scratch);
+void DropConverged(const FramePlan& plan, size_t level, CellState* cell_scratch);
 
 // Counts the pixels in `part` that are still active after the last level and whose relative error
 // may be more than max_error. Here a highlight's error is relative to the highlight, not to white.
 size_t CountUnsettled(const FramePlan& plan, const Window& cell, const Window& part,
-                      CellScratch* cell_scratch);
+                      CellState* cell_scratch);
 
 }  // namespace nacre

@@ -180,8 +180,7 @@ DirectPlan PlanLights(const Scene& scene, const RenderSettings& settings,
                       PreparedScene* prepared, Explanation* why) {
   DirectPlan plan;
   plan.background = scene.background;
-  const Vec3d& eye = scene.camera.position;
-  plan.camera_extent = std::abs(eye.x) + std::abs(eye.y) + std::abs(eye.z);
+  plan.camera_extent = SumOfAbs(scene.camera.position);
   plan.light_layer_count =
       static_cast<size_t>(std::count_if(layers.begin(), layers.end(), [](const Layer& layer) {
         return layer.kind == LayerKind::kLight;

@@ -94,7 +94,9 @@ struct DirectPlan {
 std::shared_ptr<const SceneWithLights> AddVisibleLights(const Scene& scene,
                                                         PreparedScene* prepared);
 
-// Plans everything except shadow rays and far lights. `shown`: from AddVisibleLights; may be null.
+// Plans everything except shadow rays (PlanShadows, shadow_plan.h, which sets `primitives`,
+// `camera`, `intersector` and `eye_outside`, too), their origins (PlanShadowOrigins), far lights,
+// and what Gouraud meshes reflect (ShadeMeshes). `shown`: from AddVisibleLights; may be null.
 DirectPlan PlanLights(const Scene& scene, const RenderSettings& settings,
                       const std::vector<Layer>& layers, const SceneWithLights* shown,
                       PreparedScene* prepared, Explanation* why);

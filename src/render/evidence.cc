@@ -26,7 +26,7 @@ struct PixelEvidence {
 };
 
 // Whether a rare feature may be hidden in the pixel.
-bool MayHideFeatures(const CellScratch& c, uint32_t pixel) {
+bool MayHideFeatures(const CellState& c, uint32_t pixel) {
   return (c.only_outlines >> pixel / kBlockPixels & 1) == 0;
 }
 
@@ -50,13 +50,13 @@ uint32_t PixelAt(const CellPosition& place) {
   return static_cast<uint32_t>(block * static_cast<int>(kBlockPixels) + in_block);
 }
 
-double MeanOf(const CellScratch& c, uint32_t pixel, size_t channel) {
+double MeanOf(const CellState& c, uint32_t pixel, size_t channel) {
   double sum = 0;
   for (const auto& replicate : c.replicate) sum += replicate[channel][pixel];
   return sum / (double{kReplicates} * c.samples[pixel]);
 }
 
-HitKind Classify(const CellScratch& c, uint32_t pixel) {
+HitKind Classify(const CellState& c, uint32_t pixel) {
   double hits = 0;
   for (const auto& replicate : c.replicate) hits += replicate[kAlphaSum][pixel];
   const double samples = double{kReplicates} * c.samples[pixel];
@@ -65,16 +65,16 @@ HitKind Classify(const CellScratch& c, uint32_t pixel) {
   return std::abs(hits - samples) < 1e-6 * samples ? kHits : kMixed;
 }
 
-double SamplesTaken(const CellScratch& c, uint32_t pixel) {
+double SamplesTaken(const CellState& c, uint32_t pixel) {
   return double{kReplicates} * c.samples[pixel];
 }
 
-double ToleranceOf(const CellScratch& c, uint32_t pixel) {
+double ToleranceOf(const CellState& c, uint32_t pixel) {
   return c.intervals[pixel / kBlockPixels].tolerance[pixel % kBlockPixels];
 }
 
 // The range of the means of the pixel and its neighbours in the cell.
-PixelRange RangeOfMeans(const CellScratch& c, uint32_t pixel, size_t channel) {
+PixelRange RangeOfMeans(const CellState& c, uint32_t pixel, size_t channel) {
   const CellPosition at = PositionInCell(pixel);
   PixelRange range{std::numeric_limits<double>::infinity(),
                    -std::numeric_limits<double>::infinity()};
@@ -93,12 +93,12 @@ PixelRange RangeOfMeans(const CellScratch& c, uint32_t pixel, size_t channel) {
 
 // Whether the contrast of the pixel's samples is more than twice that of the means around it. At an
 // edge between two areas of the picture it is not, because both sides appear among the neighbours.
-bool IsIsolated(const CellScratch& c, uint32_t pixel, size_t channel, double contrast) {
+bool IsIsolated(const CellState& c, uint32_t pixel, size_t channel, double contrast) {
   const PixelRange means = RangeOfMeans(c, pixel, channel);
   return 2 * (means.high - means.low) < contrast;
 }
 
-PixelEvidence EvidenceOf(const CellScratch& c, uint32_t pixel) {
+PixelEvidence EvidenceOf(const CellState& c, uint32_t pixel) {
   PixelEvidence evidence{pixel, Classify(c, pixel), 0, 0, false};
   size_t widest = 0;
   for (size_t channel = 0; channel < 3; ++channel) {
@@ -127,11 +127,11 @@ bool IsInner(uint32_t pixel) {
 }
 
 // Whether the pixel has a rare feature that is known beforehand and matters.
-bool HasKnownFeature(const CellScratch& c, uint32_t pixel) { return c.required_samples[pixel] > 0; }
+bool HasKnownFeature(const CellState& c, uint32_t pixel) { return c.required_samples[pixel] > 0; }
 
 // The error of the pixel's mean if no sample has hit these triangles. Only as far as they are
 // darker or brighter than everything around them; otherwise they are part of an edge.
-double MissingContrast(const CellScratch& c, const CellScratch::RareTriangles& rare) {
+double MissingContrast(const CellState& c, const CellState::RareTriangles& rare) {
   double contrast = 0;
   for (size_t channel = 0; channel < 3; ++channel) {
     const PixelRange around = RangeOfMeans(c, rare.pixel, channel);
@@ -144,7 +144,7 @@ double MissingContrast(const CellScratch& c, const CellScratch::RareTriangles& r
 
 // The triangles of one pixel matter together. Materials that contribute less than an equal part of
 // half the tolerance are left out: all of those together cannot matter.
-void RequireTriangleSamples(std::span<const CellScratch::RareTriangles> of_pixel, CellScratch* c) {
+void RequireTriangleSamples(std::span<const CellState::RareTriangles> of_pixel, CellState* c) {
   const uint32_t pixel = of_pixel[0].pixel;
   const double tolerance = ToleranceOf(*c, pixel);
   double all = 0;
@@ -158,7 +158,7 @@ void RequireTriangleSamples(std::span<const CellScratch::RareTriangles> of_pixel
 }
 
 // Sets required_samples of the pixels that have samples.
-void FindKnownFeatures(CellScratch* c) {
+void FindKnownFeatures(CellState* c) {
   for (uint32_t pixel = 0; pixel < kCellPixels; ++pixel) {
     const bool matters = 2 * c->rare_radiance[pixel] > ToleranceOf(*c, pixel);
     c->required_samples[pixel] = matters ? c->rare_samples[pixel] : 0;
@@ -173,7 +173,7 @@ void FindKnownFeatures(CellScratch* c) {
 
 // Pools all pixels except those of the kind `left_out` and those with a known rare feature: a
 // feature that is known is known for every pixel that has it.
-Pool MakePool(const CellScratch& c, const std::vector<PixelEvidence>& all, HitKind left_out) {
+Pool MakePool(const CellState& c, const std::vector<PixelEvidence>& all, HitKind left_out) {
   Pool pool;
   size_t inner = 0, witnesses = 0;
   for (const PixelEvidence& e : all) {
@@ -199,13 +199,13 @@ double RequiredSamples(const Pool& pool, double tolerance, double samples) {
   return std::max(std::log(affected / kAllowedShare), 0.0) / least;
 }
 
-void RejectInterval(uint32_t pixel, CellScratch* c) {
+void RejectInterval(uint32_t pixel, CellState* c) {
   c->intervals[pixel / kBlockPixels].narrow &= ~(1u << pixel % kBlockPixels);
 }
 
 }  // namespace
 
-void ClearEvidence(CellScratch* c) {
+void ClearEvidence(CellState* c) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (auto* low : {c->lowest, c->second_lowest})
     std::fill_n(&low[0][0], 3 * kCellPixels, kInfinity);
@@ -213,7 +213,7 @@ void ClearEvidence(CellScratch* c) {
     std::fill_n(&high[0][0], 3 * kCellPixels, -kInfinity);
 }
 
-void RequireEvidence(CellScratch* c) {
+void RequireEvidence(CellState* c) {
   FindKnownFeatures(c);
   std::vector<PixelEvidence> all;
   for (const uint32_t pixel : c->active) {

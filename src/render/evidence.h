@@ -26,7 +26,7 @@
 // region that is rendered.
 #pragma once
 
-#include "render/cell_scratch.h"
+#include "render/cell_state.h"
 
 namespace nacre {
 
@@ -43,10 +43,10 @@ inline constexpr double kByChance = 1.80;
 inline constexpr double kExpectedHits = 2 * kReplicates;
 
 // To be called before a cell's first sample.
-void ClearEvidence(CellScratch* cell_scratch);
+void ClearEvidence(CellState* cell_scratch);
 
 // To be called after a level: clears BlockIntervals::narrow of active pixels that do not have
 // enough samples for it.
-void RequireEvidence(CellScratch* cell_scratch);
+void RequireEvidence(CellState* cell_scratch);
 
 }  // namespace nacre

@@ -102,10 +102,10 @@ void StartTile(const FilmPlan& plan, const Window& tile, size_t capacity, TileFi
   }
   while (film->ids.size() < count(ChannelKind::kId)) film->ids.emplace_back(capacity);
   if (film->nearest.empty() && film->ids.empty()) return;
-  if (film->nearest_distance.size() == 0) {
-    film->nearest_distance = AlignedArray<double>(capacity);
+  if (film->nearest_distance2.size() == 0) {
+    film->nearest_distance2 = AlignedArray<double>(capacity);
   }
-  std::fill_n(film->nearest_distance.data(), pixels, std::numeric_limits<double>::infinity());
+  std::fill_n(film->nearest_distance2.data(), pixels, std::numeric_limits<double>::infinity());
   for (AlignedArray<float>& channel : film->nearest) std::fill_n(channel.data(), pixels, 0.0f);
   for (AlignedArray<uint32_t>& channel : film->ids) std::fill_n(channel.data(), pixels, 0u);
 }

@@ -39,8 +39,9 @@ void PlanSums(const Scene& scene, const RenderSettings& settings, const PixelSam
 
 // The sampled pixels of a tile, one array per channel, row by row. Averaged channels are summed in
 // double and rounded to float once, however many samples there are and however their weights
-// cancel, so that the layers add up to the beauty. Only hits are summed. The sum of the alpha layer
-// is the weight of the hits; the remaining weight shows the background.
+// cancel, so that the layers add up to the beauty. Of uniform sampling only hits are summed: the
+// sum of the alpha layer is their weight, and the remaining weight shows the background. Adaptive
+// sampling sums what misses see, too.
 struct TileFilm {
   Window window;
   // The sampled pixels, in the order of the sums. All others of the window show the background.
@@ -48,7 +49,7 @@ struct TileFilm {
   std::vector<AlignedArray<double>> sums;    // averaged channels, in layer order
   std::vector<AlignedArray<float>> nearest;  // P and Z channels, in layer order
   std::vector<AlignedArray<uint32_t>> ids;   // id channels, in layer order
-  AlignedArray<double> nearest_distance;     // of their sample from the centre, pixels squared
+  AlignedArray<double> nearest_distance2;    // squared, of their sample from the centre, in pixels
 };
 
 // The index in TileFilm::sums of the alpha layer, which follows the three channels of the beauty.

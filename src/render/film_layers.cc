@@ -77,8 +77,7 @@ LayerValues ValuesShown(const Layer& layer, size_t light_layer, const ShadingMat
 }
 
 const float* ChannelOrNull(const Soa3<float>* soa, int c) {
-  if (soa == nullptr) return nullptr;
-  return (c == 0 ? soa->x : c == 1 ? soa->y : soa->z).data();
+  return soa == nullptr ? nullptr : ChannelOf(*soa, c).data();
 }
 
 // Channel c of a layer at the hits of a run.
@@ -150,8 +149,7 @@ void ScatterToRays(const Rgb& background, const Soa3<float>* sky, int channels,
     const double* const from = ChannelOf(room->hit_values, c).data();
     double* const to = ChannelOf(room->ray_values, c).data();
     if (sky != nullptr) {
-      const AlignedArray<float>& seen = c == 0 ? sky->x : c == 1 ? sky->y : sky->z;
-      std::copy_n(seen.data(), samples, to);
+      std::copy_n(ChannelOf(*sky, c).data(), samples, to);
     } else {
       std::fill_n(to, samples, background[c]);
     }

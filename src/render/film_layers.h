@@ -29,10 +29,6 @@ struct LayerRoom {
   AlignedArray<uint32_t> nearest_ray{kBatchCapacity};  // by pixel, of the rays of one batch
 };
 
-inline AlignedArray<double>& ChannelOf(Soa3<double>& soa, int c) {
-  return c == 0 ? soa.x : c == 1 ? soa.y : soa.z;
-}
-
 // The values of an averaged layer by ray of the batch, in buffers of the room. Rays that hit
 // nothing have the value `background`, or that of the sky. `light_layer`: the number of the layer
 // among the light layers, if it is one.
@@ -55,7 +51,7 @@ struct FilmPixel {
 template <class PixelOf>
 void AddNearest(const FilmPlan& plan, const ShadedBatch& batch, const PixelOf& pixel_of,
                 LayerRoom* room, TileFilm* film) {
-  if (batch.hits().count == 0 || film->nearest_distance.size() == 0) return;
+  if (batch.hits().count == 0 || film->nearest_distance2.size() == 0) return;
   constexpr uint32_t kNone = 0xffffffffu;
   std::fill_n(room->nearest_ray.data(), kBatchCapacity, kNone);
   const FilmBatch& samples = batch.samples.film;
@@ -65,7 +61,7 @@ void AddNearest(const FilmPlan& plan, const ShadedBatch& batch, const PixelOf& p
     const double dx = samples.x[ray] - (pixel.x + 0.5);
     const double dy = samples.y[ray] - (pixel.y + 0.5);
     const double distance = dx * dx + dy * dy;
-    double& nearest = film->nearest_distance[pixel.index];
+    double& nearest = film->nearest_distance2[pixel.index];
     uint32_t& nearest_ray = room->nearest_ray[pixel.index];
     const bool earlier = distance == nearest && nearest_ray != kNone && ray < nearest_ray;
     if (!(distance < nearest || earlier)) continue;

@@ -53,7 +53,7 @@ bool MissesSphere(const FramePlan& plan, const Footprint& f, const FootprintCone
 // Counts, for each block, the corners of its footprint that hit. The projection of a sphere is
 // convex: if all four corners hit the same sphere, it covers the block.
 void CountCornerHits(const FramePlan& plan, const Window& cell, const TileWork& work,
-                     CellScratch* cell_scratch, int (&counts)[kCellBlocks]) {
+                     CellState* cell_scratch, int (&counts)[kCellBlocks]) {
   FilmBatch& corners = cell_scratch->corners;
   for (size_t block = 0; block < kCellBlocks; ++block) {
     const Footprint f = FootprintOf(BlockWindow(cell, block), plan.adaptive.filter_radius);
@@ -144,7 +144,7 @@ bool ResolvesLobe(const Soa3<float>& normals, const uint32_t* hits, double width
 }  // namespace
 
 uint32_t FindEdgeFreeBlocks(const FramePlan& plan, const Window& cell, uint32_t blocks,
-                            TileWork* work, CellScratch* cell_scratch) {
+                            TileWork* work, CellState* cell_scratch) {
   cell_scratch->only_outlines = 0;
   if (!plan.adaptive.footprints || !cell_scratch->projections) return 0;
   int corners[kCellBlocks] = {};

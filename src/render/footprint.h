@@ -2,7 +2,7 @@
 // render/footprint.h: which blocks of pixels need only one sample a pixel.
 #pragma once
 
-#include "render/cell_scratch.h"
+#include "render/cell_state.h"
 
 namespace nacre {
 
@@ -10,7 +10,7 @@ namespace nacre {
 // lie wholly on one sphere or beside all spheres. Sets cell_scratch->only_outlines. Reads the
 // cell's spheres, work->shapes.spheres and cell_scratch->projections.
 uint32_t FindEdgeFreeBlocks(const FramePlan& plan, const Window& cell, uint32_t blocks,
-                            TileWork* work, CellScratch* cell_scratch);
+                            TileWork* work, CellState* cell_scratch);
 
 // Whether in a block without edges the values at the centres of the pixels are within the tolerance
 // of the pixels' means: second differences are small, and no lobe is so narrow that it may lie

@@ -37,8 +37,9 @@ struct FramePlan {
   Explanation why;        // of all stages
 };
 
-// `scene` must be valid (scene/validate.h) and outlive the plan. Throws Error (usage) for a layer
-// or region that the scene does not have.
+// `scene` must be valid (scene/validate.h) and outlive the plan. Throws Error: usage for a layer
+// or region that the scene does not have, bad input for shapes that a build without Embree cannot
+// trace, internal for trees that cannot be built; and Cancelled.
 FramePlan MakePlan(const Scene& scene, const RenderSettings& settings);
 
 // The same plan, made faster with what earlier plans have left in `prepared`, whose versions must

@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "base/target.h"
 #include "render/mesh_windows.h"
+#include "scene/primitives.h"
 #include "visibility/sphere_bins.h"
 
 namespace nacre {
@@ -16,9 +17,8 @@ namespace {
 
 // The window extended to whole cells: adaptive sampling evaluates cells whole.
 Window ExtendToCells(const Window& window) {
-  const auto down = [](int pixel) { return pixel / kCellSize * kCellSize; };
-  const auto up = [&](int pixel) { return down(pixel + kCellSize - 1); };
-  return {down(window.x0), down(window.y0), up(window.x1), up(window.y1)};
+  const auto up = [](int pixel) { return DownToCell(pixel + kCellSize - 1); };
+  return {DownToCell(window.x0), DownToCell(window.y0), up(window.x1), up(window.y1)};
 }
 
 // True only if every camera ray starts outside the sphere. The margins are far larger than the
@@ -48,12 +48,6 @@ bool EyeIsOutside(const Scene& scene, int threads) {
                     [&](const Sphere& sphere) { return IsOutside(scene, forward, sphere); });
   });
   return std::all_of(outside.begin(), outside.end(), [](uint8_t all) { return all != 0; });
-}
-
-size_t CountTriangles(const Scene& scene) {
-  size_t triangles = 0;
-  for (const Mesh& mesh : scene.meshes) triangles += mesh.triangles.size() / 3;
-  return triangles;
 }
 
 std::string DescribeShapes(const Scene& scene) {

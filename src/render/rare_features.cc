@@ -131,7 +131,7 @@ void AddShares(const PixelFilter& filter, const Window& cell, const SmallFeature
 
 }  // namespace
 
-void FindRareFeatures(const FramePlan& plan, const Window& cell, TileWork* work, CellScratch* c,
+void FindRareFeatures(const FramePlan& plan, const Window& cell, TileWork* work, CellState* c,
                       StageClock* clock, RenderStats* stats) {
   std::fill_n(c->rare_samples, kCellPixels, 0.0);
   std::fill_n(c->rare_radiance, kCellPixels, 0.0);

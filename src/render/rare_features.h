@@ -4,13 +4,13 @@
 // and highlights smaller than a pixel (glints.h, mesh_glints.h).
 #pragma once
 
-#include "render/cell_scratch.h"
+#include "render/cell_state.h"
 
 namespace nacre {
 
 // Sets cell_scratch->rare_samples, rare_radiance and rare_triangles. Reads the cell's spheres,
 // work->shapes.spheres. Traces rays to measure the radiance of highlights and triangles.
 void FindRareFeatures(const FramePlan& plan, const Window& cell, TileWork* work,
-                      CellScratch* cell_scratch, StageClock* clock, RenderStats* stats);
+                      CellState* cell_scratch, StageClock* clock, RenderStats* stats);
 
 }  // namespace nacre

@@ -76,7 +76,8 @@ struct BorderedCell {
 using PieceCounts = BorderedCell<size_t>;
 using CoveredArea = BorderedCell<double>;  // in pixels
 
-// The pixels bordered which triangles of one appearance cover less than the edge of a large object.
+// The pixels around which triangles of one appearance cover less than the edge of a large object
+// would.
 PixelSet FindSparse(const CoveredArea& area) {
   PixelSet sparse;
   for (int row = 0; row < kCellSize; ++row) {
@@ -228,7 +229,7 @@ void ProbeAll(const FramePlan& plan, std::vector<Candidate>* candidates, TileWor
 // Adds, by pixel, the share and the radiance of the visible candidates, all of one material.
 void AddRareTriangles(const PixelFilter& filter, const Window& cell,
                       std::span<const Candidate> candidates,
-                      std::vector<CellScratch::RareTriangles>* rare) {
+                      std::vector<CellState::RareTriangles>* rare) {
   struct Sums {
     double share = 0;
     Rgb radiance{0, 0, 0};
@@ -250,7 +251,7 @@ void AddRareTriangles(const PixelFilter& filter, const Window& cell,
 
 }  // namespace
 
-void FindRareTriangles(const FramePlan& plan, const Window& cell, TileWork* work, CellScratch* c,
+void FindRareTriangles(const FramePlan& plan, const Window& cell, TileWork* work, CellState* c,
                        StageClock* clock, RenderStats* stats) {
   c->rare_triangles.clear();
   std::vector<Candidate> candidates = FindCandidates(plan, cell);

@@ -9,12 +9,12 @@
 // do not matter (evidence.h).
 #pragma once
 
-#include "render/cell_scratch.h"
+#include "render/cell_state.h"
 
 namespace nacre {
 
 // Sets cell_scratch->rare_triangles.
 void FindRareTriangles(const FramePlan& plan, const Window& cell, TileWork* work,
-                       CellScratch* cell_scratch, StageClock* clock, RenderStats* stats);
+                       CellState* cell_scratch, StageClock* clock, RenderStats* stats);
 
 }  // namespace nacre

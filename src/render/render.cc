@@ -9,6 +9,7 @@
 
 #include "base/parallel.h"
 #include "base/seconds_since.h"
+#include "base/strip.h"
 #include "render/adaptive.h"
 #include "render/tile.h"
 
@@ -18,7 +19,7 @@ namespace {
 // The buffers of one thread, reused from strip to strip: fresh memory costs a page fault per 4 KiB.
 struct Worker {
   TileWork work;
-  std::unique_ptr<CellScratch> cell;  // of adaptive sampling
+  std::unique_ptr<CellState> cell;  // of adaptive sampling
   Strip strip;
   std::vector<uint8_t> blank;  // for each tile of the strip, as RenderTile has it
 };
@@ -60,16 +61,11 @@ void ForEachTile(const FramePlan& plan, const Window& strip, const RenderOne& re
 // grid of the whole frame.
 template <class RenderOne>
 void ForEachCell(const Window& strip, const RenderOne& render_cell) {
-  const auto first = [](int pixel) { return pixel / kCellSize * kCellSize; };
-  for (int y = first(strip.y0); y < strip.y1; y += kCellSize) {
-    for (int x = first(strip.x0); x < strip.x1; x += kCellSize) {
+  for (int y = DownToCell(strip.y0); y < strip.y1; y += kCellSize) {
+    for (int x = DownToCell(strip.x0); x < strip.x1; x += kCellSize) {
       render_cell(Window{x, y, x + kCellSize, y + kCellSize});
     }
   }
-}
-
-size_t StripCount(const FramePlan& plan) {
-  return static_cast<size_t>((plan.window.height() + kStripRows - 1) / kStripRows);
 }
 
 // Renders strip `number` of the window into worker->strip, whose window and channels are set.
@@ -83,7 +79,7 @@ RenderStats RenderStrips(const FramePlan& plan, const RenderSettings& settings,
                          const std::function<void(double)>& on_progress) {
   const auto start = std::chrono::steady_clock::now();
   const Window& window = plan.window;
-  const size_t strip_count = StripCount(plan);
+  const size_t strip_count = static_cast<size_t>(StripCount(plan.window.height()));
   RenderStats total;
   total.threads = ThreadCount(settings.threads);
   WorkerPool pool;
@@ -138,7 +134,7 @@ RenderStats Render(const FramePlan& plan, const RenderSettings& settings, const 
         RenderTile(plan, tile, &worker->work, &strip, &worker->blank[number], clock, stats);
       });
     }
-    if (!worker->cell) worker->cell = std::make_unique<CellScratch>();
+    if (!worker->cell) worker->cell = std::make_unique<CellState>();
     ForEachCell(strip.window, [&](const Window& cell) {
       RenderCell(plan, cell, Intersect(cell, strip.window), &worker->work, worker->cell.get(),
                  &strip, clock, stats);
@@ -156,7 +152,8 @@ RenderStats RenderPass(const FramePlan& plan, const RenderSettings& settings, in
                        FrameFilm* film, const StripSink& sink) {
   const int first = film->samples;
   const size_t tiles_per_strip = TilesPerStrip(plan);
-  if (first == 0) film->tiles.resize(StripCount(plan) * tiles_per_strip);
+  if (first == 0)
+    film->tiles.resize(static_cast<size_t>(StripCount(plan.window.height())) * tiles_per_strip);
   const FilmPlan so_far = PlanOfFirstSamples(plan, end);
   const auto render_strip = [&](size_t strip, Worker* worker, StageClock* clock,
                                 RenderStats* stats) {
@@ -180,11 +177,12 @@ RenderStats RenderPass(const FramePlan& plan, const RenderSettings& settings, in
   return total;
 }
 
-Image EmptyImage(const FramePlan& plan) {
+Image EmptyImage(const FramePlan& plan, CancelPointer cancel) {
   Image image;
   image.display = plan.frame;
   image.data = plan.window;
   for (const ChannelSpec& spec : StripChannels(plan.film.layers, PixelType::kFloat)) {
+    ThrowIfCancelled(cancel);
     image.channels.push_back({spec.name, spec.type, std::vector<float>(plan.window.pixel_count())});
   }
   return image;
@@ -205,7 +203,7 @@ void CopyStrip(const Strip& strip, Image* image) {
 }
 
 Image RenderImage(const FramePlan& plan, const RenderSettings& settings, RenderStats* stats) {
-  Image image = EmptyImage(plan);
+  Image image = EmptyImage(plan, settings.cancel);
   const RenderStats rendered =
       Render(plan, settings, [&](const Strip& strip) { CopyStrip(strip, &image); });
   if (stats != nullptr) *stats = rendered;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "base/cancel.h"
 #include "render/film.h"
 #include "render/frame_plan.h"
 #include "render/stats.h"
@@ -16,9 +17,9 @@ using StripSink = std::function<void(const Strip&)>;
 
 // Renders the plan's window and hands it to the sink in strips of kStripRows rows, counted from the
 // window's top. The bits of a pixel depend only on the scene, the pixel's position, the number of
-// samples, the SIMD target and the settings that choose another estimate (max_error, closed_forms):
-// not on threads, tiles, the region, or which layers are rendered. An exception that the sink or
-// settings.on_progress throws ends the render.
+// samples, the SIMD target and the settings that choose another estimate (max_error with
+// max_samples, closed_forms, far_lights): not on threads, tiles, the region, or which layers are
+// rendered. An exception that the sink or settings.on_progress throws ends the render.
 RenderStats Render(const FramePlan& plan, const RenderSettings& settings, const StripSink& sink);
 
 // The film of a whole frame, kept from one pass of a progressive render to the next.
@@ -35,8 +36,9 @@ struct FrameFilm {
 RenderStats RenderPass(const FramePlan& plan, const RenderSettings& settings, int end,
                        FrameFilm* film, const StripSink& sink);
 
-// A black image with the plan's channels.
-Image EmptyImage(const FramePlan& plan);
+// A black image with the plan's channels. Throws Cancelled if `cancel` says so: to clear a large one
+// takes longer than a cancelled render may.
+Image EmptyImage(const FramePlan& plan, CancelPointer cancel);
 // Copies a strip to its rows of such an image.
 void CopyStrip(const Strip& strip, Image* image);
 

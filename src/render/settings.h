@@ -52,8 +52,8 @@ struct RenderSettings {
   // both components among the layers, for whoever explains a pixel.
   bool diffuse_light_layers = false;
   // Take none of the shortcuts that change no bits: shadow rays are traced even where nothing can
-  // occlude them, every sample gets a position and is summed. For tests that
-  // compare shortcuts with the general path.
+  // occlude them, every sample gets a position and is summed. For tests that compare shortcuts with
+  // the general path.
   bool general_path = false;
   // Measure how long each stage takes (RenderStats::stage_seconds). Costs some per cent of the time
   // of small frames. Output is always measured.

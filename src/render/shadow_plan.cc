@@ -165,8 +165,8 @@ LightBall BoundingBall(const SampledLight& light) {
 }
 
 // The spheres that can occlude the light, by the sphere that is shaded.
-const OccluderLists& ListOccluders(const HitsPlan& hits, KnownLights* known,
-                                   PlannedSampledLight* light) {
+const OccluderLists& ListKnownOccluders(const HitsPlan& hits, KnownLights* known,
+                                        PlannedSampledLight* light) {
   const std::optional<LightBall> ball =
       IsSky(light->light) ? std::nullopt : std::optional(BoundingBall(light->light));
   light->occluders = known->count++;
@@ -193,7 +193,7 @@ bool OwnsTriangles(const Scene& scene, const PlannedSampledLight& light) {
 // which rays would come by all triangles around their ends.
 PlanItem PlanOccludingSpheres(const RenderSettings& settings, const HitsPlan& hits,
                               KnownLights* known, PlannedSampledLight* light) {
-  const OccluderLists& lists = ListOccluders(hits, known, light);
+  const OccluderLists& lists = ListKnownOccluders(hits, known, light);
   PlanItem item{"", true, "something may lie between a surface and the light"};
   if (NeedsTree(settings, lists)) {
     light->occluders = kAnyLight;
@@ -209,7 +209,7 @@ PlanItem PlanOccludingSpheres(const RenderSettings& settings, const HitsPlan& hi
 // intersectors, even if they then use a tree.
 PlanItem PlanSampledLightLists(const RenderSettings& settings, const HitsPlan& hits,
                                KnownLights* known, PlannedSampledLight* light) {
-  const OccluderLists& lists = ListOccluders(hits, known, light);
+  const OccluderLists& lists = ListKnownOccluders(hits, known, light);
   light->shadowed = FindShadowed(lists);
   light->trace_all = settings.general_path;
   const size_t spheres = light->shadowed.size();

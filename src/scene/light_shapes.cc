@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "scene/primitives.h"
+
 namespace nacre {
 namespace {
 
@@ -173,8 +175,7 @@ SceneWithLights AddLightShapes(const Scene& scene, const std::vector<bool>& show
     with.spheres.push_back(
         {sphere->center, sphere->radius, AddMaterial(scene.lights[i].name, *sphere, false, &with)});
   }
-  uint32_t next = static_cast<uint32_t>(with.spheres.size());
-  for (const Mesh& mesh : scene.meshes) next += static_cast<uint32_t>(mesh.triangles.size() / 3);
+  auto next = static_cast<uint32_t>(with.spheres.size() + CountTriangles(scene));
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     if (!shown[i]) continue;
     const auto add = [&](const auto& light) {

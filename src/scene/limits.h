@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <string>
 
+#include "base/vec.h"
+
 namespace nacre {
 
 struct Range {
@@ -18,6 +20,7 @@ struct Range {
   bool Contains(double x) const {
     return (min_open ? x > min : x >= min) && (max_open ? x < max : x <= max);
   }
+  bool Contains(const Vec3d& v) const { return Contains(v.x) && Contains(v.y) && Contains(v.z); }
   bool operator==(const Range&) const = default;
 };
 

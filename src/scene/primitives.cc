@@ -7,6 +7,12 @@
 
 namespace nacre {
 
+size_t CountTriangles(const Scene& scene) {
+  size_t triangles = 0;
+  for (const Mesh& mesh : scene.meshes) triangles += mesh.triangles.size() / 3;
+  return triangles;
+}
+
 PrimitiveNumbers NumberPrimitives(const Scene& scene) {
   PrimitiveNumbers numbers{&scene, {}};
   size_t triangles = 0;

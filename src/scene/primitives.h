@@ -18,6 +18,8 @@ struct PrimitiveNumbers {
   std::vector<uint32_t> mesh_first_triangle;
 };
 
+size_t CountTriangles(const Scene& scene);
+
 // `scene` must outlive the numbers.
 PrimitiveNumbers NumberPrimitives(const Scene& scene);
 

@@ -8,6 +8,7 @@
 #include "scene/limits.h"
 #include "scene/material_parameters.h"
 #include "scene/mesh.h"
+#include "scene/primitives.h"
 #include "scene/validate.h"
 #include "scene/validate_numbers.h"
 
@@ -18,15 +19,10 @@ namespace {
 constexpr double kUnitLengthTolerance = 1e-5;
 
 // Of a mesh's positions or indices only the first bad one is told: the rest has the same cause.
-bool IsPoint(const Vec3d& position) {
-  const Range& coordinate = limits::kCoordinate;
-  return coordinate.Contains(position.x) && coordinate.Contains(position.y) &&
-         coordinate.Contains(position.z);
-}
-
 void ValidatePositions(const Mesh& mesh, const std::string& where, FaultList* faults) {
   for (size_t i = 0; i < mesh.positions.size(); ++i) {
-    if (IsPoint(mesh.positions[i])) continue;  // no text made for a million others
+    if (limits::kCoordinate.Contains(mesh.positions[i]))
+      continue;  // no text made for a million others
     CheckPoint(mesh.positions[i], fmt::format("{}/positions/{}", where, i), faults);
     return;
   }
@@ -131,7 +127,7 @@ void ValidateIndices(const Mesh& mesh, const std::string& where, FaultList* faul
 }
 
 bool IsSound(const Sphere& sphere, size_t material_count) {
-  return IsPoint(sphere.center) && limits::kLength.Contains(sphere.radius) &&
+  return limits::kCoordinate.Contains(sphere.center) && limits::kLength.Contains(sphere.radius) &&
          sphere.material.index < material_count;
 }
 
@@ -196,8 +192,7 @@ void ValidateMaterialsOfShapes(const Scene& scene, FaultList* faults) {
 
 // How many there are, those of lights as well.
 void ValidatePrimitives(const Scene& scene, FaultList* faults) {
-  uint64_t primitives = scene.spheres.size();
-  for (const Mesh& mesh : scene.meshes) primitives += mesh.triangles.size() / 3;
+  uint64_t primitives = scene.spheres.size() + CountTriangles(scene);
   for (const Light& light : scene.lights) {
     const auto* area = std::get_if<MeshAreaLight>(&light.kind);
     if (area != nullptr && area->mesh != nullptr) primitives += area->mesh->triangles.size() / 3;

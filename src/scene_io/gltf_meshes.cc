@@ -30,11 +30,6 @@ struct Primitive {
   std::vector<uint32_t> triangles;
 };
 
-bool IsPoint(const Vec3d& position) {
-  return limits::kCoordinate.Contains(position.x) && limits::kCoordinate.Contains(position.y) &&
-         limits::kCoordinate.Contains(position.z);
-}
-
 int AttributeOf(const Primitive& primitive, const char* name) {
   const auto found = primitive.source.attributes.find(name);
   return found == primitive.source.attributes.end() ? -1 : found->second;
@@ -160,7 +155,7 @@ void ReadPositions(const GltfDocument& document, const Primitive& primitive,
     const uint32_t element = primitive.vertices[i];
     Vec3d& position = mesh->positions[i];
     placement.WorldFromVertex(element).multVecMatrix(Triple(accessor, element), position);
-    return IsPoint(position);
+    return limits::kCoordinate.Contains(position);
   };
   const size_t wrong = SetAll(count, placement.ThreadsOf(document), set);
   if (wrong == count) return;

@@ -11,7 +11,7 @@ namespace nacre {
 // Adds a fault for each member that is read here and has another type than glTF 2.0 gives it, as
 // negative offsets, indices that are not whole numbers or arrays of a wrong length, and for each
 // that is missing where it is required. Whole numbers that are written as 3.0 or 3e0 become
-// integers. What is not read here (animations, skins, extras, unknown extensions) may be anything.
+// integers. What is not read here (animations, extras, unknown extensions) may be anything.
 void CheckGltfTypes(Json* root, FaultList* faults);
 
 }  // namespace nacre

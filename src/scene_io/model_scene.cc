@@ -270,7 +270,7 @@ bool CompleteModelScene(const ModelCompletion& how, SceneParts parts, Scene* sce
     });
   };
   member("image", ScenePart::kImage,
-         [&](const JsonValue& value) { ReadImage(value, &scene->image); });
+         [&](const JsonValue& value) { ReadImageSettings(value, &scene->image); });
   // The kind and field of view of the camera decide how far away it must be.
   member("camera", ScenePart::kCamera,
          [&](const JsonValue& value) { ReadCamera(value, &scene->camera); });

@@ -34,7 +34,7 @@ std::optional<size_t> ElementOf(const std::string& token, size_t size) {
 }
 
 // The names that a pointer is made of, unescaped.
-std::vector<std::string> Split(const std::string& pointer) {
+std::vector<std::string> TokensOf(const std::string& pointer) {
   try {
     Json::json_pointer rest(pointer);
     std::vector<std::string> tokens;
@@ -91,7 +91,7 @@ std::vector<std::string> NamesIn(const Json& root, const char* part) {
 // `names`: those that there were.
 void CheckEntryExists(const std::string& pointer, const NamedPart& named,
                       const std::vector<std::string>& names, const Json& root) {
-  const std::vector<std::string> tokens = Split(pointer);
+  const std::vector<std::string> tokens = TokensOf(pointer);
   if (tokens.size() < 3 || tokens[0] != named.part) return;
   if (std::find(names.begin(), names.end(), tokens[1]) != names.end()) return;
   const auto part = root.find(named.part);
@@ -125,7 +125,7 @@ void ApplyOverride(const std::string& pointer, const std::string& text, Json* ro
 
 std::optional<std::string> ValueAt(const std::string& pointer, const Json& root) {
   const Json* place = &root;
-  for (const std::string& token : Split(pointer)) {
+  for (const std::string& token : TokensOf(pointer)) {
     if (place->is_object() && place->contains(token)) {
       place = &place->at(token);
     } else if (const auto element = ElementOf(token, place->is_array() ? place->size() : 0)) {
@@ -143,7 +143,7 @@ Replaced ReplaceValue(const std::string& pointer, const std::string& text, Json*
   bool made = false;  // from here on nothing was there
   Json* place = root;
   try {
-    for (const std::string& token : Split(pointer)) {
+    for (const std::string& token : TokensOf(pointer)) {
       if (!made && place->is_null()) {
         replaced.value = nullptr;
         made = true;

@@ -44,7 +44,7 @@ void ReadCamera(const JsonValue& value, Camera* camera) {
   object.RefuseOthers();
 }
 
-void ReadImage(const JsonValue& value, ImageSettings* image) {
+void ReadImageSettings(const JsonValue& value, ImageSettings* image) {
   JsonObject object(value);
   object.Whole("width", limits::kImageSide, &image->width);
   object.Whole("height", limits::kImageSide, &image->height);

@@ -69,7 +69,7 @@ void ReadRoot(const SceneTree& tree, SceneParts parts, WatchedFiles* files, Faul
   member("camera", ScenePart::kCamera,
          [&](const JsonValue& value) { ReadCamera(value, &scene->camera); });
   member("image", ScenePart::kImage,
-         [&](const JsonValue& value) { ReadImage(value, &scene->image); });
+         [&](const JsonValue& value) { ReadImageSettings(value, &scene->image); });
   member("textures", ScenePart::kTextures,
          [&](const JsonValue& value) { ReadTextures(value, context); });
   member("materials", ScenePart::kMaterials, [&](const JsonValue& value) {

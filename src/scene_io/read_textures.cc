@@ -32,7 +32,7 @@ bool ReadChoice(JsonObject* object, std::string_view name,
 }
 
 // [u, v], or one number for both.
-void ReadPair(JsonObject* object, std::string_view name, const Range& range, Vec2d* out) {
+void ReadTwoNumbers(JsonObject* object, std::string_view name, const Range& range, Vec2d* out) {
   const Json* const json = object->Find(name);
   if (json == nullptr) return;
   const JsonPath path = object->path().Member(name);
@@ -191,8 +191,8 @@ void ReadTexture(const JsonValue& value, const std::string& name, SceneContext* 
   }
   ReadChoice(&object, "wrap_u", kWraps, &texture.sampling.wrap_u);
   ReadChoice(&object, "wrap_v", kWraps, &texture.sampling.wrap_v);
-  ReadPair(&object, "scale", limits::kTextureScale, &texture.scale);
-  ReadPair(&object, "offset", limits::kTextureScale, &texture.offset);
+  ReadTwoNumbers(&object, "scale", limits::kTextureScale, &texture.scale);
+  ReadTwoNumbers(&object, "offset", limits::kTextureScale, &texture.offset);
   object.Number("rotate_deg", limits::kAngleDeg, &texture.uv_rotate_deg);
   object.RefuseOthers();
   context->textures.emplace(name, std::move(source));

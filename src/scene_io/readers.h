@@ -28,7 +28,7 @@
 namespace nacre {
 
 void ReadCamera(const JsonValue& value, Camera* camera);
-void ReadImage(const JsonValue& value, ImageSettings* image);
+void ReadImageSettings(const JsonValue& value, ImageSettings* image);
 
 // What materials and shapes need to know of the rest of the file.
 struct SceneContext {

@@ -64,7 +64,7 @@ bool IsColorArray(const Json& value) {
 }
 
 // A number, a colour, an object or, as a string, a name. Null if it is none of these.
-Json ParseValue(const std::string& text) {
+Json ParseAxisValue(const std::string& text) {
   if (text.starts_with('#')) return HexColor(text);
   const Json value = TryParseJson(text).value_or(Json());
   if (value.is_number() || value.is_object() || IsColorArray(value)) return value;
@@ -114,8 +114,8 @@ void ParseRange(const std::string& option, const std::vector<std::string>& parts
   if (parts.size() > 4 || (scale != "log" && scale != "linear")) {
     RefuseAxis(option, fmt::format("\"{}\" is not FROM:TO:COUNT or FROM:TO:COUNT:log", axis->name));
   }
-  const Json from_json = ParseValue(parts[0]);
-  const Json to_json = ParseValue(parts[1]);
+  const Json from_json = ParseAxisValue(parts[0]);
+  const Json to_json = ParseAxisValue(parts[1]);
   const std::optional<Rgb> from = ToRgb(from_json);
   const std::optional<Rgb> to = ToRgb(to_json);
   if (!from || !to) {
@@ -164,7 +164,7 @@ void ParseList(const std::string& option, const std::string& text, SheetAxis* ax
       axis->values.back().erase("name");
       continue;
     }
-    const Json value = ParseValue(trimmed);
+    const Json value = ParseAxisValue(trimmed);
     if (value.is_null()) RefuseAxis(option, fmt::format("\"{}\" is not a value", trimmed));
     axis->values.push_back(value);
     axis->labels.push_back(ItemLabel(value, trimmed));
@@ -203,7 +203,7 @@ Json ParseMaterialText(const std::string& option, const std::string& text) {
 }
 
 Json ParseColorText(const std::string& option, const std::string& text) {
-  Json value = ParseValue(text);
+  Json value = ParseAxisValue(text);
   if (ToRgb(value)) return value;
   RefuseAxis(option, "\"" + text + "\" is not a colour",
              "for example #202020, 0.18 or [0.1,0.2,0.3]");

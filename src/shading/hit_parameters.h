@@ -10,17 +10,8 @@
 
 namespace nacre {
 
-template <class T>
-NACRE_DERIVE T* Channel(Soa3<T>& soa, int c) {
-  return (c == 0 ? soa.x : c == 1 ? soa.y : soa.z).data();
-}
-template <class T>
-NACRE_DERIVE const T* Channel(const Soa3<T>& soa, int c) {
-  return (c == 0 ? soa.x : c == 1 ? soa.y : soa.z).data();
-}
-
 inline const double* NumbersOf(const HitTextures& t, MappedNumber number, int c = 0) {
-  return Channel(t.numbers[static_cast<size_t>(number)], c);
+  return ChannelOf(t.numbers[static_cast<size_t>(number)], c).data();
 }
 
 inline Rgb ColorOfHit(const HitTextures& t, MappedNumber number, size_t i) {

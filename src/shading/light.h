@@ -20,7 +20,7 @@ enum class LightForm : uint8_t {
   kInverseSquare,  // a point light's usual fall-off, 1 / d^2
   kPoint,          // with any attenuation
   kSpot,
-  kGiven,  // LightBatch says it all
+  kGiven,  // direction and irradiance of each hit are in the LightBatch
 };
 
 // A light's position minus a sphere's centre, and the sphere's radius. A hit with the outward

@@ -16,7 +16,7 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 
 // to[i] = from[i] for the batch's padded length.
-void RoundToFloat(const AlignedArray<double>& from, size_t count, AlignedArray<float>* to) {
+void RoundArray(const AlignedArray<double>& from, size_t count, AlignedArray<float>* to) {
   const hn::ScalableTag<double> dd;
   const hn::Rebind<float, decltype(dd)> df;
   for (size_t i = 0; i < count; i += hn::Lanes(dd)) {
@@ -24,15 +24,15 @@ void RoundToFloat(const AlignedArray<double>& from, size_t count, AlignedArray<f
   }
 }
 
-void RoundToFloat3(const Soa3<double>& from, size_t count, Soa3<float>* to) {
-  RoundToFloat(from.x, count, &to->x);
-  RoundToFloat(from.y, count, &to->y);
-  RoundToFloat(from.z, count, &to->z);
+void RoundArray3(const Soa3<double>& from, size_t count, Soa3<float>* to) {
+  RoundArray(from.x, count, &to->x);
+  RoundArray(from.y, count, &to->y);
+  RoundArray(from.z, count, &to->z);
 }
 
 void PrepareSurfaceT(const HitBatch& hits, Surface* surface) {
-  RoundToFloat3(hits.normal, hits.count, &surface->normal);
-  RoundToFloat3(hits.to_view, hits.count, &surface->to_view);
+  RoundArray3(hits.normal, hits.count, &surface->normal);
+  RoundArray3(hits.to_view, hits.count, &surface->to_view);
 }
 
 // Calls at(i) for each packet of hits and stores the light it gives.

@@ -300,7 +300,7 @@ const ShadingLight& GivenLight() {
   return kGiven;
 }
 
-// The maps of hits that have a width each; else null.
+// The maps of hits that have constants each; else null.
 const HitTextures* MapsOf(const ShadingMaterial& material, const LobeRange& range) {
   return material.mapped_model ? range.textures : nullptr;
 }

@@ -44,7 +44,7 @@ void StartNumbersT(const TexturedRun& run, HitTextures* t) {
     for (const MapTarget& target : TargetsOf(map)) {
       const Rgb factor = target.factor(material);
       for (int c = 0; c < (target.is_color ? 3 : 1); ++c) {
-        hits.Fill(Channel(t->numbers[static_cast<size_t>(target.number)], c),
+        hits.Fill(ChannelOf(t->numbers[static_cast<size_t>(target.number)], c).data(),
                   [&](size_t) { return factor[c]; });
       }
     }
@@ -55,8 +55,9 @@ void MultiplyNumberT(const TexturedRun& run, const MapTarget& target, HitTexture
   const double most = target.most;
   for (int c = 0; c < (target.is_color ? 3 : 1); ++c) {
     const float* HWY_RESTRICT const texels =
-        Channel(t->texels, target.is_color ? c : target.channel);
-    double* HWY_RESTRICT const values = Channel(t->numbers[static_cast<size_t>(target.number)], c);
+        ChannelOf(t->texels, target.is_color ? c : target.channel).data();
+    double* HWY_RESTRICT const values =
+        ChannelOf(t->numbers[static_cast<size_t>(target.number)], c).data();
     for (size_t i = run.begin; i < run.end; ++i) {
       values[i] = std::min(std::max(values[i] * double{texels[i]}, 0.0), most);
     }
@@ -69,7 +70,8 @@ template <class ShownOf>
 void PutShown(const TexturedRun& run, const ShownOf& shown_of, HitTextures* t) {
   const Hits hits{run.begin, run.end};
   for (int c = 0; c < 3; ++c) {
-    float *const albedo = Channel(t->albedo, c), *const ambient = Channel(t->ambient, c);
+    float *const albedo = ChannelOf(t->albedo, c).data(), *const ambient =
+                                                              ChannelOf(t->ambient, c).data();
     const double radiance = run.material.ambient_radiance[c];
     hits.Each([&](size_t i) {
       const ShownColors at = shown_of(c, i);
@@ -84,7 +86,7 @@ void PutShown(const TexturedRun& run, HitTextures* t) {
   const double* color[3];
   for (int c = 0; c < 3; ++c) {
     const double* const emission = NumbersOf(*t, MappedNumber::kEmission, c);
-    hits.Fill(Channel(t->emission, c), [&](size_t i) { return emission[i]; });
+    hits.Fill(ChannelOf(t->emission, c).data(), [&](size_t i) { return emission[i]; });
     color[c] = NumbersOf(*t, MappedNumber::kColor, c);
   }
   const Material& material = *run.material.textured;
@@ -98,8 +100,8 @@ void PutShown(const TexturedRun& run, HitTextures* t) {
         run, [&](int c, size_t i) { return DeriveDielectricShown(color[c][i], gloss); }, t);
   } else if (std::holds_alternative<ConductorMaterial>(material.model)) {  // not of colours
     for (int c = 0; c < 3; ++c) {
-      hits.Fill(Channel(t->albedo, c), [&](size_t) { return run.material.albedo[c]; });
-      hits.Fill(Channel(t->ambient, c), [&](size_t) { return run.material.ambient[c]; });
+      hits.Fill(ChannelOf(t->albedo, c).data(), [&](size_t) { return run.material.albedo[c]; });
+      hits.Fill(ChannelOf(t->ambient, c).data(), [&](size_t) { return run.material.ambient[c]; });
     }
   } else {
     PutShown(

@@ -225,7 +225,7 @@ void SkipBlackBase(ShadingMaterial* prepared) {
 namespace {
 
 // All but the coat.
-ShadingMaterial PrepareSurface(const Material& material, const Rgb& ambient_radiance) {
+ShadingMaterial PrepareUncoated(const Material& material, const Rgb& ambient_radiance) {
   ShadingMaterial prepared{};
   prepared.emission = material.emission;
   Rgb of_ambient(0, 0, 0);  // what it reflects of light from everywhere
@@ -290,7 +290,7 @@ std::shared_ptr<const ShadingMaterial> PrepareCoat(const Material& material) {
   if (!coat) return nullptr;
   const auto own = std::make_shared<const Material>(*coat);
   // Its base is black, but what its albedo leaves is asked for: it is what the material shows.
-  ShadingMaterial prepared = PrepareSurface(*own, Rgb(0, 0, 0));
+  ShadingMaterial prepared = PrepareUncoated(*own, Rgb(0, 0, 0));
   prepared.own = own;
   FinishModel(&prepared);
   return std::make_shared<const ShadingMaterial>(std::move(prepared));
@@ -299,7 +299,7 @@ std::shared_ptr<const ShadingMaterial> PrepareCoat(const Material& material) {
 }  // namespace
 
 ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_radiance) {
-  ShadingMaterial prepared = PrepareSurface(material, ambient_radiance);
+  ShadingMaterial prepared = PrepareUncoated(material, ambient_radiance);
   SkipBlackBase(&prepared);
   FinishModel(&prepared);
   prepared.coat = PrepareCoat(material);

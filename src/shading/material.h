@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // shading/material.h: materials as the kernels want them: numbers of the scene turned into the
-// constants of each reflection model, once per scene and in double.
+// constants of each reflection model, once per plan and in double.
 #pragma once
 
 #include <memory>
@@ -113,9 +113,8 @@ struct ShadingMaterial {
   bool turned = false;        // maps turn the normal
   Rgb ambient_radiance{0, 0, 0};
   // `coat`: of materials with a clear coat (scene/coat.h), which is shaded as a surface of its own.
-  // Its `textured` is `own`.
   std::shared_ptr<const ShadingMaterial> coat;
-  std::shared_ptr<const Material> own;
+  std::shared_ptr<const Material> own;  // of a coat: what its `textured` points to
   std::variant<std::monostate, MatteModel, PhongFamilyModel, MicrofacetModel, UserModel> model;
   std::vector<LayerModel> layers;  // over the model, bottom to top, under the coat
 };

@@ -51,7 +51,7 @@ Summary Summarize(const Material& material) {
 
 // The part of the light that the base of a dielectric of this F0 gets, averaged over all views:
 // what is left of the lobe's albedo, compensated as Turquin has it.
-double BaseShare(const AlbedoFit& albedo, double f0) {
+double FittedBaseShare(const AlbedoFit& albedo, double f0) {
   const QuadratureRule& rule = GaussLegendre(8);
   double sum = 0;
   for (size_t i = 0; i < rule.x.size(); ++i) {
@@ -72,7 +72,7 @@ struct MetallicBase {
 MetallicBase SolveMetallic(const Rgb& f0, const Rgb& diffuse, double roughness) {
   const AlbedoFit albedo = MakeAlbedoFit(Shadowing::kHeightCorrelated, roughness);
   // Metallic mixes two surfaces: the metal takes nothing from the base of the dielectric.
-  const double base_share = BaseShare(albedo, kDielectricF0);
+  const double base_share = FittedBaseShare(albedo, kDielectricF0);
   const auto channel_error = [&](double metallic, double base, int c) {
     const double own_f0 = kDielectricF0 * (1 - metallic) + base * metallic;
     const double own_diffuse = (1 - metallic) * base * base_share;

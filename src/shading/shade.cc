@@ -63,16 +63,16 @@ struct RunMaps {
 // By the kernel of a model, whose constants, and `light` times its colours, are all hits' or each
 // hit's.
 template <class Number>
-void ShadeGroup(const MatteModel& model, const MatteConstants<Number>& constants,
-                const MatteLight<Number>& light, const ShadeRange& range, const RunMaps&,
-                ShadeScratch*) {
+void ShadeByModel(const MatteModel& model, const MatteConstants<Number>& constants,
+                  const MatteLight<Number>& light, const ShadeRange& range, const RunMaps&,
+                  ShadeScratch*) {
   ShadeMatte(MatteUniforms<Number>{model.form, constants, light}, range);
 }
 
 template <class Number>
-void ShadeGroup(const PhongFamilyModel& model, const PhongConstants<Number>& constants,
-                const PhongLight<Number>& light, const ShadeRange& range, const RunMaps& maps,
-                ShadeScratch* scratch) {
+void ShadeByModel(const PhongFamilyModel& model, const PhongConstants<Number>& constants,
+                  const PhongLight<Number>& light, const ShadeRange& range, const RunMaps& maps,
+                  ShadeScratch* scratch) {
   const SharpLobeTerms* const sharp = FormSharpTerms(model, range, maps.textures, &scratch->sharp);
   ShadePhong(PhongUniforms<Number>{model.model, constants, light, sharp}, range);
 }
@@ -92,9 +92,9 @@ void ShadeByCurve(const MicrofacetUniforms<Number>& uniforms, const ShadeRange& 
 }
 
 template <class Number>
-void ShadeGroup(const MicrofacetModel& model, const MicrofacetConstants<Number>& constants,
-                const MicrofacetLight<Number>& light, const ShadeRange& range, const RunMaps& maps,
-                ShadeScratch* scratch) {
+void ShadeByModel(const MicrofacetModel& model, const MicrofacetConstants<Number>& constants,
+                  const MicrofacetLight<Number>& light, const ShadeRange& range,
+                  const RunMaps& maps, ShadeScratch* scratch) {
   MicrofacetUniforms<Number> uniforms{constants, &model, light};
   Assign(model.eta, uniforms.eta);
   Assign(model.k, uniforms.k);
@@ -125,7 +125,7 @@ const MicrofacetConstants<float>& ConstantsOf(const MicrofacetModel& model) {
 // Hits that share the constants of their material.
 template <class Model>
 void Shade(const Model& model, const ShadeRange& range, ShadeScratch* scratch) {
-  ShadeGroup(model, ConstantsOf(model), MakeLight(model, range.light.color), range, {}, scratch);
+  ShadeByModel(model, ConstantsOf(model), MakeLight(model, range.light.color), range, {}, scratch);
 }
 
 // Hits with constants of their own.
@@ -133,9 +133,9 @@ template <template <class> class Constants, template <class> class Light, class 
 void ShadeMapped(const ShadingMaterial& material, const Model& model, const ShadeRange& range,
                  ShadeScratch* scratch, HitTextures* maps) {
   MakeProducts({material, range.light.color, range.begin, range.end}, maps);
-  ShadeGroup(model, ColumnsIn<Constants<float*>>(maps->constants),
-             ColumnsIn<Light<float*>>(maps->products), range, {maps, material.mapped_width},
-             scratch);
+  ShadeByModel(model, ColumnsIn<Constants<float*>>(maps->constants),
+               ColumnsIn<Light<float*>>(maps->products), range, {maps, material.mapped_width},
+               scratch);
 }
 
 }  // namespace

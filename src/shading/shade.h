@@ -89,8 +89,7 @@ struct LitHits {
 // Rounds hits whose directions were given in double.
 void PrepareSurface(const HitBatch& hits, Surface* surface);
 
-// Hits [begin, end) are all of `material`.
-// Those of materials with maps have been looked up (textures.h).
+// Hits [begin, end) are all of `material`, whose maps have been looked up (textures.h).
 void PrepareRun(const ShadingMaterial& material, size_t begin, size_t end, Surface* surface,
                 const HitTextures* textures = nullptr);
 

@@ -174,7 +174,7 @@ class RunTexturer {
             LayerAlbedo(material.mapped_model ? LayerAtHit(layer, *t_, i) : layer,
                         std::clamp(n_dot_v, 0.0, 1.0));
         for (int c = 0; c < 3; ++c) {
-          float& ambient = Channel(t_->ambient, c)[i];
+          float& ambient = ChannelOf(t_->ambient, c)[i];
           ambient = static_cast<float>(albedo.below * ambient +
                                        albedo.lobe[c] * material.ambient_radiance[c]);
         }

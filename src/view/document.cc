@@ -50,7 +50,7 @@ void AddAttenuation(const Attenuation& attenuation, Json* json) {
 }
 
 // A light as an object of a scene file; null for skies, and for lights with an extent.
-Json LightJson(const Light& light) {
+Json ModelLightJson(const Light& light) {
   Json json;
   if (const auto* sun = std::get_if<DirectionalLight>(&light.kind)) {
     json = {{"type", "directional"},
@@ -134,7 +134,7 @@ bool ViewDocument::CompleteLight(const std::string& pointer) {
   for (const Light& light : scene().lights) {
     const std::string own = (Json::json_pointer("/lights") / light.name).to_string();
     if (!pointer.starts_with(own + "/") || live_.root().contains(Json::json_pointer(own))) continue;
-    const Json json = LightJson(light);
+    const Json json = ModelLightJson(light);
     if (json.is_null()) continue;
     Put(own, json);
     return true;
@@ -230,7 +230,7 @@ void ViewDocument::AddModelLights(Json* lights) const {
   const Json own = live_.root().value("lights", Json::object());
   for (const Light& light : scene().lights) {
     if (own.contains(light.name)) continue;
-    Json whole = LightJson(light);
+    Json whole = ModelLightJson(light);
     if (!whole.is_null()) (*lights)[light.name] = std::move(whole);
   }
 }

@@ -81,10 +81,7 @@ struct Arrival {
 };
 
 std::optional<Arrival> ArrivalOf(const Light& light, const Point& point) {
-  const bool punctual = std::holds_alternative<DirectionalLight>(light.kind) ||
-                        std::holds_alternative<PointLight>(light.kind) ||
-                        std::holds_alternative<SpotLight>(light.kind);
-  if (!punctual) return {};
+  if (!IsPunctual(light)) return {};
   const ShadingLight prepared = PrepareLight(light, {0, 0, 0});
   if (prepared.form == LightForm::kDirectional) {
     return Arrival{prepared.to_light, std::numeric_limits<double>::infinity(), prepared.color};

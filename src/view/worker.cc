@@ -577,7 +577,7 @@ void Worker::Plan(int divisor, bool moving) {
   document_->UseImage(image);
   plan_.emplace(MakePlan(document_->scene(), Settings(), document_->prepared()));
   film_ = {};
-  image_ = EmptyImage(*plan_);
+  image_ = EmptyImage(*plan_, &cancel_);
 }
 
 void Worker::RenderMoving() {

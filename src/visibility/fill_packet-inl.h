@@ -136,7 +136,7 @@ HWY_INLINE void FillClosest(const RayBatch& rays, size_t first, ClosestHits* hit
 }
 
 // For shadow rays; those that are known to be occluded are not asked about.
-HWY_INLINE void FillShadowRays(const ShadowRayBatch& rays, size_t first, Packet* packet) {
+HWY_INLINE void FillShadowPacket(const ShadowRayBatch& rays, size_t first, Packet* packet) {
   packet->t_max = rays.t_max.data() + first;
   packet->outward = rays.outward;
   packet->target = rays.target;

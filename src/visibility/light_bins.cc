@@ -110,8 +110,8 @@ class Binner {
     const int axis = face / 2;
     const double z = face % 2 == 0 ? center[axis] : -center[axis];
     if (z + radius <= 0) return false;
-    const Interval x = Slopes(center[(axis + 1) % 3], z, radius);
-    const Interval y = Slopes(center[(axis + 2) % 3], z, radius);
+    const SlopeRange x = Slopes(center[(axis + 1) % 3], z, radius);
+    const SlopeRange y = Slopes(center[(axis + 2) % 3], z, radius);
     constexpr double kRounding = 1e-9;  // of slopes up to 1
     *bounds = {x.low - kRounding, x.high + kRounding, y.low - kRounding, y.high + kRounding};
     return bounds->x0 <= 1 && bounds->x1 >= -1 && bounds->y0 <= 1 && bounds->y1 >= -1;

@@ -11,6 +11,11 @@ namespace {
 // Shading tests n.l > 0 in float: it is true nowhere that the exact n.l is below this.
 constexpr double kGrazing = -2e-6;
 
+// The margin that conservative tests add to a sphere's radius: far above the rounding errors of
+// rays, of the exact test and of the bound itself. All of these are a few 2^-53 of the radius or of
+// one of the coordinates, whose upper bound is `extent`.
+double BoundMargin(double radius, double extent) { return 1e-9 * radius + 1e-12 * extent; }
+
 // A sphere in the coordinates of a light, with its radius enlarged by BoundMargin.
 struct SphereFromLight {
   double radius;

@@ -202,7 +202,7 @@ HWY_INLINE void Gather(const RefineRequest& request, size_t first, size_t size, 
   }
 }
 
-HWY_INLINE void StoreHits(const Surface& surface, size_t first, const HitOutput& to) {
+HWY_INLINE void StoreSurfaces(const Surface& surface, size_t first, const HitOutput& to) {
   const D d;
   const hn::Rebind<float, D> df;
   HitBatch& hits = *to.hits;
@@ -229,17 +229,17 @@ HWY_INLINE void RefineVector(const Gathered& in, size_t i, size_t first, const H
   rays.inverse_length = InverseLength(d, rays.dd);
   rays.to_view = ToView(rays.direction, rays.inverse_length);
   if (!in.any_triangle) {
-    StoreHits(RefineSphere(in, i, rays), first, to);
+    StoreSurfaces(RefineSphere(in, i, rays), first, to);
   } else if (!in.any_sphere) {
-    StoreHits(RefineTriangle(in, i, rays), first, to);
+    StoreSurfaces(RefineTriangle(in, i, rays), first, to);
   } else {
     const Surface sphere = RefineSphere(in, i, rays);
     const Surface triangle = RefineTriangle(in, i, rays);
     const auto is_triangle = hn::Gt(hn::Load(d, in.is_triangle + i), hn::Zero(d));
-    StoreHits({Select(is_triangle, triangle.position, sphere.position),
-               Select(is_triangle, triangle.normal, sphere.normal),
-               Select(is_triangle, triangle.to_view, sphere.to_view)},
-              first, to);
+    StoreSurfaces({Select(is_triangle, triangle.position, sphere.position),
+                   Select(is_triangle, triangle.normal, sphere.normal),
+                   Select(is_triangle, triangle.to_view, sphere.to_view)},
+                  first, to);
   }
 }
 

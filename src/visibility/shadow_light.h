@@ -17,9 +17,4 @@ struct ShadowLight {
 // `light` is punctual.
 ShadowLight MakeShadowLight(const Light& light, const Vec3d& camera_position);
 
-// The margin that conservative tests add to a sphere's radius: far above the rounding errors of
-// rays, of the exact test and of the bound itself. All of these are a few 2^-53 of the radius or of
-// one of the coordinates, whose upper bound is `extent`.
-inline double BoundMargin(double radius, double extent) { return 1e-9 * radius + 1e-12 * extent; }
-
 }  // namespace nacre

@@ -176,7 +176,7 @@ void Occluded(const TraceGeometry& geometry, ShadowRayBatch* rays) {
   ShellPacket shells(geometry);
   Packet& packet = shells.packet;
   for (size_t first = 0; first < rays->count; first += shells.Width()) {
-    FillShadowRays(*rays, first, &packet);
+    FillShadowPacket(*rays, first, &packet);
     const PrimitiveRange& target = packet.target;
     WalkShells(geometry.shells, packet.lanes, packet,
                [&](const ShellMember& member, uint32_t lanes) {

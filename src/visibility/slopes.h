@@ -8,14 +8,14 @@
 
 namespace nacre {
 
-struct Interval {
+struct SlopeRange {
   double low, high;
 };
 
 // The slopes x / z, for z > 0, under which a disc of this radius about (x, z), z > -radius, is seen
 // from the origin: between the tangents, x z -+ r sqrt(x^2 + z^2 - r^2) over z^2 - r^2. A disc that
 // extends behind the origin has at most one tangent in front of it.
-inline Interval Slopes(double x, double z, double radius) {
+inline SlopeRange Slopes(double x, double z, double radius) {
   const double infinity = std::numeric_limits<double>::infinity();
   const double product = (z - radius) * (z + radius);
   if (z > radius * (1 + 1e-6) && product > 0) {

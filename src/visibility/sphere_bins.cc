@@ -65,8 +65,8 @@ ProjectedBounds Project(const Projector& p, const TraceSphere& sphere) {
   ProjectedBounds bounds{};
   bounds.visible = z + sphere.radius > 0;
   if (!bounds.visible) return bounds;
-  Interval across{x - sphere.radius, x + sphere.radius};
-  Interval along{y - sphere.radius, y + sphere.radius};
+  SlopeRange across{x - sphere.radius, x + sphere.radius};
+  SlopeRange along{y - sphere.radius, y + sphere.radius};
   if (p.perspective) {
     across = Slopes(x, z, sphere.radius);
     along = Slopes(y, z, sphere.radius);

@@ -16,6 +16,8 @@ namespace nacre {
 
 // The side of a cell in pixels: cells are as high as the strips that a picture is rendered in.
 inline constexpr int kCellSize = 16;
+// Where the cell of a pixel's column, or row, begins.
+inline int DownToCell(int pixel) { return pixel / kCellSize * kCellSize; }
 
 // A camera's projection from camera space to pixels.
 struct Projector {

@@ -276,6 +276,21 @@ class CliTest(unittest.TestCase):
                     result = run(*command, '-o', self.out / 'a.png', *SMALL, *light)
                     self.assertEqual(result.returncode, 0, result.stderr)
 
+    def test_sheets_under_lights_with_an_extent_take_more_samples(self):
+        flat = {'facing': [0, 0, -1], 'radiance': 1}
+        triangle = {'positions': [0, 0, 9, 1, 0, 9, 0, 1, 9], 'triangles': [0, 1, 2]}
+        for light, samples in (({'type': 'point', 'position': [0, 0, 9], 'intensity': 1}, 16),
+                               ({'type': 'directional', 'direction_of_travel': [0, 0, -1], 'irradiance': 1}, 16),
+                               ({'type': 'sphere', 'center': [0, 0, 9], 'radius': 1, 'radiance': 1}, 64),
+                               ({'type': 'rectangle', 'center': [0, 0, 9], 'width': 1, 'height': 1, **flat}, 64),
+                               ({'type': 'disk', 'center': [0, 0, 9], 'radius': 1, **flat}, 64),
+                               ({'type': 'mesh', 'mesh': triangle, 'radiance': 1}, 64)):
+            with self.subTest(light=light['type']):
+                result = run('grid', '-o', self.out / 'a.png', '--sphere-size', '8', '--lights',
+                             json.dumps({'lamp': light}), '--stats', self.out / 's.json')
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertEqual(json.loads((self.out / 's.json').read_text())['image']['spp'], samples)
+
     def test_pair_prints_both_materials_and_measures_the_difference(self):
         out = ['-o', self.out / 'a.png', *SMALL]
         self.assertIn('shininess 19', run('pair', *out).stdout)

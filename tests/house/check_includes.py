@@ -64,7 +64,7 @@ RENDER_ORDER = """
     shadow_origins mapped_horizon sampled_shadows sampled_lights mesh_radiance direct mesh_shading
     film hit_positions film_layers
     frame_plan tile_work tile
-    cell_scratch cell_film footprint evidence convergence glints rare_triangles rare_features adaptive
+    cell_state cell_film footprint evidence convergence glints rare_triangles rare_features adaptive
     render
 """.split()
 

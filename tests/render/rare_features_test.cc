@@ -532,7 +532,7 @@ bool IsBeyond(const Image& image, const Image& truth, size_t pixel, double max_e
 std::vector<bool> ToldIn(const FramePlan& plan) {
   std::vector<bool> told(plan.frame.pixel_count());
   TileWork work;
-  const auto cell_scratch = std::make_unique<CellScratch>();
+  const auto cell_scratch = std::make_unique<CellState>();
   Strip strip;
   StageClock clock(nullptr);
   for (int y0 = 0; y0 < kSide; y0 += kCellSize) {

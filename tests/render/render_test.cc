@@ -3,6 +3,7 @@
 // add up to, and that skips skip nothing that shows.
 #include "render/render.h"
 
+#include <atomic>
 #include <cmath>
 #include <cstring>
 
@@ -84,6 +85,14 @@ RenderSettings Settings(int threads, std::vector<std::string> layers = {}) {
   settings.threads = threads;
   settings.layers = std::move(layers);
   return settings;
+}
+
+TEST_CASE("no image is cleared for a render that was cancelled") {
+  const Scene scene = OneSphere(LambertMaterial{Rgb(0.8)}, 8, 1);
+  const FramePlan plan = MakePlan(scene, {});
+  const std::atomic<bool> cancel = true;
+  CHECK_THROWS_AS(EmptyImage(plan, &cancel), Cancelled);
+  CHECK(EmptyImage(plan, nullptr).channels.size() == 4);
 }
 
 TEST_CASE("threads and tiles change no bit") {

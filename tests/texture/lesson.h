@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// texture/lesson.h: nearest and bilinear look-ups as lessons write them: texels at the whole
+// tests/texture/lesson.h: nearest and bilinear look-ups as lessons write them: texels at the whole
 // numbers of u (W - 1), so that u = 0 and u = 1 are the centres of the first and the last texel. A
 // repeated image then shows both of these at its seam, and its period is W - 1 texels. For
 // comparison only; the renderer's look-ups are those of texture/sample.h.

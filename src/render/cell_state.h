@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/cell_scratch.h: what adaptive sampling (adaptive.h) knows about the pixels of one cell.
+// render/cell_state.h: what adaptive sampling (adaptive.h) knows about the pixels of one cell.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ inline constexpr size_t kCellBlocks =
 inline constexpr size_t kCellPixels = kCellBlocks * kBlockPixels;
 
 // Pixels are numbered block by block, and row by row within a block.
-struct CellScratch {
+struct CellState {
   // A pixel to sample by the pattern of one replicate.
   struct SampleEntry {
     uint32_t pixel;
