@@ -278,13 +278,12 @@ class CliTest(unittest.TestCase):
 
     def test_sheets_under_lights_with_an_extent_take_more_samples(self):
         flat = {'facing': [0, 0, -1], 'radiance': 1}
-        triangle = {'positions': [0, 0, 9, 1, 0, 9, 0, 1, 9], 'triangles': [0, 1, 2]}
         for light, samples in (({'type': 'point', 'position': [0, 0, 9], 'intensity': 1}, 16),
                                ({'type': 'directional', 'direction_of_travel': [0, 0, -1], 'irradiance': 1}, 16),
                                ({'type': 'sphere', 'center': [0, 0, 9], 'radius': 1, 'radiance': 1}, 64),
                                ({'type': 'rectangle', 'center': [0, 0, 9], 'width': 1, 'height': 1, **flat}, 64),
                                ({'type': 'disk', 'center': [0, 0, 9], 'radius': 1, **flat}, 64),
-                               ({'type': 'mesh', 'mesh': triangle, 'radiance': 1}, 64)):
+                               ({'type': 'mesh', 'icosphere': {'center': [0, 0, 9], 'radius': 1}, 'radiance': 1}, 64)):
             with self.subTest(light=light['type']):
                 result = run('grid', '-o', self.out / 'a.png', '--sphere-size', '8', '--lights',
                              json.dumps({'lamp': light}), '--stats', self.out / 's.json')
