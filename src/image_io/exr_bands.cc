@@ -18,8 +18,8 @@
 
 #include "base/error.h"
 #include "image_io/exr_checksum.h"
-#include "image_io/exr_chunk_check.h"
 #include "image_io/exr_chunk.h"
+#include "image_io/exr_chunk_check.h"
 #include "image_io/exr_container.h"
 #include "image_io/exr_header_check.h"
 #include "image_io/exr_types.h"

@@ -36,8 +36,8 @@ struct FrameFilm {
 RenderStats RenderPass(const FramePlan& plan, const RenderSettings& settings, int end,
                        FrameFilm* film, const StripSink& sink);
 
-// A black image with the plan's channels. Throws Cancelled if `cancel` says so: to clear a large one
-// takes longer than a cancelled render may.
+// A black image with the plan's channels. Throws Cancelled if `cancel` says so: to clear a large
+// one takes longer than a cancelled render may.
 Image EmptyImage(const FramePlan& plan, CancelPointer cancel);
 // Copies a strip to its rows of such an image.
 void CopyStrip(const Strip& strip, Image* image);

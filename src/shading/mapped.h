@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/mapped.h: what shading takes of hits that maps give a model of their own, and of lobes that
-// are too sharp for float.
+// shading/mapped.h: what shading takes of hits that maps give a model of their own, and of lobes
+// that are too sharp for float.
 #pragma once
 
 #include "shading/kernels.h"

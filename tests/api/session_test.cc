@@ -136,8 +136,9 @@ TEST_CASE("a render is cancelled from another thread, and the session lives on")
   CheckEqual(session.Render(Small()), nacre::Render(FirstScene(), Small()));
 }
 
-// Of several, the quickest counts: a busy machine may keep any thread waiting. They are cancelled at
-// different times, as the sanitizers' builds take a while to clear the image, a channel at a time.
+// Of several, the quickest counts: a busy machine may keep any thread waiting. They are cancelled
+// at different times, as the sanitizers' builds take a while to clear the image, a channel at a
+// time.
 TEST_CASE("a cancelled render ends within 10 ms") {
   nacre::Session session(nacre::Scene::FromFile(NACRE_SOURCE_DIR "/scenes/material_grid.json"));
   nacre::RenderSettings settings;

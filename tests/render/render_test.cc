@@ -143,9 +143,9 @@ TEST_CASE("a region without a pixel is refused") {
 }
 
 // One rounding of the beauty and of each of the four layers, of at most half an ulp of the largest
-// of them, and of the sum of diffuse and specular of each sample: within 4 ulp. Where weights cancel
-// the last is half an ulp of what samples are: no more than twice the brightest pixel here, times
-// the weights' absolute sum, 1.4 of Mitchell's over 4 pixels.
+// of them, and of the sum of diffuse and specular of each sample: within 4 ulp. Where weights
+// cancel the last is half an ulp of what samples are: no more than twice the brightest pixel here,
+// times the weights' absolute sum, 1.4 of Mitchell's over 4 pixels.
 void CheckLayers(Scene scene, const PixelFilter& filter) {
   scene.image.filter = filter;
   const Image alone = RenderImage(scene, Settings(1));
