@@ -822,7 +822,7 @@ class CliTest(unittest.TestCase):
             result = run('grid', '--material', 'conductor', '--columns', 'preset=' + names, '-o',
                          self.out / 'a.exr', '--sphere-size', '40', '--spp', '1')
             self.assertEqual(result.returncode, 0, result.stderr)
-            heights.append(int(re.search(r'x(\d+)', run('info', self.out / 'a.exr').stdout)[1]))
+            heights.append(int(re.search(r'window +\d+x(\d+)', run('info', self.out / 'a.exr').stdout)[1]))
         self.assertGreater(heights[0], heights[1] + 10)
 
     def test_small_difference_pages_keep_their_words_apart(self):
