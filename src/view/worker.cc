@@ -23,8 +23,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // What a picture may take while something moves, until a page has it: of the 33 ms from a slider's
-// event to the screen the rest is for the event's way here, and for the browser to draw.
-constexpr double kMovingMs = 24;
+// event to the screen the browser waits up to 17 for its next frame.
+constexpr double kMovingMs = 16;
 // How long nothing must have moved before a picture is refined: a hand that drags moves every 8 to
 // 17 ms.
 constexpr std::chrono::milliseconds kRest(90);

@@ -162,7 +162,7 @@ class ProtocolTest(unittest.TestCase):
         server, page = self.open(SCENE, '--size', '64x36', '--spp', '1')
 
         def pixels_sent(before, after):
-            """How many pixels came for the second colour. Where pictures take 24 ms or more, those that move are
+            """How many pixels came for the second colour. Where pictures take 16 ms or more, those that move are
             smaller, and the one after them comes whole: that is another path, and it is tried again."""
             for _ in range(50):
                 sizes = []
