@@ -110,7 +110,7 @@ void AddCommands(CLI::App* app, std::string_view word, int* exit_code) {
       "Start with:  nacre render scenes/material_grid.json -o grid.png --labels\n"
       "Exit codes: 0 done, 1 images differ, 2 cannot compare, 64 usage, 65 bad input,\n"
       "            70 internal error, 74 cannot write, 130 and 143 stopped by a signal");
-  // One command alone, where one is named: to build the options of all takes a tenth of the time of
+  // One command alone, where one is named: to build the options of all would be felt in the time of
   // a small picture. `nacre docs` tells of all.
   const auto named = std::find_if(kCommands.begin(), kCommands.end(),
                                   [&](const Command& command) { return command.name == word; });

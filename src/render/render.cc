@@ -152,8 +152,9 @@ RenderStats RenderPass(const FramePlan& plan, const RenderSettings& settings, in
                        FrameFilm* film, const StripSink& sink) {
   const int first = film->samples;
   const size_t tiles_per_strip = TilesPerStrip(plan);
-  if (first == 0)
+  if (first == 0) {
     film->tiles.resize(static_cast<size_t>(StripCount(plan.window.height())) * tiles_per_strip);
+  }
   const FilmPlan so_far = PlanOfFirstSamples(plan, end);
   const auto render_strip = [&](size_t strip, Worker* worker, StageClock* clock,
                                 RenderStats* stats) {

@@ -6,10 +6,10 @@ A fault that no test sees has SURVIVED: a test is missing. Works on a copy of th
 folder; only the programs of the tests that a fault names are built. A run without a fault comes
 first and must pass.
 
-Two runs side by side, each in a folder of its own, need about half as long as one:
+Two runs can go side by side, each in a folder of its own:
 `--part 1/2 --build build-mutation-1` and `--part 2/2 --build build-mutation-2`. With `--targets sse4`
-a fault takes about a third of the time; what survives that is tried again without, as some faults
-are in code of other targets.
+less is compiled and tested for each fault: try what survives again without it, as some faults are
+in code of other targets.
 
 Exit code: 0 every fault was killed, 1 one survived or did not compile, 2 no run was possible.
 """
