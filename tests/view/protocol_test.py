@@ -103,6 +103,10 @@ class ProtocolTest(unittest.TestCase):
             if light.get('state') != 'lit':
                 continue
             lit += 1
+            terms = light['terms']
+            if 'V' in terms:  # Heitz 2014: the geometry term, and the same over 4 n.l n.v
+                self.assertAlmostEqual(terms['G'], 4 * terms['V'] * light['n_dot_l'] * light['n_dot_v'], places=12)
+                self.assertLessEqual(terms['G'], 1 + 1e-12)
             for name in ('diffuse', 'specular'):
                 for c in range(3):
                     # Double against float, at a position that was rounded to float: highlights are steep.
@@ -145,6 +149,30 @@ class ProtocolTest(unittest.TestCase):
             self.assertEqual(mapped > 0, scene in ('textures', 'coat_and_sheen'))
             self.assertEqual(covered > 0, scene == 'coat_and_sheen')
             self.assertEqual(sampled > 0, scene in ('coat_and_sheen', 'area_lights'))
+
+    def test_a_coat_is_explained_with_its_own_normal(self):
+        """Over flakes it is smooth: the sun is put where the coat's highlight is, far from that of the flake."""
+        sun = {'type': 'directional', 'direction_of_travel': [0, -1, 0], 'irradiance': 2}
+        _, page = self.open(SOURCE / 'scenes/coat_and_sheen.json', *SIZE, '--spp', 1, '--set', f'/lights/sun={json.dumps(sun)}',
+                            '--set', '/materials/car paint/coat_roughness=0.3')
+        page.until(is_done)
+
+        def explained():
+            page.send({'explain': 46, 'y': 34})
+            return page.until(lambda m: 'explained' in m)['explained']
+
+        before = explained()
+        self.assertEqual(before['material'], 'car paint')
+        center, radius = (-1.6, 0.72, -1.3), 0.72
+        sphere_normal = [(p - c) / radius for p, c in zip(before['position'], center)]
+        cosine = sum(a * b for a, b in zip(sphere_normal, before['to_view']))
+        self.set(page, '/lights/sun/direction_of_travel',
+                 [v - 2 * cosine * n for n, v in zip(sphere_normal, before['to_view'])])
+        page.until(is_done)
+        answer = explained()
+        self.assertGreater(self.adds_up(answer), 0)
+        coat, = next(light for light in answer['lights'] if light['name'] == 'sun')['covers']
+        self.assertGreater(coat['specular'][1], 0.5)
 
     def test_it_refines_while_nothing_moves(self):
         _, page = self.open(SCENE, '--size', '320x180', '--spp', 64)
