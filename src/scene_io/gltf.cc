@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "scene_io/gltf_camera.h"
 #include "scene_io/gltf_document.h"
 #include "scene_io/gltf_lights.h"
 #include "scene_io/gltf_materials.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/gltf_lights.h: the cameras of a glTF file and its lights (KHR_lights_punctual).
+// scene_io/gltf_lights.h: the lights of a glTF file (KHR_lights_punctual).
 #pragma once
 
 #include "base/vec.h"
@@ -8,10 +8,6 @@
 #include "scene_io/unique_names.h"
 
 namespace nacre {
-
-// The file's camera, as the node with this matrix (row vectors) has it. Throws Error (kBadInput)
-// for one that is not there or has no view. Clipping planes are left out: nothing is clipped.
-Camera MakeGltfCamera(const GltfDocument& document, int camera, const Imath::M44d& world_from_node);
 
 // Adds a light of the file to the scene, under a name that `names` has not returned. Intensities
 // are taken as they are: lux as irradiance, candela as radiant intensity.

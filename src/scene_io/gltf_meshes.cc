@@ -36,7 +36,7 @@ int AttributeOf(const Primitive& primitive, const char* name) {
 }
 
 // Which corners, as numbered by the primitive, triangle i has.
-std::array<size_t, 3> CornersOf(int mode, size_t i) {
+std::array<size_t, 3> CornerIndices(int mode, size_t i) {
   if (mode == gltf::kTriangleStrip) return {i, i + 1 + i % 2, i + 2 - i % 2};
   if (mode == gltf::kTriangleFan) return {i + 1, i + 2, 0};
   return {3 * i, 3 * i + 1, 3 * i + 2};
@@ -83,7 +83,7 @@ std::vector<uint32_t> ReadTriangles(const GltfDocument& document, const Primitiv
     return SetAll(count, document.threads, [&](size_t i) {
       bool fits = true;
       uint32_t* to = &triangles[3 * i];
-      for (const size_t corner : CornersOf(primitive.source.mode, i)) {
+      for (const size_t corner : CornerIndices(primitive.source.mode, i)) {
         *to = index_of(corner);
         fits &= *to++ < vertex_count;
       }
@@ -100,7 +100,7 @@ std::vector<uint32_t> ReadTriangles(const GltfDocument& document, const Primitiv
   }
   const size_t wrong = fill(indices.count(), [&](size_t corner) { return indices.Index(corner); });
   if (3 * wrong == triangles.size()) return triangles;
-  for (const size_t corner : CornersOf(primitive.source.mode, wrong)) {
+  for (const size_t corner : CornerIndices(primitive.source.mode, wrong)) {
     const uint32_t index = indices.Index(corner);
     if (index < vertex_count) continue;
     document.Refuse(indices.place(), fmt::format("index {} at {}", index, corner),

@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
-#include <string_view>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "scene_io/gltf_extension.h"
+#include "scene_io/uri.h"
 
 namespace nacre {
 namespace {
@@ -46,6 +47,52 @@ struct UvChange {
   }
 };
 
+// Throws Error (kBadInput) for images that are not there, out of bounds, or outside the folder, and
+// for malformed data URIs.
+GltfImage FindImage(const GltfDocument& document, int image) {
+  const gltf::Model& model = document.model;
+  const std::string place = fmt::format("/images/{}", image);
+  if (image < 0 || static_cast<size_t>(image) >= model.images.size()) {
+    document.Refuse(place, "there is no such image",
+                    fmt::format("the file has {}", model.images.size()));
+  }
+  const gltf::Image& source = model.images[static_cast<size_t>(image)];
+  if (source.bufferView < 0) {
+    if (source.uri.empty()) document.Refuse(place, "has no \"uri\" and no \"bufferView\"");
+    GltfImage found;
+    if (!IsDataUri(source.uri)) {
+      found.file = document.Resolve(source.uri, place);
+      found.key = found.file.string();
+      return found;
+    }
+    std::optional<std::string> data = DecodeDataUri(source.uri);
+    if (!data || data->empty()) document.Refuse(place + "/uri", "is a malformed data URI");
+    found.data = std::make_shared<const std::string>(std::move(*data));
+    found.bytes = *found.data;
+    found.key = fmt::format("image {}", image);
+    return found;
+  }
+  if (static_cast<size_t>(source.bufferView) >= model.bufferViews.size()) {
+    document.Refuse(place, fmt::format("there is no buffer view {}", source.bufferView));
+  }
+  const gltf::BufferView& view = model.bufferViews[static_cast<size_t>(source.bufferView)];
+  if (view.buffer < 0 || static_cast<size_t>(view.buffer) >= model.buffers.size() ||
+      model.buffers[static_cast<size_t>(view.buffer)].data == nullptr) {
+    document.Refuse(place, fmt::format("there is no buffer {}", view.buffer));
+  }
+  const auto& data = model.buffers[static_cast<size_t>(view.buffer)].data;
+  if (view.byteOffset > data->size() || view.byteLength > data->size() - view.byteOffset) {
+    document.Refuse(place, "reaches beyond its buffer");
+  }
+  if (view.byteLength == 0) document.Refuse(place, "has no bytes");
+  // Buffers that are one file share their data.
+  return {.file = {},
+          .data = data,
+          .bytes = std::string_view(*data).substr(view.byteOffset, view.byteLength),
+          .key = fmt::format("{} {} {}", static_cast<const void*>(data.get()), view.byteOffset,
+                             view.byteLength)};
+}
+
 }  // namespace
 
 ImageId GltfTextures::AddImage(int image, TextureEncoding encoding) {
@@ -73,7 +120,7 @@ void GltfTextures::WantAhead(int texture, TextureEncoding encoding) {
   const int image = model.textures[static_cast<size_t>(texture)].source;
   if (image < 0) return;
   try {
-    ahead_.Want(FileOf(FindGltfImage(document_, image)), Reading(encoding));
+    ahead_.Want(FileOf(FindImage(document_, image)), Reading(encoding));
   } catch (const Error&) {  // NOLINT(bugprone-empty-catch): its user will throw it again
   }
 }
@@ -92,7 +139,7 @@ void GltfTextures::DecodeAhead() {
 }
 
 ImageId GltfTextures::DecodeImage(int image, TextureEncoding encoding) {
-  const GltfImage source = FindGltfImage(document_, image);
+  const GltfImage source = FindImage(document_, image);
   const auto key = std::make_pair(source.key, encoding);
   const auto known = decoded_.find(key);
   if (known != decoded_.end()) return known->second;

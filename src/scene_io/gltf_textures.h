@@ -6,15 +6,23 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "scene/scene.h"
 #include "scene_io/gltf_document.h"
-#include "scene_io/gltf_materials.h"
 #include "scene_io/temporary_file.h"
 #include "scene_io/texture_image.h"
 
 namespace nacre {
+
+// Where an image of the file is: a file of its own, or bytes within.
+struct GltfImage {
+  std::filesystem::path file;               // resolved; empty: `bytes` hold it
+  std::shared_ptr<const std::string> data;  // of the buffer or the data URI
+  std::string_view bytes;                   // in `data`: encoded (PNG, JPEG...)
+  std::string key;  // the same for images that are one file, or the same bytes of one buffer
+};
 
 // What a material says of one of its textures.
 struct GltfTextureUse {

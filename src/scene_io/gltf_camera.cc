@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_io/gltf_camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "base/excerpt.h"
+#include "scene/limits.h"
+
+namespace nacre {
+
+Vec3d GltfDirection(const Imath::M44d& world_from_node, const Vec3d& direction) {
+  Vec3d result;
+  world_from_node.multDirMatrix(direction, result);
+  return result.normalized();
+}
+
+Camera MakeGltfCamera(const GltfDocument& document, int camera,
+                      const Imath::M44d& world_from_node) {
+  const std::string place = fmt::format("/cameras/{}", camera);
+  const auto& cameras = document.model.cameras;
+  if (camera < 0 || static_cast<size_t>(camera) >= cameras.size()) {
+    document.Refuse(place, "there is no such camera",
+                    fmt::format("the file has {}", cameras.size()));
+  }
+  const gltf::Camera& source = cameras[static_cast<size_t>(camera)];
+  Camera result;
+  if (source.type == "perspective") {
+    result.fov_y_deg = source.yfov * (180 / std::numbers::pi);
+    if (!(result.fov_y_deg > 0 && result.fov_y_deg < 180)) {
+      document.Refuse(place + "/perspective/yfov", fmt::format("{}", source.yfov),
+                      "radians, greater than 0 and less than pi");
+    }
+  } else if (source.type == "orthographic") {
+    result.projection = Projection::kOrthographic;
+    result.height = 2 * std::abs(source.ymag);
+    if (!limits::kLength.Contains(result.height)) {
+      document.Refuse(place + "/orthographic/ymag", fmt::format("{}", source.ymag),
+                      "half the height of the view, not 0");
+    }
+  } else {
+    document.Refuse(place + "/type", fmt::format("unknown type \"{}\"", Excerpt(source.type)),
+                    "perspective or orthographic");
+  }
+  result.position = world_from_node.translation();
+  const Vec3d forward = GltfDirection(world_from_node, {0, 0, -1});
+  result.up = GltfDirection(world_from_node, {0, 1, 0});
+  if (!(forward.length() > 0.5) || !(result.up.length() > 0.5)) {
+    document.Refuse(place, "its node's matrix has no direction");
+  }
+  // Far enough from it that adding the position does not round the direction away.
+  result.look_at = result.position + forward * std::max(result.position.length(), 1.0);
+  return result;
+}
+
+}  // namespace nacre
