@@ -15,7 +15,7 @@ std::string Quoted(const std::string& text) {
   try {
     return nacre::Json(text).dump();
   } catch (const nacre::Json::exception&) {
-    throw ToPublic(nacre::Error(ExitCode::kUsage, "", "a text is not UTF-8"));
+    throw v0::ToPublic(nacre::Error(ExitCode::kUsage, "", "a text is not UTF-8"));
   }
 }
 
@@ -33,7 +33,7 @@ std::string JoinJson(char open, const List& list, char close, const ToText& to_t
 
 std::string Value::ToJson(double number) {
   if (!std::isfinite(number)) {
-    throw ToPublic(
+    throw v0::ToPublic(
         nacre::Error(ExitCode::kUsage, "", fmt::format("{} is not a finite number", number)));
   }
   const DefaultFloatMode mode;       // with DAZ, denormals would be 0

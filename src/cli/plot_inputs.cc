@@ -16,7 +16,7 @@
 namespace nacre {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 // {"model": "phong", "shininess": 64} as "phong, shininess 64". `kind` is "model" or "type".
 std::string LabelOf(const Json& object, const char* kind) {
@@ -69,7 +69,7 @@ std::optional<Scene> LoadInputScene(const PlotInputs& inputs) {
 bool IsJson(const std::string& text) { return text.find('{') != std::string::npos; }
 
 template <class Item>
-std::vector<std::string> NamesOf(const std::vector<Item>& items) {
+std::vector<std::string> ItemNames(const std::vector<Item>& items) {
   std::vector<std::string> names;
   names.reserve(items.size());
   for (const Item& item : items) names.push_back(item.name);
@@ -105,7 +105,7 @@ std::vector<std::pair<std::string, Item>> Collect(const PlotInputs& inputs, cons
       const std::vector<Item>& all = (*scene).*items;
       const auto at = std::find_if(all.begin(), all.end(),
                                    [&](const Item& one) { return one.name == item.text; });
-      if (at == all.end()) FailUnknown(inputs, what, item.text, NamesOf(all));
+      if (at == all.end()) FailUnknown(inputs, what, item.text, ItemNames(all));
       found.emplace_back(item.text, *at);
       continue;
     }

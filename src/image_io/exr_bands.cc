@@ -27,7 +27,7 @@
 namespace nacre {
 namespace {
 
-[[noreturn]] void Fail(const std::string& path, const std::string& what) {
+[[noreturn]] void RefuseBand(const std::string& path, const std::string& what) {
   throw Error(ExitCode::kBadInput, path, what, "render this tile again");
 }
 
@@ -73,9 +73,9 @@ struct ExrBandReader::State {
     } catch (const Error&) {
       throw;
     } catch (const std::bad_alloc&) {
-      Fail(path, "there is no memory for it");
+      RefuseBand(path, "there is no memory for it");
     } catch (const std::exception& exception) {
-      Fail(path, std::string("cannot be read as EXR: ") + exception.what());
+      RefuseBand(path, std::string("cannot be read as EXR: ") + exception.what());
     }
   }
 
@@ -93,8 +93,8 @@ struct ExrBandReader::State {
     const size_t full = row_bytes * static_cast<size_t>(rows);
     const auto bytes = static_cast<size_t>(size);
     if (size <= 0 || bytes > full || (compression == Compression::kNone && bytes != full)) {
-      Fail(path, "is damaged: the rows from " + std::to_string(y) + " on have " +
-                     std::to_string(size) + " bytes, not " + std::to_string(full));
+      RefuseBand(path, "is damaged: the rows from " + std::to_string(y) + " on have " +
+                           std::to_string(size) + " bytes, not " + std::to_string(full));
     }
   }
 
@@ -106,7 +106,7 @@ ExrBandReader::ExrBandReader(const std::string& path) : state_(std::make_unique<
   state_->path = path;
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) Fail(path, "no such file");
+  if (!std::filesystem::exists(status)) RefuseBand(path, "no such file");
   if (!std::filesystem::is_regular_file(status)) {
     throw Error(ExitCode::kBadInput, path, "is not a regular file", "give the tiles' EXR files");
   }
@@ -118,7 +118,7 @@ ExrBandReader::ExrBandReader(const std::string& path) : state_(std::make_unique<
     if (header.hasTileDescription() || header.lineOrder() != Imf::INCREASING_Y) {
       RefuseKind(path, "it does not hold lines from the top down");
     }
-    if (!state_->file->isComplete()) Fail(path, "is not complete");
+    if (!state_->file->isComplete()) RefuseBand(path, "is not complete");
   });
 }
 

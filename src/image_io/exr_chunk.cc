@@ -16,7 +16,7 @@
 namespace nacre {
 namespace {
 
-std::span<const uint8_t> Bytes(std::span<const uint16_t> words) {
+std::span<const uint8_t> BytesOf(std::span<const uint16_t> words) {
   return {reinterpret_cast<const uint8_t*>(words.data()), words.size_bytes()};
 }
 
@@ -29,7 +29,7 @@ std::vector<uint8_t> CompressZip(std::span<const uint16_t> words, int deflate_le
   SplitAndPredict(words.data(), words.size(), predicted.data());
   std::vector<uint8_t> chunk = Deflate({predicted.data(), size}, DeflateForm::kZlib, deflate_level);
   if (chunk.size() < size) return chunk;
-  const std::span<const uint8_t> bytes = Bytes(words);
+  const std::span<const uint8_t> bytes = BytesOf(words);
   return {bytes.begin(), bytes.end()};
 }
 

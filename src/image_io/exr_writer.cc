@@ -21,7 +21,7 @@ namespace nacre {
 namespace {
 
 // zlib's own default for --small: 9 takes twice as long for a hundredth.
-constexpr int kSmallDeflate = 6;
+constexpr int kSmallExrLevel = 6;
 
 struct Chunk {
   int y;
@@ -89,7 +89,7 @@ void ExrWriter::State::CheckStrip(const StripView& strip) const {
 
 Chunks ExrWriter::State::CompressStrip(const StripView& strip,
                                        std::span<const uint16_t> words) const {
-  const int level = options.small          ? kSmallDeflate
+  const int level = options.small          ? kSmallExrLevel
                     : options.reproducible ? kReproducibleDeflate
                                            : kFastDeflate;
   if (options.compression == Compression::kZip) return {{strip.y, CompressZip(words, level)}};

@@ -26,7 +26,7 @@ namespace {
 
 using Bytes = std::vector<uint8_t>;
 
-constexpr int kSmallDeflate = 9;
+constexpr int kSmallPngLevel = 9;
 constexpr size_t kPixelBytes = 3;
 
 // Filter types, PNG specification 9.2.
@@ -170,7 +170,7 @@ PngStrip PngWriter::State::MakeStrip(size_t index, size_t rows, const uint8_t* r
   const bool last = index + 1 == strip_count();
   Bytes deflated =
       Deflate({filtered.data(), filtered_size}, last ? DeflateForm::kLastPart : DeflateForm::kPart,
-              options.small          ? kSmallDeflate
+              options.small          ? kSmallPngLevel
               : options.reproducible ? kReproducibleDeflate
                                      : kFastDeflate);
   // The stream's header: deflate with a window of 32 KiB, and its check bits.

@@ -11,8 +11,6 @@
 namespace nacre {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 // The parameter t of a hit on its ray, and a bound of its rounding error.
 struct RayDepth {
   double t, error;
@@ -47,7 +45,8 @@ void TraceByTree(const HitsPlan& plan, const FilmBatch& film, bool positions, Tr
 void FindNearerTriangles(const HitsPlan& plan, const FilmBatch& film, const HitBatch& on_spheres,
                          TraceRoom* room) {
   MakeCameraRays(plan.camera, film.x.data(), film.y.data(), film.count, &room->rays);
-  std::fill(room->closest.t.begin(), room->closest.t.end(), kInfinity);
+  std::fill(room->closest.t.begin(), room->closest.t.end(),
+            std::numeric_limits<double>::infinity());
   for (size_t i = 0; i < on_spheres.count; ++i) {
     const size_t ray = on_spheres.ray[i];
     const RayDepth depth = DepthOf(room->rays, ray, VectorAt(on_spheres.position, i));

@@ -25,9 +25,6 @@ void ValidateMaps(const Scene& scene, const Material& material, const std::strin
 
 namespace {
 
-// Below this sine the camera's basis would be made of rounding errors: coordinates carry 53 bits.
-constexpr double kMinSineOfUp = 1e-12;
-
 void ValidateCamera(const Camera& camera, FaultList* faults) {
   const size_t before = faults->count();
   CheckPoint(camera.position, "/camera/position", faults);

@@ -16,10 +16,6 @@
 namespace nacre {
 namespace {
 
-// Below this sine of the angle between them two directions span no plane: coordinates carry 53
-// bits.
-constexpr double kMinSineOfUp = 1e-12;
-
 void CheckAttenuation(const Attenuation& attenuation, const std::string& where, FaultList* faults) {
   CheckNumber(attenuation.constant, limits::kAttenuation, where + "/constant", faults);
   CheckNumber(attenuation.linear, limits::kAttenuation, where + "/linear", faults);

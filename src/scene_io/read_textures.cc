@@ -15,7 +15,7 @@ namespace {
 using TextureSource = SceneContext::TextureSource;
 
 constexpr std::array<std::string_view, 4> kEncodings = {"auto", "srgb", "linear", "alpha"};
-constexpr std::array<std::string_view, 3> kFilters = {"nearest", "bilinear", "trilinear"};
+constexpr std::array<std::string_view, 3> kTextureFilters = {"nearest", "bilinear", "trilinear"};
 constexpr std::array<std::string_view, 3> kWraps = {"repeat", "clamp", "mirror"};
 constexpr std::array<std::string_view, 5> kMappings = {"uv", "spherical", "cylindrical", "planar",
                                                        "cube"};
@@ -179,7 +179,7 @@ void ReadTexture(const JsonValue& value, const std::string& name, SceneContext* 
   if (encoding != 0) {
     source.encoding = static_cast<TextureEncoding>(encoding - 1);
   }
-  ReadChoice(&object, "filter", kFilters, &texture.sampling.filter);
+  ReadChoice(&object, "filter", kTextureFilters, &texture.sampling.filter);
   if (const Json* mapping = object.Find("mapping")) {
     ReadMapping({*mapping, object.path().Member("mapping"), object.faults()}, &texture);
   }

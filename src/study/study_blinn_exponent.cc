@@ -13,7 +13,7 @@ namespace nacre {
 namespace {
 
 constexpr double kPhong = 64;
-const Vec3d kToLight(2, 3, 3);
+const Vec3d kToSun(2, 3, 3);
 
 Rgb8Picture RenderLobe(PhongModel model, double shininess) {
   Material material;
@@ -23,7 +23,7 @@ Rgb8Picture RenderLobe(PhongModel model, double shininess) {
                                  .ks = Rgb(0.5),
                                  .shininess = shininess};
   Scene scene = SphereScene(material, 260);
-  scene.lights = {SunTowards(kToLight, Rgb(1))};
+  scene.lights = {SunTowards(kToSun, Rgb(1))};
   return ShowLayer(RenderLayers(scene), "");
 }
 
@@ -84,7 +84,7 @@ StudyPicture Spheres(double best) {
 StudyResult StudyBlinnExponent(const StudyProgress& progress) {
   const BlinnMatch plane = MatchInPlane(kPhong);
   const double half = MatchHalfMaximum(kPhong);
-  const BlinnMatch sphere = MatchOnSphere(kPhong, kToLight);
+  const BlinnMatch sphere = MatchOnSphere(kPhong, kToSun);
   progress(0.1);
   const BlinnMatch facing = MatchOnHemisphere(kPhong, 0);
   const BlinnMatch grazing = MatchOnHemisphere(kPhong, 85);
