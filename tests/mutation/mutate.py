@@ -132,7 +132,7 @@ class Workshop:
                 command.append("--abort")
             elif "pytest" in command:
                 command.append("-x")
-            elif command[1].endswith(("cli_test.py", "tiles_test.py")):
+            elif command[1].endswith(("cli_test.py", "tiles_test.py", "attack_test.py", "browser_test.py", "protocol_test.py")):
                 command.append("--failfast")
         return commands[::-1]
 
