@@ -6,7 +6,10 @@ import os
 import socket
 import struct
 import subprocess
+import time
 import urllib.parse
+
+WAIT_SECONDS = 60  # for one message: machines that test are busy
 
 
 class Server:
@@ -47,7 +50,7 @@ class Server:
 
     def connect(self):
         connection = socket.create_connection((self.address, self.port), 10)
-        connection.settimeout(60)  # machines that test are busy
+        connection.settimeout(WAIT_SECONDS)
         return connection
 
     def request(self, path, method='GET', **headers):
@@ -140,7 +143,11 @@ class WebSocket:
 
     def message(self):
         """The next one: a dict, or the head of what came as bytes with its "pixels"."""
+        start = time.monotonic()
         while True:
+            # Pings come all the time, and no socket's timeout with them.
+            if time.monotonic() - start > WAIT_SECONDS:
+                raise TimeoutError('nothing but pings')
             opcode, payload = self.receive()
             if opcode == self.TEXT:
                 return json.loads(payload)
@@ -169,7 +176,8 @@ class WebSocket:
 
     def until(self, wanted):
         """Messages up to the first that `wanted` likes, which is returned; of pictures the whole ones."""
-        while True:
+        start = time.monotonic()
+        while time.monotonic() - start < 5 * WAIT_SECONDS:
             message = self.message()
             if message.get('kind') == 1:
                 self.send('taken')
@@ -178,6 +186,7 @@ class WebSocket:
                     continue
             if wanted(message):
                 return message
+        raise TimeoutError('messages, but not the one that was waited for')
 
     def close(self):
         self.connection.close()
