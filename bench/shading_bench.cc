@@ -81,6 +81,7 @@ void ReportShades(benchmark::State& state) {
 struct Places {
   bool from_behind = false;  // the light is behind the sphere, not kLight
   bool in_lobe = false;      // the hits are chosen by kLight
+  bool by_position = false;  // it is evaluated from the hits' positions, as lights near spheres are
 };
 
 // Runs shade(lit, surface, radiance) on a target.
@@ -97,10 +98,14 @@ void BenchShade(benchmark::State& state, Target target, const Places& places, co
   source.kind = PointLight{.position = {kLight.x, kLight.y, places.from_behind ? -20.0 : kLight.z},
                            .intensity = {60, 60, 60},
                            .attenuation = {}};
-  const ShadingLight light = PrepareLight(source, {0, 0, 0});
+  ShadingLight light = PrepareLight(source, {0, 0, 0});
+  if (!places.by_position && !OffsetFromSpheres({&kSphere, 1}, {0, 0, 0}, &light)) {
+    state.SkipWithError("the light is too near for its offset from the sphere");
+  }
   for (auto _ : state) {
-    EvaluateLight(light, hits, surface, &on_hits);
-    shade(LitHits{hits, surface, light, &on_hits, false}, &surface, &radiance);
+    if (places.by_position) EvaluateLight(light, hits, surface, &on_hits);
+    shade(LitHits{hits, surface, light, places.by_position ? &on_hits : nullptr, false}, &surface,
+          &radiance);
     benchmark::DoNotOptimize(radiance.sum.x.data());
     benchmark::ClobberMemory();
   }
@@ -268,6 +273,12 @@ std::vector<ModelBench> MakeModels() {
        plain_ggx(Shadowing::kSchlickDirect),
        nullptr,
        {.from_behind = true}},
+      {"lambert_by_position", lambert, nullptr, {.by_position = true}},
+      {"phong_by_position", phong(PhongModel::kPhong), nullptr, {.by_position = true}},
+      {"ggx_plain_schlick_direct_by_position",
+       plain_ggx(Shadowing::kSchlickDirect),
+       nullptr,
+       {.by_position = true}},
       {"phong_double_terms", phong(PhongModel::kPhong, 2 * kDoubleTermsShininess), nullptr},
       {"blinn_phong_double_terms", phong(PhongModel::kBlinnPhong, 2 * kDoubleTermsShininess),
        nullptr},
