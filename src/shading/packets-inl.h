@@ -191,7 +191,8 @@ HWY_INLINE void ReflectLight(FloatTag d, const Model& model, const ShadeRange& r
 //   view = model.SeenBy(packet, surface)        what does not depend on the light
 //   model.Reflect(view, packet, incident)       what it makes of the light
 // Model::Incident: IncidentV, HalfIncidentV or LobeIncidentV. The last has a meaning only if
-// model.ReadsLobe(); model.FillLobe(range, begin, end, block) then stores the lobes' cosines.
+// model.ReadsLobe(); model.FillLobe(range, begin, end, block) then stores the light, too, and the
+// lobes' cosines.
 template <class Model>
 HWY_INLINE void ShadePackets(FloatTag d, const Model& model, const ShadeRange& range) {
   constexpr bool kHalf = std::is_same_v<typename Model::Incident, HalfIncidentV>;
@@ -199,14 +200,16 @@ HWY_INLINE void ShadePackets(FloatTag d, const Model& model, const ShadeRange& r
   std::conditional_t<kHalf, HalfBlock, std::conditional_t<kLobe, LobeBlock, IncidentBlock>> block;
   for (size_t begin = range.begin; begin < range.end; begin += kBlockHits) {
     const size_t end = std::min(begin + kBlockHits, range.end);
-    FillLight(range, begin, end, &block);
-    if constexpr (kHalf) {
-      FillHalf(range, begin, end, &block);
-    } else if constexpr (kLobe) {
+    if constexpr (kLobe) {
       if (model.ReadsLobe()) {
         model.FillLobe(range, begin, end, &block);
         block.TakeLogs(d, end - begin);
+      } else {
+        FillLight(range, begin, end, &block);
       }
+    } else {
+      FillLight(range, begin, end, &block);
+      if constexpr (kHalf) FillHalf(range, begin, end, &block);
     }
     ReflectLight(d, model, range, begin, end, [&](const PacketV& p) HWY_ATTR {
       if constexpr (kHalf) {
