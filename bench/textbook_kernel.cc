@@ -95,8 +95,10 @@ HWY_NOINLINE void FillNaivePhong(const ShadeRange& range, size_t begin, size_t e
   const RangeArrays arrays(range);
   for (size_t at = 0; at < end - begin; at += hn::Lanes(d)) {
     const PacketV p = arrays.Packet(d, begin + at);
-    const TowardV toward = block->Toward(d, at);
-    const FloatV n_dot_l = block->NDotL(d, at);
+    const LightV light = arrays.Light(d, begin + at, p.normal);
+    const TowardV& toward = light.toward;
+    const FloatV n_dot_l = toward.Dot(p.normal);
+    block->Store(d, at, light, n_dot_l);
     const FloatV n_dot_v = FusedDot(p.normal, p.to_view);
     const FloatV l_dot_v = hn::Mul(FusedDot(toward.offset, p.to_view), toward.inverse_length);
     const FloatV cosine = hn::MulSub(hn::Add(n_dot_l, n_dot_l), n_dot_v, l_dot_v);
@@ -111,7 +113,9 @@ HWY_NOINLINE void FillNaiveBlinnPhong(const ShadeRange& range, size_t begin, siz
   const RangeArrays arrays(range);
   for (size_t at = 0; at < end - begin; at += hn::Lanes(d)) {
     const PacketV p = arrays.Packet(d, begin + at);
-    const Vec3V<FloatV> u = block->Toward(d, at).Plus(p.to_view);
+    const LightV light = arrays.Light(d, begin + at, p.normal);
+    block->Store(d, at, light, light.toward.Dot(p.normal));
+    const Vec3V<FloatV> u = light.toward.Plus(p.to_view);
     const FloatV scale = ReciprocalSqrt(d, hn::Max(FusedDot(u, u), hn::Set(d, 1e-30f)));
     const FloatV cosine = hn::Mul(FusedDot(p.normal, u), scale);
     block->StoreLobe(d, at, {hn::Sub(hn::Set(d, 1.0f), cosine), cosine});
