@@ -15,8 +15,8 @@ HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
-// The light on a block's hits and the cosines of their lobes, together: one loop, whose chains a
-// processor overlaps, takes a sixth less than two.
+// The light on a block's hits and the cosines of their lobes. In one loop, as the direction to the
+// light need not be loaded again.
 HWY_NOINLINE void FillPhong(const ShadeRange& range, size_t begin, size_t end, LobeBlock* block) {
   const FloatTag d;
   const RangeArrays arrays(range);

@@ -34,6 +34,8 @@ ROOT = HERE.parents[1]
 # Of a test: what computes for longer, or waits for longer, hangs. The first is as long on a busy machine;
 # the longest test, render, takes 200 s of it at -O1.
 MOST_CPU_SECONDS, MOST_SECONDS = 600, 900
+# Tests by unittest that pass --failfast on.
+FAIL_FAST = ("cli_test.py", "tiles_test.py", "attack_test.py", "browser_test.py", "protocol_test.py")
 
 
 class NoRun(Exception):
@@ -132,7 +134,7 @@ class Workshop:
                 command.append("--abort")
             elif "pytest" in command:
                 command.append("-x")
-            elif command[1].endswith(("cli_test.py", "tiles_test.py", "attack_test.py", "browser_test.py", "protocol_test.py")):
+            elif command[1].endswith(FAIL_FAST):
                 command.append("--failfast")
         return commands[::-1]
 

@@ -5,6 +5,10 @@
 // comparison only; the renderer's look-ups are those of texture/sample.h.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include "texture/sample.h"
 
 namespace nacre {
@@ -15,13 +19,19 @@ Real LessonLerp(Real a, Real b, Real t) {
   return (1 - t) * a + t * b;
 }
 
+// Where the lesson looks in the finest level: in texels, from the centre of the first.
+template <typename Real>
+std::pair<Real, Real> LessonPlace(const MipLevel& level, const SampleSettings& settings, Real u,
+                                  Real v) {
+  return {WrapCoordinate(u, settings.wrap_u) * static_cast<Real>(level.width - 1),
+          WrapCoordinate(v, settings.wrap_v) * static_cast<Real>(level.height - 1)};
+}
+
 // Halves round away from 0, as C's round() does and not as Python's.
 template <typename Real>
 Real LessonNearest(const MipChain& image, const SampleSettings& settings, Real u, Real v,
                    int channel) {
-  const MipLevel& l = image.levels[0];
-  const Real x = WrapCoordinate(u, settings.wrap_u) * static_cast<Real>(l.width - 1);
-  const Real y = WrapCoordinate(v, settings.wrap_v) * static_cast<Real>(l.height - 1);
+  const auto [x, y] = LessonPlace(image.levels[0], settings, u, v);
   return image.Value(0, static_cast<int>(std::round(x)), static_cast<int>(std::round(y)), channel);
 }
 
@@ -30,8 +40,7 @@ template <typename Real>
 Real LessonBilinear(const MipChain& image, const SampleSettings& settings, Real u, Real v,
                     int channel) {
   const MipLevel& l = image.levels[0];
-  const Real x = WrapCoordinate(u, settings.wrap_u) * static_cast<Real>(l.width - 1);
-  const Real y = WrapCoordinate(v, settings.wrap_v) * static_cast<Real>(l.height - 1);
+  const auto [x, y] = LessonPlace(l, settings, u, v);
   const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
   const int x1 = std::min(x0 + 1, l.width - 1), y1 = std::min(y0 + 1, l.height - 1);
   const Real tx = x - static_cast<Real>(x0), ty = y - static_cast<Real>(y0);
