@@ -179,18 +179,18 @@ struct ToRows {
     const F f;
     for (const HitSpan& span : spans) {
       const size_t y = span.pixel / rows[0].width, x = span.pixel % rows[0].width;
-      const auto rest = hn::FirstN(f, span.count % hn::Lanes(d));
-      for (size_t c = 0; c < kChannels; ++c) {
-        float* const to = rows[c].first + y * rows[c].stride + x;
-        const auto rounded = [f, c, value](size_t i)
-                                 HWY_ATTR { return hn::DemoteTo(f, value(c, i)); };
-        size_t i = 0;
-        for (; i + hn::Lanes(d) <= span.count; i += hn::Lanes(d)) {
-          hn::StoreU(rounded(span.hit + i), f, to + i);
-        }
-        if (i == span.count) continue;
-        hn::BlendedStore(rounded(span.hit + i), rest, f, to + i);
+      float* to[kChannels];
+      for (size_t c = 0; c < kChannels; ++c) to[c] = rows[c].first + y * rows[c].stride + x;
+      const auto rounded = [f, value, hit = span.hit](size_t c, size_t i)
+                               HWY_ATTR { return hn::DemoteTo(f, value(c, hit + i)); };
+      const size_t count = span.count;
+      size_t i = 0;
+      for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d)) {
+        for (size_t c = 0; c < kChannels; ++c) hn::StoreU(rounded(c, i), f, to[c] + i);
       }
+      if (i == count) continue;
+      const auto rest = hn::FirstN(f, count - i);
+      for (size_t c = 0; c < kChannels; ++c) hn::BlendedStore(rounded(c, i), rest, f, to[c] + i);
     }
   }
 };

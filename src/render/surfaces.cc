@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <utility>
 #include <variant>
 
@@ -25,13 +27,28 @@ bool IsFromBehind(const PrimitiveNumbers& primitives, const CameraHits& hits, si
   return FaceNormalOf(primitives, primitive).dot(VectorAt(hits.directions.to_view, hit)) < 0;
 }
 
-MaterialId MaterialOfHit(const SurfacePlan& plan, const double* film_x, const CameraHits& hits,
-                         size_t hit) {
-  const double x = plan.splits ? film_x[hits.batch.ray[hit]] : 0;
-  const MaterialId id = MaterialAt(plan, hits.batch.primitive[hit], x);
-  const Scene& scene = *plan.primitives.scene;
-  if (!plan.one_sided || !scene.materials[id.index].emits_in_front_only) return id;
-  return IsFromBehind(plan.primitives, hits, hit) ? plan.black : id;
+// The columns in which a primitive shows one material.
+struct MaterialBand {
+  MaterialId material;
+  double from, to;  // film_x / frame_width
+};
+
+double FrameFraction(const SurfacePlan& plan, double film_x) { return film_x / plan.frame_width; }
+
+MaterialBand BandAt(const SurfacePlan& plan, uint32_t primitive, double film_x) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const MaterialId id = ShapeMaterial(plan.primitives, primitive);
+  const auto* split = std::get_if<SplitMaterial>(&plan.primitives.scene->materials[id.index].model);
+  if (split == nullptr) return {id, -kInfinity, kInfinity};
+  const auto& at = split->at;
+  const auto to = std::upper_bound(at.begin(), at.end(), FrameFraction(plan, film_x));
+  return {split->materials[static_cast<size_t>(to - at.begin())],
+          to == at.begin() ? -kInfinity : to[-1], to == at.end() ? kInfinity : *to};
+}
+
+bool IsIn(const SurfacePlan& plan, const MaterialBand& band, double film_x) {
+  const double fraction = FrameFraction(plan, film_x);
+  return band.from <= fraction && fraction < band.to;
 }
 
 bool IsInterpolated(const SurfacePlan& plan, uint32_t primitive) {
@@ -89,19 +106,39 @@ uint32_t& RunOf(MaterialId material, bool interpolated, SortRoom* room) {
   return room->run_of_material[interpolated ? half + material.index : material.index];
 }
 
-// Finds the run of each hit, and counts the hits of each run in MaterialRun::end.
-void CountRuns(const SurfacePlan& plan, const double* film_x, const CameraHits& hits,
-               SortRoom* room, std::vector<MaterialRun>* runs) {
-  for (size_t i = 0; i < hits.batch.count; ++i) {
-    const MaterialId material = MaterialOfHit(plan, film_x, hits, i);
-    const bool interpolated = IsInterpolated(plan, hits.batch.primitive[i]);
-    uint32_t& run = RunOf(material, interpolated, room);
-    if (run == kNoRun) {
-      run = static_cast<uint32_t>(runs->size());
-      runs->push_back({material, &plan.materials[material.index], 0, 0, interpolated});
+// The index of the run, which is added to the list if it has no hits yet.
+uint32_t FindRun(const SurfacePlan& plan, MaterialId material, bool interpolated, SortRoom* room,
+                 std::vector<MaterialRun>* runs) {
+  uint32_t& run = RunOf(material, interpolated, room);
+  if (run == kNoRun) {
+    run = static_cast<uint32_t>(runs->size());
+    runs->push_back({material, &plan.materials[material.index], 0, 0, interpolated});
+  }
+  return run;
+}
+
+// Finds the segments of the runs, and counts the hits of each run in MaterialRun::end.
+void FindSegments(const SurfacePlan& plan, const double* film_x, const CameraHits& hits,
+                  SortRoom* room, std::vector<MaterialRun>* runs) {
+  const AlignedArray<uint32_t>& primitive = hits.batch.primitive;
+  const AlignedArray<uint32_t>& ray = hits.batch.ray;
+  const size_t count = hits.batch.count;
+  room->segments.clear();
+  for (size_t begin = 0, end; begin < count; begin = end) {
+    const MaterialBand band = BandAt(plan, primitive[begin], film_x[ray[begin]]);
+    // The back of a one-sided emitter is another material than its front.
+    const bool has_back =
+        plan.one_sided && plan.primitives.scene->materials[band.material.index].emits_in_front_only;
+    const bool is_back = has_back && IsFromBehind(plan.primitives, hits, begin);
+    end = begin + 1;
+    while (!has_back && end < count && primitive[end] == primitive[begin] &&
+           (!plan.splits || IsIn(plan, band, film_x[ray[end]]))) {
+      ++end;
     }
-    room->run_of_hit[i] = run;
-    ++(*runs)[run].end;
+    const uint32_t run = FindRun(plan, is_back ? plan.black : band.material,
+                                 IsInterpolated(plan, primitive[begin]), room, runs);
+    (*runs)[run].end += end - begin;
+    room->segments.push_back({run, begin, end});
   }
 }
 
@@ -112,11 +149,11 @@ void SortHits(const SurfacePlan& plan, const double* film_x, CameraHits* hits, S
   for (const MaterialRun& run : runs) RunOf(run.material, run.interpolated, room) = kNoRun;
   runs.clear();
   if (hits->batch.one_primitive && !plan.splits && !plan.one_sided) {
-    const MaterialId material = MaterialOfHit(plan, film_x, *hits, 0);
+    const MaterialId material = ShapeMaterial(plan.primitives, hits->batch.primitive[0]);
     runs.push_back({material, &plan.materials[material.index], 0, hits->batch.count, false});
     return SwapHits(hits, to);
   }
-  CountRuns(plan, film_x, *hits, room, &runs);
+  FindSegments(plan, film_x, *hits, room, &runs);
   size_t begin = 0;
   for (const bool interpolated : {false, true}) {
     for (MaterialRun& run : runs) {
@@ -130,8 +167,12 @@ void SortHits(const SurfacePlan& plan, const double* film_x, CameraHits* hits, S
     runs[0].end = hits->batch.count;
     return SwapHits(hits, to);
   }
-  for (size_t i = 0; i < hits->batch.count; ++i) {
-    room->order[runs[room->run_of_hit[i]].end++] = static_cast<uint32_t>(i);
+  for (const HitSegment& segment : room->segments) {
+    const size_t size = segment.end - segment.begin;
+    size_t& end = runs[segment.run].end;
+    std::iota(room->order.begin() + end, room->order.begin() + end + size,
+              static_cast<uint32_t>(segment.begin));
+    end += size;
   }
   const size_t count = hits->batch.count, padded = RoundUp(count, kBatchPadding);
   for (size_t i = count; i < padded; ++i) room->order[i] = room->order[count - 1];
@@ -263,13 +304,7 @@ bool NeedsExactDirections(const SurfacePlan& plan) {
 }
 
 MaterialId MaterialAt(const SurfacePlan& plan, uint32_t primitive, double film_x) {
-  const MaterialId id = ShapeMaterial(plan.primitives, primitive);
-  if (!plan.splits) return id;
-  const auto* split = std::get_if<SplitMaterial>(&plan.primitives.scene->materials[id.index].model);
-  if (split == nullptr) return id;
-  const double fraction = film_x / plan.frame_width;
-  const auto band = std::upper_bound(split->at.begin(), split->at.end(), fraction);
-  return split->materials[static_cast<size_t>(band - split->at.begin())];
+  return BandAt(plan, primitive, film_x).material;
 }
 
 void ResolveSurfaces(const SurfacePlan& plan, const double* film_x, CameraHits* hits,

@@ -86,11 +86,17 @@ inline std::span<const MaterialRun> LitRuns(const Surfaces& surfaces) {
   return {surfaces.runs.data(), surfaces.lit_runs};
 }
 
+// Hits [begin, end) of a batch that is not sorted yet belong to one run.
+struct HitSegment {
+  uint32_t run;
+  size_t begin, end;
+};
+
 // Buffers of ResolveSurfaces.
 struct SortRoom {
   // By material, the index of its run or kNoRun; then the same for interpolated runs.
   std::vector<uint32_t> run_of_material;
-  AlignedArray<uint32_t> run_of_hit{kBatchCapacity};
+  std::vector<HitSegment> segments;
   AlignedArray<uint32_t> order{kBatchCapacity};
 };
 
