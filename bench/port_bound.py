@@ -28,8 +28,8 @@ _PROCESSORS = ("native", "icelake-server", "skylake-avx512")
 _PRODUCT = "vmulps %{0}0, %{0}1, %{0}2\n"
 _LOAD_AND_STORE = "vmovups (%rdi), %xmm0\nvmovups %xmm0, (%rdi)\n"
 _AGREE = 1.5  # the models say one or two products a cycle; measured ones miss their number by a tenth
-# Hits of a packet: ShadeTag of src/base/target_ops-inl.h.
-_HITS = {"avx3": 32, "avx2": 8, "sse4": 4}
+# Hits of a packet: a vector of floats.
+_HITS = {"avx3": 16, "avx2": 8, "sse4": 4}
 # Rays of a vector of doubles, which a turn of the loops over exact rays takes.
 _RAYS = {"avx3": 8, "avx2": 4, "sse4": 2}
 # Those loops, of src/visibility/single_sphere-inl.h, and where they are measured.

@@ -92,34 +92,28 @@ struct WrittenGgx {
 HWY_NOINLINE void FillNaivePhong(const ShadeRange& range, size_t begin, size_t end,
                                  LobeBlock* block) {
   const FloatTag d;
-  const RangeArrays arrays(range);
-  for (size_t at = 0; at < end - begin; at += hn::Lanes(d)) {
-    const PacketV p = arrays.Packet(d, begin + at);
-    const LightV light = arrays.Light(d, begin + at, p.normal);
+  ForEachLit(d, range, begin, end, [&](const PacketV& p, const LightV& light) HWY_ATTR {
     const TowardV& toward = light.toward;
     const FloatV n_dot_l = toward.Dot(p.normal);
-    block->Store(d, at, light, n_dot_l);
+    block->Store(d, p.i - begin, light, n_dot_l);
     const FloatV n_dot_v = FusedDot(p.normal, p.to_view);
     const FloatV l_dot_v = hn::Mul(FusedDot(toward.offset, p.to_view), toward.inverse_length);
     const FloatV cosine = hn::MulSub(hn::Add(n_dot_l, n_dot_l), n_dot_v, l_dot_v);
-    block->StoreLobe(d, at, {hn::Sub(hn::Set(d, 1.0f), cosine), cosine});
-  }
+    block->StoreLobe(d, p.i - begin, {hn::Sub(hn::Set(d, 1.0f), cosine), cosine});
+  });
 }
 
 // Blinn's likewise.
 HWY_NOINLINE void FillNaiveBlinnPhong(const ShadeRange& range, size_t begin, size_t end,
                                       LobeBlock* block) {
   const FloatTag d;
-  const RangeArrays arrays(range);
-  for (size_t at = 0; at < end - begin; at += hn::Lanes(d)) {
-    const PacketV p = arrays.Packet(d, begin + at);
-    const LightV light = arrays.Light(d, begin + at, p.normal);
-    block->Store(d, at, light, light.toward.Dot(p.normal));
+  ForEachLit(d, range, begin, end, [&](const PacketV& p, const LightV& light) HWY_ATTR {
+    block->Store(d, p.i - begin, light, light.toward.Dot(p.normal));
     const Vec3V<FloatV> u = light.toward.Plus(p.to_view);
     const FloatV scale = ReciprocalSqrt(d, hn::Max(FusedDot(u, u), hn::Set(d, 1e-30f)));
     const FloatV cosine = hn::Mul(FusedDot(p.normal, u), scale);
-    block->StoreLobe(d, at, {hn::Sub(hn::Set(d, 1.0f), cosine), cosine});
-  }
+    block->StoreLobe(d, p.i - begin, {hn::Sub(hn::Set(d, 1.0f), cosine), cosine});
+  });
 }
 
 template <void (*kFill)(const ShadeRange&, size_t, size_t, LobeBlock*)>

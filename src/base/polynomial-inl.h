@@ -7,7 +7,7 @@
 #define NACRE_BASE_POLYNOMIAL_INL_H_
 #endif
 
-#include "base/wide-inl.h"
+#include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {

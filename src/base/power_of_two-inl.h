@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "base/wide-inl.h"
+#include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -33,12 +33,6 @@ HWY_INLINE PowerOfTwoV<V> PowerOfTwo(D d, V v) {
   const hn::Rebind<Bits, D> bits;
   const auto exponent = hn::And(hn::BitCast(bits, v), hn::Set(bits, kExponent));
   return {hn::BitCast(d, exponent), hn::BitCast(d, hn::Sub(hn::Set(bits, kTwiceOne), exponent))};
-}
-
-template <class D, class V>
-HWY_INLINE PowerOfTwoV<hn::Wide<V>> PowerOfTwo(hn::WideTag<D>, const hn::Wide<V>& v) {
-  const auto low = PowerOfTwo(D(), v.low), high = PowerOfTwo(D(), v.high);
-  return {{low.power, high.power}, {low.inverse, high.inverse}};
 }
 
 }  // namespace HWY_NAMESPACE

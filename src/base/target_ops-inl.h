@@ -13,21 +13,12 @@
 #define NACRE_BASE_TARGET_OPS_INL_H_
 #endif
 
-#include "base/wide-inl.h"
+#include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-// The tag of shading kernels: two vectors side by side on targets with enough registers.
-#if HWY_TARGET <= HWY_AVX3
-template <typename T>
-using ShadeTag = hn::WideTag<hn::ScalableTag<T>>;
-#else
-template <typename T>
-using ShadeTag = hn::ScalableTag<T>;
-#endif
 
 // 1 / x for normal x of either sign, within 1 ulp; 0 for infinity.
 template <class D, class V = hn::Vec<D>>
@@ -98,8 +89,6 @@ constexpr bool kSplitsFloats = false;
 using FloatsV = hn::Vec<hn::ScalableTag<float>>;
 template <>
 constexpr bool kSplitsFloats<FloatsV> = true;
-template <>
-constexpr bool kSplitsFloats<hn::Wide<FloatsV>> = true;
 
 // The masked intrinsics are used with full masks because GCC 12 warns of the plain ones.
 
@@ -123,20 +112,6 @@ HWY_INLINE FloatsV LookUp16(const float* table, FloatsV bits) {
   if constexpr (kBit != 0) index = _mm512_maskz_srli_epi32(0xffff, index, kBit);
   return FloatsV{_mm512_maskz_permutexvar_ps(0xffff, index, _mm512_load_ps(table))};
 }
-
-HWY_INLINE hn::Wide<FloatsV> Exponent(const hn::Wide<FloatsV>& x) {
-  return {Exponent(x.low), Exponent(x.high)};
-}
-HWY_INLINE hn::Wide<FloatsV> HalfMantissa(const hn::Wide<FloatsV>& x) {
-  return {HalfMantissa(x.low), HalfMantissa(x.high)};
-}
-HWY_INLINE hn::Wide<FloatsV> TimesPowerOf2(const hn::Wide<FloatsV>& x, const hn::Wide<FloatsV>& e) {
-  return {TimesPowerOf2(x.low, e.low), TimesPowerOf2(x.high, e.high)};
-}
-template <int kBit>
-HWY_INLINE hn::Wide<FloatsV> LookUp16(const float* table, const hn::Wide<FloatsV>& bits) {
-  return {LookUp16<kBit>(table, bits.low), LookUp16<kBit>(table, bits.high)};
-}
 #endif
 
 // minuend - from[i] for a vector of floats, computed in double and rounded once.
@@ -159,13 +134,6 @@ HWY_INLINE hn::Vec<hn::ScalableTag<float>> SubtractAndRound(hn::ScalableTag<floa
   return hn::Combine(d, hn::DemoteTo(dh, high), hn::DemoteTo(dh, low));
 #endif
 #endif
-}
-
-template <class D>
-HWY_INLINE hn::Wide<hn::Vec<D>> SubtractAndRound(hn::WideTag<D>, double minuend,
-                                                 const double* HWY_RESTRICT from) {
-  return {SubtractAndRound(D(), minuend, from),
-          SubtractAndRound(D(), minuend, from + hn::Lanes(D()))};
 }
 
 }  // namespace HWY_NAMESPACE

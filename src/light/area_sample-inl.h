@@ -40,15 +40,6 @@ HWY_INLINE AreaSampleV<V> SampleIf(D d, M mask, const AreaSampleV<V>& sample) {
   return Select(mask, sample, {{zero, zero, zero}, zero, zero, zero});
 }
 
-template <class D, class M>
-HWY_INLINE bool NoneOf(D d, M mask) {
-  return hn::AllFalse(d, mask);
-}
-template <class D, class M>
-HWY_INLINE bool NoneOf(hn::WideTag<D>, const hn::Wide<M>& mask) {
-  return hn::AllFalse(D(), mask.low) && hn::AllFalse(D(), mask.high);
-}
-
 template <class V>
 HWY_INLINE V Length(const Vec3V<V>& v) {
   return hn::Sqrt(FusedDot(v, v));

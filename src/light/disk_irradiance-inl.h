@@ -87,7 +87,7 @@ HWY_INLINE V Irradiance(D d, const DiskLightV<V>& given, const Vec3V<V>& normal)
   const auto above = hn::Ge(disk.centre_height, disk.rim_height);
   V irradiance = hn::IfThenElseZero(above, IrradianceOfWholeDisk(d, disk));
   const auto clipped = hn::Lt(hn::Abs(disk.centre_height), disk.rim_height);
-  if (!NoneOf(d, clipped)) FillClippedDisks(d, disk, &irradiance);
+  if (!hn::AllFalse(d, clipped)) FillClippedDisks(d, disk, &irradiance);
   const auto visible = hn::And(hn::Gt(hn::Abs(disk.z), zero), hn::Gt(light.radius, zero));
   return hn::IfThenElseZero(visible, irradiance);
 }

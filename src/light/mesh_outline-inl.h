@@ -90,7 +90,7 @@ HWY_INLINE V SumCutOutline(D d, const MeshOutline& outline, const OutlineCorners
   EdgeSumsV<V> sums{zero, zero, none, none};
   for (const OutlineEdge& edge : outline.edges) {
     const auto silhouette = FindSilhouetteEdge(d, edge, faces, seen.offset);
-    if (NoneOf(d, silhouette.is_silhouette)) continue;
+    if (hn::AllFalse(d, silhouette.is_silhouette)) continue;
     EdgeSumsV<V> more = sums;
     AddEdge(d, seen.first, pivot, silhouette.a, silhouette.b, normal, &more);
     sums = Select(silhouette.is_silhouette, more, sums);
@@ -114,12 +114,12 @@ HWY_INLINE V Irradiance(D d, const MeshOutline& outline, const OutlineCornersV<V
   const V most = hn::Set(d, kTwoPi / 2);
   const Vec3V<V> pivot = Scale(seen.first, InverseIfPositive(d, Length(seen.first)));
   const auto horizon = FindHorizon(d, seen, outline.corners.size(), pivot, normal);
-  if (NoneOf(d, horizon.visible)) return zero;
+  if (hn::AllFalse(d, horizon.visible)) return zero;
   V sum = zero;
-  if (NoneOf(d, hn::And(horizon.needs_sectors, horizon.visible))) {
+  if (hn::AllFalse(d, hn::And(horizon.needs_sectors, horizon.visible))) {
     for (const OutlineEdge& edge : outline.edges) {
       const auto silhouette = FindSilhouetteEdge(d, edge, faces, seen.unit_offset);
-      if (NoneOf(d, silhouette.is_silhouette)) continue;
+      if (hn::AllFalse(d, silhouette.is_silhouette)) continue;
       const V value = EdgeIrradiance(d, pivot, silhouette.a, silhouette.b, normal);
       sum = hn::Add(sum, hn::IfThenElseZero(silhouette.is_silhouette, value));
     }

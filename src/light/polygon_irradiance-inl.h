@@ -163,11 +163,10 @@ HWY_INLINE V PolygonIrradiance(D d, const Vec3V<V>& corner,
   const V highest2 = hn::Mul(highest, highest);
   const auto is_low = hn::Lt(hn::Mul(highest2, highest2), size2);
   const auto is_cut = hn::Lt(lowest, zero);
-  // The union of both masks: hn::Wide has no Or.
-  const V low_or_cut = hn::IfThenElse(is_cut, half, hn::IfThenElseZero(is_low, half));
-  const auto needs_sectors = hn::Gt(low_or_cut, zero);
+  const auto needs_sectors = hn::Or(is_low, is_cut);
   const auto visible = hn::And(hn::Gt(hn::Abs(orientation), zero), hn::Gt(highest, zero));
-  if (NoneOf(d, hn::And(needs_sectors, visible))) {  // wholly above the horizon, and far from it
+  if (hn::AllFalse(d,
+                   hn::And(needs_sectors, visible))) {  // wholly above the horizon, and far from it
     V sum = zero;
     for (size_t i = 0; i < kCount; ++i) {
       sum = hn::Add(

@@ -21,7 +21,7 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using FloatTag = ShadeTag<float>;
+using FloatTag = hn::ScalableTag<float>;
 using FloatV = hn::Vec<FloatTag>;
 
 // The direction l = offset times inverse_length. It is formed only where it is needed as such: n.l
@@ -60,34 +60,54 @@ HWY_INLINE Vec3V<FloatV> OffsetByPosition(FloatTag d, const ShadingLight& light,
 }
 
 // The same by their normals, of hits on spheres that are far from the light
-// (ShadingLight::from_spheres). The same bits, whether all hits are on one sphere or not.
-HWY_INLINE Vec3V<FloatV> OffsetByNormal(FloatTag d, const ShadingLight& light, const HitBatch& hits,
-                                        size_t i, const Vec3V<FloatV>& normal) {
-  constexpr size_t kMostLanes = 2 * kVectorBytes / sizeof(float);
-  FloatV x, y, z, radius;
-  if (hits.one_primitive) {
-    const SphereOffset& from = light.from_spheres[hits.primitive[0]];
-    x = hn::Set(d, from.offset.x);
-    y = hn::Set(d, from.offset.y);
-    z = hn::Set(d, from.offset.z);
-    radius = hn::Set(d, from.radius);
-  } else {
-    alignas(64) float of_x[kMostLanes], of_y[kMostLanes], of_z[kMostLanes], of_radius[kMostLanes];
+// (ShadingLight::from_spheres). `center`: the light's offset from the spheres' centres.
+HWY_INLINE Vec3V<FloatV> OffsetByNormal(const Vec3V<FloatV>& center, FloatV radius,
+                                        const Vec3V<FloatV>& normal) {
+  return {hn::NegMulAdd(radius, normal.x, center.x), hn::NegMulAdd(radius, normal.y, center.y),
+          hn::NegMulAdd(radius, normal.z, center.z)};
+}
+
+// Of hits that are all on the sphere of the first.
+HWY_INLINE auto OffsetsFromSphere(FloatTag d, const ShadingLight& light, const HitBatch& hits) {
+  const SphereOffset& from = light.from_spheres[hits.primitive[0]];
+  const Vec3V<FloatV> center{hn::Set(d, from.offset.x), hn::Set(d, from.offset.y),
+                             hn::Set(d, from.offset.z)};
+  const FloatV radius = hn::Set(d, from.radius);
+  return [center, radius](FloatTag, size_t, const Vec3V<FloatV>& normal)
+             HWY_ATTR { return OffsetByNormal(center, radius, normal); };
+}
+
+// Of hits on any spheres: the same bits.
+HWY_INLINE auto OffsetsFromSpheres(const ShadingLight& light, const HitBatch& hits) {
+  return [&](FloatTag d, size_t i, const Vec3V<FloatV>& normal) HWY_ATTR {
+    constexpr size_t kMostLanes = kVectorBytes / sizeof(float);
+    alignas(64) float x[kMostLanes], y[kMostLanes], z[kMostLanes], radius[kMostLanes];
     for (size_t lane = 0; lane < hn::Lanes(d); ++lane) {
       const size_t hit = std::min(i + lane, hits.count - 1);
       const SphereOffset& from = light.from_spheres[hits.primitive[hit]];
-      of_x[lane] = from.offset.x;
-      of_y[lane] = from.offset.y;
-      of_z[lane] = from.offset.z;
-      of_radius[lane] = from.radius;
+      x[lane] = from.offset.x;
+      y[lane] = from.offset.y;
+      z[lane] = from.offset.z;
+      radius[lane] = from.radius;
     }
-    x = hn::Load(d, of_x);
-    y = hn::Load(d, of_y);
-    z = hn::Load(d, of_z);
-    radius = hn::Load(d, of_radius);
+    const Vec3V<FloatV> center{hn::Load(d, x), hn::Load(d, y), hn::Load(d, z)};
+    return OffsetByNormal(center, hn::Load(d, radius), normal);
+  };
+}
+
+// Calls use(offset) with offset(d, i, normal): where a positional light lies from hits i... In the
+// form that suits the batch, so that what its hits share stays in registers.
+template <class Use>
+HWY_INLINE void VisitOffsets(FloatTag d, const ShadingLight& light, const HitBatch& hits,
+                             const Use& use) {
+  if (light.from_spheres.empty()) {
+    use([&](FloatTag tag, size_t i, const Vec3V<FloatV>&)
+            HWY_ATTR { return OffsetByPosition(tag, light, hits, i); });
+  } else if (hits.one_primitive) {
+    use(OffsetsFromSphere(d, light, hits));
+  } else {
+    use(OffsetsFromSpheres(light, hits));
   }
-  return {hn::NegMulAdd(radius, normal.x, x), hn::NegMulAdd(radius, normal.y, y),
-          hn::NegMulAdd(radius, normal.z, z)};
 }
 
 HWY_INLINE LightV DirectionalAt(FloatTag d, const ShadingLight& light) {
@@ -119,7 +139,7 @@ HWY_INLINE FloatV SpotFactorAt(FloatTag d, const ShadingLight& light, const HitB
                                size_t i) {
   const hn::ScalableTag<double> dd;
   const hn::Rebind<float, decltype(dd)> half;
-  constexpr size_t kMostLanes = 2 * kVectorBytes / sizeof(float);
+  constexpr size_t kMostLanes = kVectorBytes / sizeof(float);
   alignas(64) float t[kMostLanes], one_minus_cos[kMostLanes], cosine[kMostLanes];
   const auto one = hn::Set(dd, 1.0);
   const auto place = SetVec3(dd, light.position), axis = SetVec3(dd, light.axis);

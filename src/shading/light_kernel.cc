@@ -61,15 +61,14 @@ void EvaluatePositional(const ShadingLight& light, const HitBatch& hits, const S
                         LightBatch* result) {
   const FloatTag d;
   const Soa3<float>& n = surface.turned ? surface.unturned : surface.normal;
-  const bool by_normal = !light.from_spheres.empty();
-  ForEachPacket(hits, surface, result, [&](size_t i) HWY_ATTR {
-    const Vec3V<FloatV> offset = by_normal ? OffsetByNormal(d, light, hits, i, LoadSoa(d, n, i))
-                                           : OffsetByPosition(d, light, hits, i);
-    LightV at = PositionalAt<kForm>(d, light, offset);
-    if constexpr (kForm == LightForm::kSpot) {
-      at.irradiance = hn::Mul(at.irradiance, SpotFactorAt(d, light, hits, i));
-    }
-    return at;
+  VisitOffsets(d, light, hits, [&](const auto& offset) HWY_ATTR {
+    ForEachPacket(hits, surface, result, [&](size_t i) HWY_ATTR {
+      LightV at = PositionalAt<kForm>(d, light, offset(d, i, LoadSoa(d, n, i)));
+      if constexpr (kForm == LightForm::kSpot) {
+        at.irradiance = hn::Mul(at.irradiance, SpotFactorAt(d, light, hits, i));
+      }
+      return at;
+    });
   });
 }
 

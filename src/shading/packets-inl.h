@@ -124,12 +124,9 @@ class LobeBlock : public IncidentBlock {
 inline HWY_NOINLINE void FillLight(const ShadeRange& range, size_t begin, size_t end,
                                    IncidentBlock* block) {
   const FloatTag d;
-  const RangeArrays arrays(range);  // kept in registers: what is stored cannot be this copy
-  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-    const Vec3V<FloatV> normal = arrays.Normal(d, i);
-    const LightV light = arrays.Light(d, i, normal);
-    block->Store(d, i - begin, light, light.toward.Dot(normal));
-  }
+  ForEachLit(d, range, begin, end, [&](const PacketV& p, const LightV& light) HWY_ATTR {
+    block->Store(d, p.i - begin, light, light.toward.Dot(p.normal));
+  });
 }
 
 // Calls use(at, half, n_dot_v) with the half vector's angles of all hits of a block. Hits choose

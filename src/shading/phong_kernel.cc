@@ -19,15 +19,13 @@ namespace HWY_NAMESPACE {
 // light need not be loaded again.
 HWY_NOINLINE void FillPhong(const ShadeRange& range, size_t begin, size_t end, LobeBlock* block) {
   const FloatTag d;
-  const RangeArrays arrays(range);
-  for (size_t at = 0; at < end - begin; at += hn::Lanes(d)) {
-    const PacketV p = arrays.Packet(d, begin + at);
-    const LightV light = arrays.Light(d, begin + at, p.normal);
-    block->Store(d, at, light, light.toward.Dot(p.normal));
-    block->StoreLobe(d, at,
-                     PhongCosine(d, SquaredFromReflection(p.normal, light.toward.offset,
-                                                          light.toward.inverse_length, p.to_view)));
-  }
+  ForEachLit(d, range, begin, end, [&](const PacketV& p, const LightV& light) HWY_ATTR {
+    const auto& [offset, inverse_length] = light.toward;
+    block->Store(d, p.i - begin, light, light.toward.Dot(p.normal));
+    block->StoreLobe(
+        d, p.i - begin,
+        PhongCosine(d, SquaredFromReflection(p.normal, offset, inverse_length, p.to_view)));
+  });
 }
 
 HWY_NOINLINE void FillBlinn(const ShadeRange& range, size_t begin, size_t end, LobeBlock* block) {

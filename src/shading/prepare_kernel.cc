@@ -76,6 +76,7 @@ struct Numbers {
 struct AlbedoBlock {
   static constexpr size_t kHits = 128;  // a multiple of every target's lanes
   alignas(64) float z[kHits], n_dot_v[kHits], factor[kHits];
+  alignas(64) float one[kHits], loss[kHits], scale[kHits], bias[kHits];
 
   HWY_INLINE void Store(FloatTag d, size_t at, const AlbedoVariablesV<FloatV>& x) {
     hn::Store(x.z, d, z + at);
@@ -84,6 +85,16 @@ struct AlbedoBlock {
   }
   HWY_INLINE AlbedoVariablesV<FloatV> Variables(FloatTag d, size_t at) const {
     return {hn::Load(d, z + at), hn::Load(d, n_dot_v + at), hn::Load(d, factor + at)};
+  }
+  HWY_INLINE void Store(FloatTag d, size_t at, const AlbedoV& albedo) {
+    hn::Store(albedo.one, d, one + at);
+    hn::Store(albedo.loss, d, loss + at);
+    hn::Store(albedo.scale, d, scale + at);
+    hn::Store(albedo.bias, d, bias + at);
+  }
+  HWY_INLINE AlbedoV Albedo(FloatTag d, size_t at) const {
+    return {hn::Load(d, one + at), hn::Load(d, loss + at), hn::Load(d, scale + at),
+            hn::Load(d, bias + at)};
   }
 };
 
@@ -98,6 +109,14 @@ HWY_INLINE void FillVariables(const Numbers& numbers, size_t begin, size_t end,
   }
 }
 
+template <class Numbers>
+HWY_INLINE void FillAlbedos(const Numbers& numbers, size_t begin, size_t end, AlbedoBlock* block) {
+  const FloatTag d;
+  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
+    block->Store(d, i - begin, numbers.Albedo(d, i, block->Variables(d, i - begin)));
+  }
+}
+
 // kScaled: DiffuseCoupling::kAlbedoScaled. Others do not read the base's share.
 template <bool kScaled, class Numbers>
 HWY_INLINE void PrepareBlock(const MicrofacetModel& model, const Numbers& numbers, size_t begin,
@@ -107,7 +126,7 @@ HWY_INLINE void PrepareBlock(const MicrofacetModel& model, const Numbers& number
   float* const base[3] = {surface->base.x.data(), surface->base.y.data(), surface->base.z.data()};
   const Compensation compensation = model.compensation;
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-    const AlbedoV albedo = numbers.Albedo(d, i, block.Variables(d, i - begin));
+    const AlbedoV albedo = block.Albedo(d, i - begin);
     const FloatV multiple = Multiple(d, compensation, albedo, numbers.MultipleScale(d, i));
     StoreLanes(d, end - i, multiple, multiples + i);
     if constexpr (!kScaled) continue;
@@ -129,6 +148,7 @@ HWY_INLINE void PrepareRange(const MicrofacetModel& model, const Numbers& number
   for (; begin < end; begin += AlbedoBlock::kHits) {
     const size_t block_end = std::min(begin + AlbedoBlock::kHits, end);
     FillVariables(numbers, begin, block_end, *surface, &block);
+    FillAlbedos(numbers, begin, block_end, &block);
     if (scaled) {
       PrepareBlock<true>(model, numbers, begin, block_end, block, surface);
     } else {

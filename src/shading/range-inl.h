@@ -155,9 +155,6 @@ HWY_INLINE RgbV RgbOf(const PartV& part) { return MulRgb(part.color, part.scale)
 // a packet may reach past its range: the lanes that do are not stored.
 struct RangeArrays {
   Pointers3<const float> normal, to_view;
-  const ShadingLight& light;
-  const HitBatch& hits;
-  const LightBatch* on_hits;
   Pointers3<float> sum, diffuse, specular;
   bool components;
   size_t end;
@@ -165,45 +162,14 @@ struct RangeArrays {
   explicit RangeArrays(const ShadeRange& range)
       : normal(PointersTo(range.surface.normal)),
         to_view(PointersTo(range.surface.to_view)),
-        light(range.light),
-        hits(range.hits),
-        on_hits(range.on_hits),
         sum(PointersTo(&range.radiance->sum)),
         diffuse(PointersTo(&range.radiance->diffuse)),
         specular(PointersTo(&range.radiance->specular)),
         components(range.components),
         end(range.end) {}
 
-  HWY_INLINE Vec3V<FloatV> Normal(FloatTag d, size_t i) const { return LoadAt(d, normal, i); }
-
   HWY_INLINE PacketV Packet(FloatTag d, size_t i) const {
     return {i, LoadAt(d, normal, i), LoadAt(d, to_view, i)};
-  }
-
-  // The light: given, evaluated before, or evaluated here. Vectors, not structs, are what the
-  // branches choose: GCC takes a struct that they choose through memory.
-  HWY_INLINE LightV Light(FloatTag d, size_t i, const Vec3V<FloatV>& n) const {
-    FloatV x, y, z, inverse_length, irradiance;
-    const auto take = [&](const LightV& at) HWY_ATTR {
-      x = at.toward.offset.x;
-      y = at.toward.offset.y;
-      z = at.toward.offset.z;
-      inverse_length = at.toward.inverse_length;
-      irradiance = at.irradiance;
-    };
-    if (on_hits != nullptr) {
-      const Soa3<float>& l = on_hits->to_light;
-      const FloatV inverse = light.form == LightForm::kGiven
-                                 ? hn::Set(d, 1.0f)
-                                 : hn::LoadU(d, on_hits->inverse_length.data() + i);
-      take({{LoadU3(d, l.x.data() + i, l.y.data() + i, l.z.data() + i), inverse},
-            hn::LoadU(d, on_hits->irradiance.data() + i)});
-    } else if (light.form == LightForm::kDirectional) {
-      take(DirectionalAt(d, light));
-    } else {
-      take(PositionalAt<LightForm::kInverseSquare>(d, light, OffsetByNormal(d, light, hits, i, n)));
-    }
-    return {{{x, y, z}, inverse_length}, irradiance};
   }
 
   HWY_INLINE void Store(FloatTag d, const ReflectedV& reflected, size_t i) const {
@@ -227,6 +193,45 @@ struct RangeArrays {
     StoreRgb(d, end - i, {zero, zero, zero}, specular, i);
   }
 };
+
+// Calls use(at) with at(d, i, normal): the light at hits i..., which was evaluated before
+// (ShadeRange::on_hits) or is evaluated here.
+template <class Use>
+HWY_INLINE void VisitLight(FloatTag d, const ShadeRange& range, const Use& use) {
+  const ShadingLight& light = range.light;
+  if (range.on_hits != nullptr) {
+    const Pointers3<const float> toward = PointersTo(range.on_hits->to_light);
+    const float* const irradiance = range.on_hits->irradiance.data();
+    const float* const inverse_length = range.on_hits->inverse_length.data();
+    const bool is_unit = light.form == LightForm::kGiven;
+    use([=](FloatTag tag, size_t i, const Vec3V<FloatV>&) HWY_ATTR {
+      const FloatV inverse = is_unit ? hn::Set(tag, 1.0f) : hn::LoadU(tag, inverse_length + i);
+      return LightV{{LoadAt(tag, toward, i), inverse}, hn::LoadU(tag, irradiance + i)};
+    });
+  } else if (light.form == LightForm::kDirectional) {
+    const LightV same = DirectionalAt(d, light);
+    use([same](FloatTag, size_t, const Vec3V<FloatV>&) HWY_ATTR { return same; });
+  } else {
+    VisitOffsets(d, light, range.hits, [&](const auto& offset) HWY_ATTR {
+      use([&, offset](FloatTag tag, size_t i, const Vec3V<FloatV>& normal) HWY_ATTR {
+        return PositionalAt<LightForm::kInverseSquare>(tag, light, offset(tag, i, normal));
+      });
+    });
+  }
+}
+
+// Calls use(p, light) for each packet p of hits [begin, end) and the light on it.
+template <class Use>
+HWY_INLINE void ForEachLit(FloatTag d, const ShadeRange& range, size_t begin, size_t end,
+                           const Use& use) {
+  const RangeArrays arrays(range);  // kept in registers: what is stored cannot be this copy
+  VisitLight(d, range, [&](const auto& light_at) HWY_ATTR {
+    for (size_t i = begin; i < end; i += hn::Lanes(d)) {
+      const PacketV p = arrays.Packet(d, i);
+      use(p, light_at(d, i, p.normal));
+    }
+  });
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace nacre

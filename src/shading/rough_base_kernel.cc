@@ -18,16 +18,13 @@ namespace {
 template <DiffuseForm kForm, class Number>
 void SpreadOf(Number roughness, const ShadeRange& range, BaseSpread* to) {
   const FloatTag d;
-  const RangeArrays arrays(range);
-  for (size_t i = range.begin; i < range.end; i += hn::Lanes(d)) {
-    const PacketV packet = arrays.Packet(d, i);
-    const auto view = RoughDiffuse<kForm>::SeenBy(d, packet);
-    const IncidentV in = MakeIncident(d, arrays.Light(d, i, packet.normal), packet.normal);
-    const SpreadV spread =
-        RoughDiffuse<kForm>::Spread(d, view, packet, in, NumberAt(d, roughness, i));
-    hn::StoreU(spread.single, d, to->single.data() + i);
-    hn::StoreU(spread.multiple, d, to->multiple.data() + i);
-  }
+  ForEachLit(d, range, range.begin, range.end, [&](const PacketV& p, const LightV& light) HWY_ATTR {
+    const auto view = RoughDiffuse<kForm>::SeenBy(d, p);
+    const IncidentV in = MakeIncident(d, light, p.normal);
+    const SpreadV spread = RoughDiffuse<kForm>::Spread(d, view, p, in, NumberAt(d, roughness, p.i));
+    hn::StoreU(spread.single, d, to->single.data() + p.i);
+    hn::StoreU(spread.multiple, d, to->multiple.data() + p.i);
+  });
 }
 
 template <class Number>

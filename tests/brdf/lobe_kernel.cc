@@ -14,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
-using D = ShadeTag<float>;
+using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
 constexpr size_t kMaxLanes = 32;
 
