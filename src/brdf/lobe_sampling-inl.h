@@ -44,10 +44,7 @@ HWY_INLINE Vec3V<V> SampleGgxVisible(D d, const Vec3V<V>& normal, const Vec3V<V>
   const BasisV<V> basis = BasisAbout(d, normal);
   const Vec3V<V> v = ToLocal(basis, to_view);
   const V smallest = hn::Set(d, std::numeric_limits<float>::min());
-  // A viewer in the surface's plane squeezes to its azimuth, whatever alpha is; the square of a
-  // small one is below float's range.
-  const V squeeze = hn::IfThenElse(hn::Gt(v.z, hn::Zero(d)), alpha, one);
-  const Vec3V<V> scaled{hn::Mul(squeeze, v.x), hn::Mul(squeeze, v.y), hn::Max(v.z, hn::Zero(d))};
+  const Vec3V<V> scaled{hn::Mul(alpha, v.x), hn::Mul(alpha, v.y), hn::Max(v.z, hn::Zero(d))};
   const V across2 = hn::MulAdd(scaled.x, scaled.x, hn::Mul(scaled.y, scaled.y));
   const V length = hn::Max(hn::Sqrt(hn::MulAdd(scaled.z, scaled.z, across2)), smallest);
   const Vec3V<V> squeezed = Scale(scaled, hn::Div(one, length));

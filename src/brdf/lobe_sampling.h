@@ -43,10 +43,7 @@ Imath::Vec3<Real> SampleGgxVisible(const Imath::Vec3<Real>& normal,
   if (IsDeltaLobe(alpha)) return Mirrored(to_view, normal);
   const Basis<Real> basis = BasisAbout(normal);
   const Imath::Vec3<Real> v = basis.ToLocal(to_view);
-  // A viewer in the surface's plane squeezes to its azimuth, whatever alpha is; the square of a
-  // small one is below the type's range.
-  const Real squeeze = v.z > 0 ? alpha : 1;
-  const Imath::Vec3<Real> scaled(squeeze * v.x, squeeze * v.y, std::max(v.z, Real(0)));
+  const Imath::Vec3<Real> scaled(alpha * v.x, alpha * v.y, std::max(v.z, Real(0)));
   // Above 0, but for v = -n, which has no azimuth: what follows is then even about n.
   const Real length = std::max(scaled.length(), std::numeric_limits<Real>::min());
   const Imath::Vec3<Real> squeezed = scaled / length;

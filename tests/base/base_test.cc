@@ -91,7 +91,15 @@ TEST_CASE("parallel loops may be within one another, and have several callers") 
 }
 
 TEST_CASE("a parallel loop takes no more threads than it is given, and ends after its last body") {
-  ParallelFor(8, 8, [](size_t) { Sleep(); });  // so that more threads are there
+  // More threads are there, and come free while the loop runs: none of them may join it.
+  std::atomic<bool> others_work{false};
+  std::thread other([&] {
+    ParallelFor(8, 8, [&](size_t) {
+      others_work = true;
+      for (int i = 0; i < 10; ++i) Sleep();
+    });
+  });
+  while (!others_work) Sleep();
   std::atomic<int> working{0}, ended{0};
   std::atomic<bool> too_many{false};
   ParallelFor(60, 3, [&](size_t) {
@@ -102,6 +110,7 @@ TEST_CASE("a parallel loop takes no more threads than it is given, and ends afte
   });
   CHECK(ended == 60);
   CHECK_FALSE(too_many);
+  other.join();
 }
 
 TEST_CASE("denormals are flushed in workers and only there") {

@@ -96,6 +96,19 @@ TEST_CASE("Relative errors are relative, however dark the reference", "[compare]
   CHECK(CompareImages(got, reference).at(0).max_rel == Approx(1e38 / 0x1p-140).epsilon(1e-7));
 }
 
+TEST_CASE("The quantile finds the largest errors where they come first, in any order",
+          "[compare]") {
+  const int width = 200, height = 100, large = 5000;
+  Image reference = MakeImage({0, 0, width, height}, {"Y"}, 1);
+  Image got = reference;
+  std::vector<float>& samples = got.channels[0].samples;
+  for (size_t i = 0; i < samples.size(); ++i) {
+    samples[i] = i < large ? 2 + static_cast<float>(i * 1237 % large) * 0x1p-13f : 1.5f;
+  }
+  // 20 of the 20 000 errors are above it: 1237 and 5000 have no common factor.
+  CHECK(CompareImages(got, reference).at(0).p999_rel == 1 + (large - 21) * 0x1p-13f);
+}
+
 TEST_CASE("The figures of large images are plain sums on every target", "[compare]") {
   // More errors than are kept for the quantile; rows that end within a vector; several bands. Some
   // samples are equal, some references 0; a row has what is not finite.

@@ -56,7 +56,9 @@ TEST_CASE("a PNG that promises more than deflate can hold costs nothing") {
   CHECK(ReadImage(folder / "whole.png").channels.size() == 3);
   const size_t before = PeakMib();
   WriteBytes(folder / "bomb.png", Png(20'000, 8000, 1000));  // 0.5 GB
-  CHECK(Catching([&] { ReadImage(folder / "bomb.png"); }).code == ExitCode::kBadInput);
+  const Caught caught = Catching([&] { ReadImage(folder / "bomb.png"); });
+  CHECK(caught.code == ExitCode::kBadInput);
+  CHECK(caught.Says("cannot hold its 20000 x 8000 pixels"));  // before any of them is read
   CHECK(PeakMib() < before + kRoomMib);
 }
 
