@@ -14,7 +14,7 @@ namespace {
 
 double Rounded(double value) { return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr); }
 
-Json ColorJson(const Rgb& rgb) {
+Json RoundedColorJson(const Rgb& rgb) {
   const Json color = {Rounded(rgb.x), Rounded(rgb.y), Rounded(rgb.z)};
   return color[0] == color[1] && color[1] == color[2] ? color[0] : color;
 }
@@ -35,7 +35,7 @@ Json MaterialJson(const Material& material) {
   Json json = {{"model", model.name}};
   for (const MaterialParameter& parameter : model.parameters) {
     const Rgb value = parameter.get(material);
-    if (!DoesNothing(parameter, value)) json[std::string(parameter.name)] = ColorJson(value);
+    if (!DoesNothing(parameter, value)) json[std::string(parameter.name)] = RoundedColorJson(value);
   }
   const Material defaults = model.make();
   for (const MaterialChoice& choice : model.choices) {

@@ -271,6 +271,17 @@ def test_a_child_renders_after_a_fork():
     assert child_renders(expected)
 
 
+@not_sanitized  # likewise
+def test_a_child_has_threads_of_its_own():
+    ball().render(width=64, height=64, samples=1, threads=3)  # so that its parent has some
+    child = os.fork()
+    if child == 0:
+        ball().render(width=64, height=64, samples=1, threads=3)
+        os._exit(len(os.listdir("/proc/self/task")))
+    _, status = os.waitpid(child, 0)
+    assert os.waitstatus_to_exitcode(status) >= 3
+
+
 @not_sanitized  # the sanitizers' own locks do not survive a fork
 def test_a_child_renders_after_a_fork_amid_renders():
     def work():
