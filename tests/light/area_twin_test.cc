@@ -225,6 +225,22 @@ TEST_CASE("SIMD finds no sample where there is none, and nothing is ever not fin
     CHECK(inverse_pdf(SphereLight<float>{{0, 0, 0}, 0}) == 0);
     CHECK(inverse_pdf(SphereLight<float>{{0, 0, 1}, 1}) == 6.28318531f);
     CHECK(inverse_pdf(SphereLight<float>{{0, 0, 0}, 1}) == 2 * 6.28318531f);
+    // From beside the corner of one that fills a quadrant of the plane: pi / 6. The rectangle's
+    // squares leave float's range with 1e-10 and 1e10; then there is no light, and nothing else.
+    const auto quadrant = [](auto light, float near, float far) {
+      light.corner = {near, near, near};
+      light.edge_x = {far, 0, 0};
+      light.edge_y = {0, far, 0};
+      return light;
+    };
+    const double sixth = M_PI / 6;
+    CHECK(inverse_pdf(quadrant(RectangleLight<float>(), 1e-8f, 1e8f)) ==
+          Approx(sixth).epsilon(1e-5));
+    CHECK(inverse_pdf(quadrant(TriangleLight<float>(), 1e-8f, 1e8f)) ==
+          Approx(sixth).epsilon(1e-5));
+    CHECK(inverse_pdf(quadrant(RectangleLight<float>(), 1e-10f, 1e10f)) == 0);
+    CHECK(inverse_pdf(quadrant(TriangleLight<float>(), 1e-10f, 1e10f)) ==
+          Approx(sixth).epsilon(1e-5));
   });
 }
 

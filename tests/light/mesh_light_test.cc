@@ -58,6 +58,12 @@ TEST_CASE("triangles are as probable as they are large, and those without an are
   CHECK(light.probabilities[large] == 0.75);
   CHECK(light.probabilities[1 - large] == 0.25);
   CHECK(light.triangles[0].corner == Vec3d(-7, -8, -9));
+  // Of all numbers in [0, 1) three quarters choose it.
+  size_t chosen = 0;
+  for (size_t i = 0; i < 100; ++i) {
+    chosen += PickIndex(light.by_area, (static_cast<double>(i) + 0.5) / 100).index == large;
+  }
+  CHECK(chosen == 75);
 }
 
 TEST_CASE("a ray hits the triangles that it hits one by one") {
