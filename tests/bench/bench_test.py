@@ -261,7 +261,7 @@ class Ports(unittest.TestCase):
                          ["vmulpd a", "vsqrtpd b", "vaddpd e", "vaddpd f"])
 
     def test_turns_a_hit(self):
-        self.assertEqual(port_bound.turns_a_hit("FillHalf", "avx3"), 1 / 32)
+        self.assertEqual(port_bound.turns_a_hit("FillHalf", "avx3"), 1 / 16)
         self.assertEqual(port_bound.turns_a_hit("FillHalf", "avx2"), 1 / 8)
         self.assertEqual(port_bound.turns_a_hit("N_AVX38TestRaysE", "avx3"), 1 / 8)
         self.assertEqual(port_bound.turns_a_hit("N_AVX211AppendBlockE", "avx2"), 1 / 4)
