@@ -168,7 +168,8 @@ struct ToSums {
   }
 };
 
-// Writes the values of hits to the spans' pixels.
+// Writes the values of hits to the spans' pixels. All channels of a vector at a time, because many
+// spans are short, and a loop for each channel would end once more.
 template <size_t kChannels>
 struct ToRows {
   const PixelRows<float>* rows;

@@ -86,8 +86,8 @@ class Workshop:
             raise NoRun(f"another run works in {self.tree.parent}") from error
         self.log.write_text("")
         copy_tree(ROOT, self.tree)
-        # -O2: at -O1 little less time goes into compiling, and tests that render take three times as
-        # long. No -Werror: that a fault leaves a variable unused is no reason not to run it.
+        # -O2: tests that render are slow at -O1. No -Werror: that a fault leaves a variable unused is
+        # no reason not to run it.
         options = ["-DNACRE_BENCH=OFF", "-DNACRE_WERROR=OFF", "-DCMAKE_CXX_FLAGS_RELEASE=-O2",
                    f"-DNACRE_TARGETS={self.targets}" if self.targets else "-UNACRE_TARGETS"]
         if shutil.which("ccache"):  # most of what is built again is what was there before a fault

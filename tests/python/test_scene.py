@@ -276,8 +276,12 @@ def test_a_child_has_threads_of_its_own():
     ball().render(width=64, height=64, samples=1, threads=3)  # so that its parent has some
     child = os.fork()
     if child == 0:
-        ball().render(width=64, height=64, samples=1, threads=3)
-        os._exit(len(os.listdir("/proc/self/task")))
+        threads = 0
+        try:
+            ball().render(width=64, height=64, samples=1, threads=3)
+            threads = len(os.listdir("/proc/self/task"))
+        finally:
+            os._exit(threads)  # whatever happens, the child runs no further tests
     _, status = os.waitpid(child, 0)
     assert os.waitstatus_to_exitcode(status) >= 3
 
