@@ -197,8 +197,8 @@ void OccludedByTriangles(const RTCOccludedFunctionNArguments* args) {
   const auto& primitives = *static_cast<const TrianglePrimitives*>(args->geometryUserPtr);
   const TraceGeometry& geometry = *primitives.geometry;
   const uint32_t* const first = &primitives.first[args->primID];
-  // Early out for triangles of the light itself: where a mesh is the light, these are most of them.
-  // The two of a pair are of one mesh.
+  // Early out for triangles of the light itself, which rays only end on: without it mesh_lights and
+  // area_lights take 1.3 times as long. The two of a pair are of one mesh.
   if (packet.target.Contains(geometry.SphereCount() + first[0])) return;
   const uint32_t lanes = ActiveLanes(embree, args->valid, args->ray, args->N);
   for (uint32_t triangle = first[0]; triangle < first[1]; ++triangle) {
