@@ -37,7 +37,7 @@ HWY_INLINE V BurleyDiffuse(D d, const AnglesV<V>& a, V roughness) {
   const auto above = hn::And(hn::Gt(a.n_dot_l, zero), hn::Gt(a.n_dot_v, zero));
   const V product = BurleySpread(d, a.u_squared, BurleyGrazing(d, a.n_dot_l),
                                  BurleyGrazing(d, a.n_dot_v), roughness);
-  return hn::IfThenElseZero(above, hn::Mul(product, hn::Set(d, T(0.31830988618379067))));
+  return hn::IfThenElseZero(above, hn::Mul(product, hn::Set(d, T(M_1_PI))));
 }
 
 }  // namespace HWY_NAMESPACE

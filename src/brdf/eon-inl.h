@@ -35,8 +35,8 @@ HWY_INLINE V EonLoss(D d, V cos) {
       hn::Sub(hn::Div(hn::Mul(cos, hn::Add(one_plus_sin, sin2)), one_plus_sin), one);
   const V sum = hn::MulAdd(hn::Set(d, 2.0f / 3), tangential, hn::NegMulAdd(sin, cos, angle));
   const V g = hn::Mul(sin, sum);
-  const V loss =
-      hn::NegMulAdd(hn::Set(d, 0.318309886f), g, hn::Set(d, static_cast<float>(kEonAlbedo)));
+  const V loss = hn::NegMulAdd(hn::Set(d, static_cast<float>(M_1_PI)), g,
+                               hn::Set(d, static_cast<float>(kEonAlbedo)));
   return hn::Max(loss, hn::Zero(d));  // 0 at grazing angles, which rounding may undercut
 }
 
@@ -84,7 +84,7 @@ HWY_INLINE V Eon(D d, const AnglesV<V>& a, V albedo, V roughness) {
       hn::Mul(EonMultipleAlbedo(d, albedo, roughness, scale),
               EonMultipleSpread(d, EonLoss(d, n_dot_l), EonLoss(d, n_dot_v), roughness, scale));
   const V sum = hn::MulAdd(albedo, single, multiple);
-  return hn::IfThenElseZero(above, hn::Mul(sum, hn::Set(d, 0.318309886f)));
+  return hn::IfThenElseZero(above, hn::Mul(sum, hn::Set(d, static_cast<float>(M_1_PI))));
 }
 
 }  // namespace HWY_NAMESPACE

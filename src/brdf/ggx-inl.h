@@ -24,7 +24,7 @@ HWY_INLINE V GgxDistribution(D d, const HalfAnglesV<V>& a, V alpha) {
   const auto above = hn::And(hn::Gt(a.n_dot_u, zero), hn::Gt(denominator, zero));
   const V k = hn::Div(hn::Mul(alpha, a.u_squared),
                       hn::IfThenElse(above, denominator, hn::Set(d, hn::TFromD<D>(1))));
-  const V squared = hn::Mul(hn::Mul(k, k), hn::Set(d, hn::TFromD<D>(0.31830988618379067)));
+  const V squared = hn::Mul(hn::Mul(k, k), hn::Set(d, hn::TFromD<D>(M_1_PI)));
   return hn::IfThenElseZero(above, squared);
 }
 

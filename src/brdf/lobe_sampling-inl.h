@@ -33,7 +33,7 @@ HWY_INLINE Vec3V<V> SampleCosine(D d, const Vec3V<V>& normal, V u0, V u1) {
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V CosinePdf(D d, V n_dot_l) {
-  return hn::Mul(hn::Max(n_dot_l, hn::Zero(d)), hn::Set(d, 0.318309886f));
+  return hn::Mul(hn::Max(n_dot_l, hn::Zero(d)), hn::Set(d, static_cast<float>(M_1_PI)));
 }
 
 // alpha must not be a delta lobe's.
@@ -146,8 +146,9 @@ HWY_INLINE Vec3V<V> SamplePhongLobe(D d, const Vec3V<V>& normal, const Vec3V<V>&
 // Of a lobe c^shininess that is known: (shininess + 1) / 2 pi c^shininess.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V PhongLobePdf(D d, V lobe, V shininess) {
-  const V scale = hn::Mul(hn::Add(shininess, hn::Set(d, 1.0f)), hn::Set(d, 0.159154943f));
-  return hn::IfThenElse(IsConstantLobe(d, shininess), hn::Set(d, 0.0795774715f),  // 1 / 4 pi
+  const V scale =
+      hn::Mul(hn::Add(shininess, hn::Set(d, 1.0f)), hn::Set(d, static_cast<float>(M_1_PI / 2)));
+  return hn::IfThenElse(IsConstantLobe(d, shininess), hn::Set(d, static_cast<float>(M_1_PI / 4)),
                         hn::Mul(scale, lobe));
 }
 
@@ -164,15 +165,19 @@ HWY_INLINE Vec3V<V> SampleBlinnLobe(D d, const Vec3V<V>& normal, const Vec3V<V>&
   return Mirrored(to_view, DirectionAround(d, normal, OneMinusPowerCosine(d, shininess, u0), u1));
 }
 
+// Of a lobe (n.h)^shininess that is known: its pdf of h over 4 v.h, where |u| = 2 v.h.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V BlinnLobePdf(D d, V lobe, const AnglesV<V>& a, V shininess) {
+  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const auto above = hn::And(hn::Gt(a.n_dot_u, zero), hn::Gt(a.u_squared, zero));
+  const V u_length = hn::Sqrt(hn::IfThenElse(above, a.u_squared, one));
+  const V scale = hn::Mul(hn::Add(shininess, one), hn::Set(d, static_cast<float>(M_1_PI / 2)));
+  return hn::IfThenElseZero(above, hn::Div(hn::Mul(scale, lobe), hn::Add(u_length, u_length)));
+}
+
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V BlinnLobePdf(D d, const AnglesV<V>& a, V shininess) {
-  const V zero = hn::Zero(d);
-  const V one = hn::Set(d, 1.0f);
-  const auto above = hn::And(hn::Gt(a.n_dot_u, zero), hn::Gt(a.u_squared, zero));
-  const V length = hn::Sqrt(hn::IfThenElse(above, a.u_squared, one));
-  const V lobe = BlinnLobe(d, BlinnSquaredCosine(d, a), shininess);
-  const V scale = hn::Mul(hn::Add(shininess, one), hn::Set(d, 0.0795774715f));
-  return hn::IfThenElseZero(above, hn::Div(hn::Mul(scale, lobe), length));
+  return BlinnLobePdf(d, BlinnLobe(d, BlinnSquaredCosine(d, a), shininess), a, shininess);
 }
 
 }  // namespace HWY_NAMESPACE

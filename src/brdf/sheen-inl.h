@@ -64,8 +64,7 @@ HWY_INLINE V CharlieDistribution(D d, const HalfAnglesV<V>& a, V alpha) {
   const V ratio = hn::Min(hn::Div(hn::Mul(a.n_dot_u, a.n_dot_u), a.nxu_squared),
                           hn::Set(d, std::numeric_limits<T>::max()));
   const V exponent = hn::Mul(hn::Mul(hn::Set(d, T(-0.5)), inverse), hn::Log1p(d, ratio));
-  const V scale =
-      hn::MulAdd(inverse, hn::Set(d, T(0.15915494309189535)), hn::Set(d, T(0.31830988618379067)));
+  const V scale = hn::MulAdd(inverse, hn::Set(d, T(M_1_PI / 2)), hn::Set(d, T(M_1_PI)));
   return hn::IfThenElseZero(present, hn::Mul(scale, hn::Exp(d, exponent)));
 }
 

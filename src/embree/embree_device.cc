@@ -2,6 +2,7 @@
 #include "embree/embree_device.h"
 
 #include <algorithm>
+#include <cstring>
 #include <mutex>
 #include <new>
 #include <string>
@@ -39,7 +40,8 @@ EmbreeTarget EmbreeTargetFor(Target target) {
 // The first error that Embree reported, from any of its threads.
 class ErrorRecord {
  public:
-  static void Report(void* self, RTCError code, const char* text) {
+  // Embree calls this from C, so it must not throw.
+  static void Report(void* self, RTCError code, const char* text) noexcept {
     static_cast<ErrorRecord*>(self)->Remember(code, text);
   }
 
@@ -63,12 +65,13 @@ class ErrorRecord {
     if (code == RTC_ERROR_CANCELLED) return;  // it was asked for
     if (code_ != RTC_ERROR_NONE) return;
     code_ = code;
-    text_ = text != nullptr ? text : "unknown error";
+    if (text == nullptr) text = "unknown error";
+    std::strncpy(text_, text, sizeof(text_) - 1);
   }
 
   std::mutex mutex_;
   RTCError code_ = RTC_ERROR_NONE;
-  std::string text_;
+  char text_[256] = {};  // no string: there may be no memory left
 };
 
 struct ReleaseDevice {
@@ -147,7 +150,11 @@ EmbreeDevice::~EmbreeDevice() {
   if (!kept_->errors.empty()) return;  // one that failed is not kept
   Store& store = TheStore();
   const std::lock_guard lock(store.mutex);
-  store.free.push_back(std::move(kept_));
+  try {
+    store.free.push_back(std::move(kept_));
+  } catch (const std::bad_alloc&) {
+    // Then this one is not kept.
+  }
 }
 
 RTCDevice EmbreeDevice::get() const { return kept_->device.get(); }

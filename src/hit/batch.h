@@ -161,7 +161,7 @@ struct ShadowRayBatch {
   // the surfaces, which were made relative to the camera. A surface on which the rays end within
   // the rounding error, such as a ceiling that a lamp is flush with, does not occlude them.
   double camera_extent = 0;
-  Soa3<double> origin;     // HitBatch::position
+  Soa3<double> origin;     // HitBatch::position, or moved off it (OffsetOrigin)
   Soa3<double> direction;  // towards the light, not normalised
   // 1: a light at origin + direction; or infinity. 0: an inactive ray, which is not occluded.
   AlignedArray<double> t_max{kBatchCapacity};

@@ -33,8 +33,8 @@ template <class D, class V = hn::Vec<D>>
 HWY_INLINE LatLongV<V> LatLongFromDirection(D d, const Vec3V<V>& direction) {
   const V zero = hn::Zero(d);
   const V one = hn::Set(d, 1.0f);
-  const V turns = hn::Set(d, 0.159154943f);
-  const V half_turns = hn::Set(d, 0.318309886f);
+  const V turns = hn::Set(d, static_cast<float>(M_1_PI / 2));
+  const V half_turns = hn::Set(d, static_cast<float>(M_1_PI));
   const V turn = hn::Mul(Atan2Upper(d, hn::Abs(direction.x), hn::Neg(direction.z)), turns);
   const V u = hn::IfThenElse(hn::Lt(direction.x, zero), hn::Sub(one, turn), turn);
   const V r = hn::Sqrt(hn::MulAdd(direction.x, direction.x, hn::Mul(direction.z, direction.z)));

@@ -68,8 +68,8 @@ bool HasUserModel(const std::vector<ShadingMaterial>& materials) {
 
 }  // namespace
 
-AdaptivePlan PlanAdaptive(const Scene& scene, const std::vector<ShadingMaterial>& materials,
-                          double max_error, int max_samples) {
+AdaptivePlan PlanAdaptiveLevels(const Scene& scene, const std::vector<ShadingMaterial>& materials,
+                                double max_error, int max_samples) {
   AdaptivePlan plan;
   plan.max_error = max_error;
   plan.white = WhiteLevel(scene);
@@ -103,7 +103,6 @@ AdaptivePlan PlanAdaptive(const Scene& scene, const std::vector<ShadingMaterial>
         return !IsPunctual(light) && !std::holds_alternative<AmbientLight>(light.kind);
       });
   plan.footprints = !both_signs && !HasHardCone(scene) && !sampled && !HasUserModel(materials);
-  plan.center = MakePixelSampler(filter, 1, scene.image.seed);
   plan.filter_radius = std::max(filter.width / 2, 0.5);
   // Half the second moment where the picture is smooth. Where its slope changes within a pixel, as
   // where a surface turns away from a light, up to three times that (for a box: 1/8 of the change

@@ -56,8 +56,7 @@ struct AdaptivePlan {
   bool footprints = false;
   // Half the side, in pixels, of the square that a box filter averages, if the coverage of pixels
   // on outlines can be computed exactly (outline_coverage.h); else 0.
-  double square = 0;
-  PixelSampler center;
+  double box_half_side = 0;
   double filter_radius = 0.5;  // in pixels from a pixel's centre
   // The error of taking a pixel's centre for its mean, as a multiple of the second differences.
   double center_error = 0;
@@ -69,9 +68,9 @@ struct AdaptivePlan {
   std::vector<Glint> mesh_glints;  // by ascending y
 };
 
-// `max_samples`: AdaptivePlan::max_samples. `materials`: those of
-// the scene, in its order.
-AdaptivePlan PlanAdaptive(const Scene& scene, const std::vector<ShadingMaterial>& materials,
-                          double max_error, int max_samples);
+// The levels, and what the image's settings and the materials alone decide. `max_samples`:
+// AdaptivePlan::max_samples. `materials`: those of the scene, in its order.
+AdaptivePlan PlanAdaptiveLevels(const Scene& scene, const std::vector<ShadingMaterial>& materials,
+                                double max_error, int max_samples);
 
 }  // namespace nacre

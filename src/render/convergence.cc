@@ -120,13 +120,13 @@ bool IsWithinTolerance(const CellState& c, uint32_t pixel) {
 // Marks a pixel that an outline may cross, and computes its coverage if it shows one outline only.
 void FindCoverage(const FramePlan& plan, const VisibleOutlines& seen, uint32_t pixel, double x,
                   double y, CellState* c) {
-  const double square = plan.adaptive.square;
+  const double half_side = plan.adaptive.box_half_side;
   double covered = -1;
-  if (seen.only_sphere != nullptr && square > 0) {
+  if (seen.only_sphere != nullptr && half_side > 0) {
     const OutlineForm outline = MakeOutlineForm(plan.camera, *seen.only_sphere, x, y);
-    if (IsGentlyCurved(outline)) covered = CoveredShare(outline, square);
+    if (IsGentlyCurved(outline)) covered = CoveredShare(outline, half_side);
     if (covered > 0 && covered < 1) {
-      const FilmOffset step = OffsetIntoCovered(outline, square);
+      const FilmOffset step = OffsetIntoCovered(outline, half_side);
       c->covered_points.push_back({pixel, x + step.dx, y + step.dy});
     }
   }
@@ -201,6 +201,8 @@ void DropConverged(const FramePlan& plan, size_t level, CellState* c) {
 
 size_t CountUnsettled(const FramePlan& plan, const Window& cell, const Window& part, CellState* c) {
   if (c->active.empty()) return 0;
+  // With so few levels no pixel was dropped, and nothing measured.
+  if (plan.adaptive.levels.size() + 1 < kCommonLevels) FindOutlineRanges(c);
   MeasureActive({plan.adaptive.max_error, kUnbounded}, BackgroundOf(plan.film.layers[0], plan.film),
                 c);
   RequireEvidence(c);

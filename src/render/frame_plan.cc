@@ -58,7 +58,7 @@ AdaptivePlan PlanAdaptiveSampling(const FramePlan& plan, const RenderSettings& s
                                   Explanation* why) {
   const Scene& scene = *plan.scene;
   AdaptivePlan adaptive =
-      PlanAdaptive(scene, plan.surfaces.materials, settings.max_error, settings.max_samples);
+      PlanAdaptiveLevels(scene, plan.surfaces.materials, settings.max_error, settings.max_samples);
   adaptive.brightest = BrightestObject(scene, plan.direct, adaptive.white);
   // Between pixel centres a texture may show anything. Triangles are not binned, so their edges are
   // not known.
@@ -76,8 +76,8 @@ AdaptivePlan PlanAdaptiveSampling(const FramePlan& plan, const RenderSettings& s
                           adaptive.filter_radius + 1, settings.threads);
   }
   const PixelFilter& filter = scene.image.filter;
-  const bool square = filter.kind == FilterKind::kBox && filter.width <= 1;
-  if (square && adaptive.footprints) adaptive.square = filter.width / 2;
+  const bool is_box = filter.kind == FilterKind::kBox && filter.width <= 1;
+  if (is_box && adaptive.footprints) adaptive.box_half_side = filter.width / 2;
   why->substitutions.push_back(
       {"adaptive sampling", true,
        fmt::format(
@@ -90,9 +90,9 @@ AdaptivePlan PlanAdaptiveSampling(const FramePlan& plan, const RenderSettings& s
                : fmt::format(", and those of highlights of white, {:.3g}", adaptive.white),
            adaptive.footprints ? "blocks on one smooth surface stop at their pixels' centres"
                                : "no block is known to be smooth",
-           adaptive.square > 0 ? "; pixels that one outline crosses weight their hits by "
-                                 "their coverage"
-                               : "")});
+           adaptive.box_half_side > 0 ? "; pixels that one outline crosses weight their hits by "
+                                        "their coverage"
+                                      : "")});
   return adaptive;
 }
 
@@ -140,7 +140,7 @@ FramePlan MakePlan(const Scene& given, const RenderSettings& settings, PreparedS
   if (settings.max_error > 0) plan.adaptive = PlanAdaptiveSampling(plan, settings, why);
   if (!scene.meshes.empty() && plan.hits.intersector != nullptr) {
     PlanShadowOrigins(scene, &plan.direct, why);
-    ShadeMeshes(scene, settings, plan.surfaces, &plan.direct, why);
+    plan.planning = ShadeMeshes(scene, settings, plan.surfaces, &plan.direct, why);
   }
   plan.film.camera = plan.camera;
   plan.film.background = plan.direct.background;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/frame_plan.h: how a frame is rendered, decided once before any ray is traced, and with it
-// which work can be skipped. Each stage of the work on a batch of samples has a plan of its own.
+// render/frame_plan.h: how a frame is rendered, decided once before its first camera ray, and with
+// it which work can be skipped. Each stage of the work on a batch of samples has a plan of its own.
 // `--explain` prints the reasons.
 #pragma once
 
@@ -35,6 +35,7 @@ struct FramePlan {
   SamplingPlan sampling;  // image settings; whether lights are sampled and materials textured
   AdaptivePlan adaptive;  // max_error; all of the above
   Explanation why;        // of all stages
+  RenderStats planning;   // what shading vertices and triangles took while the plan was made
 };
 
 // `scene` must be valid (scene/validate.h) and outlive the plan. Throws Error: usage for a layer

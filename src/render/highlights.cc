@@ -37,14 +37,4 @@ double HalfVectorWidth(const SurfacePlan& surfaces, const AdaptivePlan& adaptive
   return adaptive.lobe_widths[material] * (mirrored ? 0.5 : 1);
 }
 
-double PixelsPerLength(const Projector& projector, const Vec3d& point) {
-  return projector.inverse_pixel / (projector.perspective ? point.dot(projector.forward) : 1);
-}
-
-FilmPoint ProjectPoint(const Projector& projector, const Vec3d& point) {
-  const double scale = PixelsPerLength(projector, point);
-  return {point.dot(projector.right) * scale + projector.middle_x,
-          point.dot(projector.down) * scale + projector.middle_y};
-}
-
 }  // namespace nacre

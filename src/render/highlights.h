@@ -23,14 +23,4 @@ std::vector<HighlightLight> FindHighlightLights(const Scene& scene, const Direct
 double HalfVectorWidth(const SurfacePlan& surfaces, const AdaptivePlan& adaptive,
                        uint32_t material);
 
-// How many pixels a unit length parallel to the film has at a point. Points are relative to the
-// camera.
-double PixelsPerLength(const Projector& projector, const Vec3d& point);
-
-// Positions on the film, in pixels.
-struct FilmPoint {
-  double x, y;
-};
-FilmPoint ProjectPoint(const Projector& projector, const Vec3d& point);
-
 }  // namespace nacre

@@ -58,8 +58,8 @@ void FindNearerTriangles(const HitsPlan& plan, const FilmBatch& film, const HitB
 // Whether hit i on a sphere is in front of the triangle that its ray hits at t, or at the same
 // depth: of equal depths the primitive with the lower number counts. If t is within the rounding
 // error, the exact test decides.
-bool SphereIsFirst(const HitsPlan& plan, const RayBatch& rays, const HitBatch& on_spheres, size_t i,
-                   double t) {
+bool SphereHitIsFirst(const HitsPlan& plan, const RayBatch& rays, const HitBatch& on_spheres,
+                      size_t i, double t) {
   const size_t ray = on_spheres.ray[i];
   const RayDepth depth = DepthOf(rays, ray, VectorAt(on_spheres.position, i));
   if (t < depth.t - depth.error) return false;
@@ -123,7 +123,7 @@ void AddTriangles(const HitsPlan& plan, const FilmBatch& film, TraceRoom* room, 
     const bool on_sphere = i < spheres.count && spheres.ray[i] == ray;
     const bool on_triangle =
         room->closest.primitive[ray] != kNoPrimitive &&
-        !(on_sphere && SphereIsFirst(plan, room->rays, spheres, i, room->closest.t[ray]));
+        !(on_sphere && SphereHitIsFirst(plan, room->rays, spheres, i, room->closest.t[ray]));
     if (on_triangle) room->hit_rays[count++] = static_cast<uint32_t>(ray);
     if (on_sphere) triangles.hides_sphere[i++] = on_triangle ? 1 : 0;
   }

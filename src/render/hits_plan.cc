@@ -15,12 +15,6 @@
 namespace nacre {
 namespace {
 
-// The window extended to whole cells: adaptive sampling evaluates cells whole.
-Window ExtendToCells(const Window& window) {
-  const auto up = [](int pixel) { return DownToCell(pixel + kCellSize - 1); };
-  return {DownToCell(window.x0), DownToCell(window.y0), up(window.x1), up(window.y1)};
-}
-
 // True only if every camera ray starts outside the sphere. The margins are far larger than the
 // rounding errors of the intersection tests.
 bool IsOutside(const Scene& scene, const Vec3d& forward, const Sphere& sphere) {
@@ -128,7 +122,7 @@ HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Wind
   why->items.push_back(
       {"intersector tiles, for camera rays", plan.trace_by_bins,
        plan.trace_by_bins ? "spheres binned to 16x16 pixels need no tree: " + DescribeShapes(scene)
-       : want_tiles       ? "the bins would not fit 256 MiB"
+       : want_tiles       ? fmt::format("the bins would not fit {} MiB", kMaxCameraBinBytes >> 20)
        : scene.spheres.empty() ? "there are no spheres"
        : nested                ? kNestedSpheres
                                : tree_asked_for});

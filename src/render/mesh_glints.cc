@@ -107,7 +107,7 @@ std::optional<Barycentrics> FindPeak(const Projector& projector, const GlossyTri
 }
 
 // Whether the normal may equal the half vector anywhere in the triangle: false if they differ by
-// more in the middle than they can change over the triangle. `turn`: the max_area difference of a
+// more in the middle than they can change over the triangle. `turn`: the largest difference of a
 // corner's normal from their mean.
 bool MayHavePeak(const Projector& projector, const GlossyTriangle& t, const HighlightLight& light,
                  double turn) {
@@ -219,12 +219,6 @@ class GlintFinder {
   Projector projector_;
 };
 
-// Whether the mesh is shaded point by point, not by interpolated radiance.
-bool ShowsGlints(const Mesh& mesh) {
-  return mesh.interpolation == Interpolation::kPhong ||
-         mesh.interpolation == Interpolation::kFaceted;
-}
-
 }  // namespace
 
 std::vector<Glint> FindMeshGlints(const Scene& scene, const SurfacePlan& surfaces,
@@ -239,7 +233,7 @@ std::vector<Glint> FindMeshGlints(const Scene& scene, const SurfacePlan& surface
   for (size_t number = 0; number < scene.meshes.size(); ++number) {
     const Mesh& mesh = scene.meshes[number];
     const size_t count = mesh.triangles.size() / 3;
-    if (ShowsGlints(mesh)) {
+    if (InterpolatesRadiance(mesh)) {
       std::vector<std::vector<Glint>> found((count + kAtOnce - 1) / kAtOnce);
       ParallelFor(found.size(), threads, [&](size_t piece) {
         const size_t end = std::min(count, (piece + 1) * kAtOnce);

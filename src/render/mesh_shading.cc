@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <mutex>
 #include <utility>
 #include <variant>
 
@@ -135,20 +136,20 @@ struct PointRoom {
   BatchRadiance radiance;
 };
 
-void ShadePoints(const MeshShading& by, const Point* points, size_t count, MeshRadiance* to,
-                 PointRoom* room) {
-  RenderStats stats;
+void ShadePoints(const MeshShading& plans, const Point* points, size_t count, MeshRadiance* to,
+                 PointRoom* room, RenderStats* stats) {
   StageClock clock(nullptr);
   Surfaces& surfaces = room->surfaces;
   const BatchRadiance& radiance = room->radiance;
-  MakeHits(by.direct.camera, points, count, &surfaces);
-  surfaces.runs = {{to->material, &by.surfaces.materials[to->material.index], 0, count, false}};
-  PrepareSurfaces(by.surfaces, &surfaces);
-  Sums sums(count, by.direct.light_layer_count);
-  const int samples = SamplesOf(by.direct);
+  MakeHits(plans.direct.camera, points, count, &surfaces);
+  surfaces.runs = {{to->material, &plans.surfaces.materials[to->material.index], 0, count, false}};
+  PrepareSurfaces(plans.surfaces, &surfaces);
+  Sums sums(count, plans.direct.light_layer_count);
+  const int samples = SamplesOf(plans.direct);
   for (int k = 0; k < samples; ++k) {
     NumberPoints(points, count, k, &room->numbers);
-    ShadeDirect({by.direct, surfaces, room->direct, room->radiance, clock, stats}, &room->numbers);
+    ShadeDirect({plans.direct, surfaces, room->direct, room->radiance, clock, *stats},
+                &room->numbers);
     AddTo(radiance.total.diffuse, &sums.diffuse);
     AddTo(radiance.total.specular, &sums.specular);
     for (size_t l = 0; l < sums.lights.size(); ++l) AddTo(radiance.per_light[l], &sums.lights[l]);
@@ -164,27 +165,33 @@ void ShadePoints(const MeshShading& by, const Point* points, size_t count, MeshR
   }
 }
 
-MeshRadiance ShadeMesh(const MeshShading& by, const RenderSettings& settings,
-                       const std::vector<Point>& points, size_t size, MaterialId material) {
+MeshRadiance ShadeMesh(const MeshShading& plans, const RenderSettings& settings,
+                       const std::vector<Point>& points, size_t size, MaterialId material,
+                       RenderStats* stats) {
   MeshRadiance radiance;
   radiance.material = material;
   for (uint32_t side = 0; side < 2; ++side) {
     const bool is_seen = std::any_of(points.begin(), points.end(),
                                      [&](const Point& point) { return point.side == side; });
     if (!is_seen) continue;
-    SideRadiance& of = radiance.sides[side];
-    of.diffuse.resize(size);
-    of.specular.resize(size);
-    of.lights.assign(by.direct.light_layer_count, std::vector<Vec3f>(size));
+    SideRadiance& seen = radiance.sides[side];
+    seen.diffuse.resize(size);
+    seen.specular.resize(size);
+    seen.lights.assign(plans.direct.light_layer_count, std::vector<Vec3f>(size));
   }
   // A task takes several batches, because its buffers take longer to make than a batch to shade.
   constexpr size_t kTask = 16 * kBatchCapacity;
+  std::mutex mutex;
   ParallelFor((points.size() + kTask - 1) / kTask, settings.threads, [&](size_t task) {
     const auto room = std::make_unique<PointRoom>();
+    RenderStats task_stats;
     const size_t end = std::min((task + 1) * kTask, points.size());
     for (size_t i = task * kTask; i < end; i += kBatchCapacity) {
-      ShadePoints(by, points.data() + i, std::min(kBatchCapacity, end - i), &radiance, room.get());
+      ShadePoints(plans, points.data() + i, std::min(kBatchCapacity, end - i), &radiance,
+                  room.get(), &task_stats);
     }
+    const std::lock_guard lock(mutex);
+    stats->Add(task_stats);
   });
   return radiance;
 }
@@ -196,9 +203,10 @@ std::vector<MaterialId> MaterialsOf(const Scene& scene, const Mesh& mesh) {
 
 }  // namespace
 
-void ShadeMeshes(const Scene& scene, const RenderSettings& settings, const SurfacePlan& surfaces,
-                 DirectPlan* plan, Explanation* why) {
+RenderStats ShadeMeshes(const Scene& scene, const RenderSettings& settings,
+                        const SurfacePlan& surfaces, DirectPlan* plan, Explanation* why) {
   std::vector<std::vector<MeshRadiance>> all(scene.meshes.size());
+  RenderStats stats;
   size_t vertices = 0, triangles = 0;
   for (size_t i = 0; i < scene.meshes.size(); ++i) {
     const Mesh& mesh = scene.meshes[i];
@@ -211,7 +219,7 @@ void ShadeMeshes(const Scene& scene, const RenderSettings& settings, const Surfa
     const size_t size = flat ? mesh.triangles.size() / 3 : mesh.positions.size();
     (flat ? triangles : vertices) += points.size();
     for (const MaterialId material : MaterialsOf(scene, mesh)) {
-      all[i].push_back(ShadeMesh({surfaces, *plan}, settings, points, size, material));
+      all[i].push_back(ShadeMesh({surfaces, *plan}, settings, points, size, material, &stats));
     }
   }
   const bool any = vertices + triangles > 0;
@@ -220,6 +228,7 @@ void ShadeMeshes(const Scene& scene, const RenderSettings& settings, const Surfa
        any ? fmt::format("{} vertices and {} triangles were shaded once", vertices, triangles)
            : "no mesh is interpolated by Gouraud's method, or flat"});
   if (any) plan->mesh_radiance = std::move(all);
+  return stats;
 }
 
 }  // namespace nacre

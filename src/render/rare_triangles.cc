@@ -27,7 +27,7 @@ constexpr size_t kSamplesPerProbe = 8;
 
 // Triangles of one appearance are not rare in a pixel if they cover this share of it, because the
 // first 16 samples then have kExpectedHits hits on average; nor if they cover this area, in pixels,
-// of the 3x3 pixels bordered it. The straight edge of a large object covers at least three of
+// of the 3x3 pixels around it. The straight edge of a large object covers at least three of
 // these, a curved one less.
 constexpr double kCommonShare = kExpectedHits / 16;
 constexpr double kCommonArea = 2.5;
@@ -53,24 +53,24 @@ void ForEachPieceShare(const PixelFilter& filter, const Window& cell, const Tria
 
 // A set of the cell's pixels, row by row.
 struct PixelSet {
-  bool of[kCellSize][kCellSize] = {};
+  bool has[kCellSize][kCellSize] = {};
 };
 
 struct SharesOfCell {
-  double of[kCellSize][kCellSize] = {};
+  double share[kCellSize][kCellSize] = {};
 };
 
 // A number for each pixel of a cell and its border. A piece belongs to the pixel that holds its
 // centroid, or to the nearest one.
 template <class Number>
 struct BorderedCell {
-  Number of[kBorderedSide][kBorderedSide] = {};
+  Number numbers[kBorderedSide][kBorderedSide] = {};
 
   Number& At(const Window& bordered, const TrianglePiece& piece) {
     const auto place = [](double at, int from) {
       return static_cast<size_t>(std::clamp(std::floor(at) - from, 0.0, kBorderedSide - 1.0));
     };
-    return of[place(piece.y, bordered.y0)][place(piece.x, bordered.x0)];
+    return numbers[place(piece.y, bordered.y0)][place(piece.x, bordered.x0)];
   }
 };
 using PieceCounts = BorderedCell<size_t>;
@@ -84,9 +84,9 @@ PixelSet FindSparse(const CoveredArea& area) {
     for (int column = 0; column < kCellSize; ++column) {
       double sum = 0;
       for (int y = row; y < row + 3; ++y) {
-        for (int x = column; x < column + 3; ++x) sum += area.of[y][x];
+        for (int x = column; x < column + 3; ++x) sum += area.numbers[y][x];
       }
-      sparse.of[row][column] = sum < kCommonArea;
+      sparse.has[row][column] = sum < kCommonArea;
     }
   }
   return sparse;
@@ -104,7 +104,7 @@ void ForEachCellPiece(const FramePlan& plan, const Window& cell,
                });
 }
 
-// Pieces of one material and one visible side appearance alike.
+// Pieces of one material and one visible side look alike.
 using Appearance = std::pair<uint32_t, bool>;
 Appearance AppearanceOf(const TrianglePiece& piece) { return {piece.material, piece.front}; }
 
@@ -114,7 +114,7 @@ bool MayAppearIn(const PixelSet& pixels, const PixelFilter& filter, const Window
   const Window over = PixelsOver(filter, cell, piece.box);
   for (int y = over.y0; y < over.y1; ++y) {
     for (int x = over.x0; x < over.x1; ++x) {
-      if (pixels.of[y - cell.y0][x - cell.x0]) return true;
+      if (pixels.has[y - cell.y0][x - cell.x0]) return true;
     }
   }
   return false;
@@ -138,14 +138,14 @@ std::vector<Candidate> FindCandidates(const FramePlan& plan, const Window& cell)
     candidates.push_back({piece, std::nullopt});
     SharesOfCell& sums = shares[AppearanceOf(piece)];
     ForEachPieceShare(filter, cell, piece,
-                      [&](int column, int row, double share) { sums.of[row][column] += share; });
+                      [&](int column, int row, double share) { sums.share[row][column] += share; });
   });
   const double least = plan.adaptive.max_error * kDarkest / (2 * plan.adaptive.brightest);
   for (const auto& [appearance, sums] : shares) {
     for (int row = 0; row < kCellSize; ++row) {
       for (int column = 0; column < kCellSize; ++column) {
-        const double share = sums.of[row][column];
-        if (!(share > least && share < kCommonShare)) rare[appearance].of[row][column] = false;
+        const double share = sums.share[row][column];
+        if (!(share > least && share < kCommonShare)) rare[appearance].has[row][column] = false;
       }
     }
   }

@@ -141,6 +141,7 @@ RenderStats Render(const FramePlan& plan, const RenderSettings& settings, const 
     });
   };
   RenderStats total = RenderStrips(plan, settings, render_strip, sink, settings.on_progress);
+  total.Add(plan.planning);
   if (!adaptive) {
     total.pixel_samples.Add(static_cast<uint32_t>(plan.scene->image.spp),
                             plan.window.pixel_count());
@@ -174,6 +175,7 @@ RenderStats RenderPass(const FramePlan& plan, const RenderSettings& settings, in
   };
   RenderStats total = RenderStrips(plan, settings, render_strip, sink, on_progress);
   film->samples = end;
+  if (first == 0) total.Add(plan.planning);
   total.pixel_samples.Add(static_cast<uint32_t>(end), plan.window.pixel_count());
   return total;
 }

@@ -41,7 +41,7 @@ void ComputeDiffusePdfT(const DiffuseStrategies& strategies, const LightDirectio
                         const Surface& surface, const uint8_t* closed_form, size_t count,
                         float* pdf) {
   const D d;
-  const V by_pi = hn::Set(d, 0.318309886f);
+  const V by_pi = hn::Set(d, static_cast<float>(M_1_PI));
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
     V sum = hn::Zero(d);
     if (strategies.light) sum = hn::LoadU(d, directions.pdf.data() + i);

@@ -56,7 +56,7 @@ inline SampleNumbers& EnsureNumbers(CameraSamples* samples) {
 }
 
 // Chooses the pixels of a tile that are sampled, before its first round: all of them, or those
-// whose rays may hit something. `shapes`: FindTileShapes has found some.
+// whose rays may hit something. `shapes`: those that FindTileShapes has found.
 void EnterPixels(const SamplingPlan& plan, const Window& tile, const TileShapes& shapes,
                  CameraSamples* samples);
 

@@ -116,7 +116,7 @@ bool PlanPunctualShadows(const Scene& scene, const RenderSettings& settings, con
   }
   size_t listed = 0, binned = 0, left = 0;
   std::vector<PlanItem> items;
-  std::string crowded;  // why bins are not used
+  std::string crowded;  // why bins are not used for one of the lights
   std::string crowd;    // a description of the bins that are used
   for (PlannedPunctualLight& light : plan->lights) {
     if (!light.shadow_rays) continue;
@@ -128,11 +128,13 @@ bool PlanPunctualShadows(const Scene& scene, const RenderSettings& settings, con
       const LightOccluders& found = hits.intersector->Occluders(light.occluders);
       if (few) SkipUnshadowed(found.lists, &light, &item);
       bins = light.shadow_rays && found.bins.has_value();
+      std::string why_not_bins;
       if (bins && (settings.intersector == IntersectorChoice::kAuto || found.bins->overfull)) {
-        crowded = WhyNotBins(*found.bins);
+        why_not_bins = WhyNotBins(*found.bins);
       }
-      if (bins) crowd = DescribeBins(*found.bins);
-      if (!crowded.empty() || !why_tree.empty()) light.occluders = kAnyLight;
+      if (bins && why_not_bins.empty()) crowd = DescribeBins(*found.bins);
+      if (!why_not_bins.empty() || !why_tree.empty()) light.occluders = kAnyLight;
+      if (crowded.empty()) crowded = why_not_bins;
     }
     if (light.shadow_rays) ++(light.occluders == kAnyLight ? left : bins ? binned : listed);
     items.push_back(std::move(item));
@@ -183,10 +185,8 @@ bool NeedsTree(const RenderSettings& settings, const OccluderLists& lists) {
 
 // Whether all triangles of the scene are the light's own shape, which casts no shadow of its light.
 bool OwnsTriangles(const Scene& scene, const PlannedSampledLight& light) {
-  size_t triangles = 0;
-  for (const Mesh& mesh : scene.meshes) triangles += mesh.triangles.size() / 3;
   return light.primitives.begin == scene.spheres.size() &&
-         light.primitives.end == scene.spheres.size() + triangles;
+         light.primitives.end == scene.spheres.size() + CountTriangles(scene);
 }
 
 // For scenes of few spheres and of no other triangles than the light's: lists instead of a tree, in

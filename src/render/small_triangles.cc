@@ -69,12 +69,10 @@ std::optional<NarrowTriangle> ProjectNarrow(const PrimitiveNumbers& numbers,
   for (size_t c = 0; c < 3; ++c) {
     const Vec3d place =
         triangle.mesh->positions[triangle.Vertex(c)] - numbers.scene->camera.position;
-    const double depth = place.dot(projector.forward);
-    if (!(depth > 0)) return std::nullopt;
-    const double scale = projector.inverse_pixel / (projector.perspective ? depth : 1);
+    if (!(place.dot(projector.forward) > 0)) return std::nullopt;
+    const FilmPoint at = ProjectPoint(projector, place);
     Vec2d& corner = narrow.corners[c];
-    corner = {place.dot(projector.right) * scale + projector.middle_x,
-              place.dot(projector.down) * scale + projector.middle_y};
+    corner = {at.x, at.y};
     if (!(std::abs(corner.x) < kMaxFilmPosition && std::abs(corner.y) < kMaxFilmPosition)) {
       return std::nullopt;
     }
@@ -162,13 +160,10 @@ void CutToPieces(const PieceSource& source, const FilmTriangle& t, const FilmBou
 SmallTriangles BinSmallTriangles(const PrimitiveNumbers& numbers, const Projector& projector,
                                  const Window& window, double margin, int threads) {
   SmallTriangles triangles;
-  const auto up = [](int pixel) { return (pixel + kCellSize - 1) / kCellSize * kCellSize; };
-  const auto down = [](int pixel) { return pixel / kCellSize * kCellSize; };
-  triangles.cells = {down(window.x0), down(window.y0), up(window.x1), up(window.y1)};
+  triangles.cells = ExtendToCells(window);
   triangles.margin = margin;
   const Scene& scene = *numbers.scene;
-  size_t count = 0;
-  for (const Mesh& mesh : scene.meshes) count += mesh.triangles.size() / 3;
+  const size_t count = CountTriangles(scene);
   const int columns = Columns(triangles.cells);
   const size_t cells =
       static_cast<size_t>(columns) * static_cast<size_t>(triangles.cells.height() / kCellSize);

@@ -18,17 +18,18 @@
 namespace nacre {
 
 // Reused from tile to tile. Each result and its room are written by one stage only, which a comment
-// names; but ResolveSurfaces swaps its buffers with those of `hits` where it need not sort.
+// names with the function that does most of it; but ResolveSurfaces swaps its buffers with those of
+// `hits` where it need not sort.
 struct TileWork {
   TileShapes shapes;      // FindTileShapes
-  CameraSamples samples;  // MakeSamples, or adaptive sampling
-  CameraHits hits;        // TraceCamera
+  CameraSamples samples;  // samples: EnterPixels, MakeSamples; or adaptive sampling
+  CameraHits hits;        // hits: TraceCamera
   TraceRoom trace_room;
-  Surfaces surfaces;  // ResolveSurfaces
+  Surfaces surfaces;  // surfaces: ResolveSurfaces
   SortRoom sort_room;
-  BatchRadiance radiance;  // ShadeDirect
+  BatchRadiance radiance;  // radiance: ShadeDirect, or ShadeSky where rays hit nothing
   DirectRoom direct_room;
-  TileFilm film;  // AddToFilm
+  TileFilm film;  // film: StartTile, AddToFilm; or adaptive sampling
   LayerRoom layer_room;
   const std::atomic<bool>* cancel = nullptr;  // RenderSettings::cancel
 };

@@ -120,8 +120,8 @@ NACRE_DERIVE double MixedF90(double dielectric_f90, double metallic) {
   return 1 - (1 - dielectric_f90) * (1 - metallic);
 }
 
-// One channel of the mix of both curves, at normal and at grazing incidence; and of Turquin's
-// compensation (MicrofacetModel::turquin_f0).
+// One channel of the mix of both curves at normal incidence; and for Turquin's compensation of
+// Schlick's curve F0 F of both, mixed, at normal and at grazing incidence (TurquinTerm).
 struct MixedCurve {
   double f0, turquin_f0, turquin_f90;
 };

@@ -235,9 +235,6 @@ void PhongPdfT(PhongModel model, const PhongExponent& exponents, const LobeRange
                const LightBatch& light, const SharpLobeTerms* sharp, float* pdf) {
   const D d;
   const bool blinn = model == PhongModel::kBlinnPhong;
-  const V one = hn::Set(d, 1.0f);
-  const V half_pi_inverse = hn::Set(d, 0.159154943f);  // 1 / 2 pi
-  const V smallest = hn::Set(d, 0x1p-60f);
   for (size_t i = range.begin; i < range.end; i += hn::Lanes(d)) {
     const Vec3V<V> normal = LoadSoa(D(), range.surface.normal, i),
                    to_light = LoadSoa(D(), light.to_light, i);
@@ -254,11 +251,8 @@ void PhongPdfT(PhongModel model, const PhongExponent& exponents, const LobeRange
     }
     const V exponent = ExponentAt(exponents, i);
     const V lobe = blinn ? BlinnLobe(d, cosine, exponent) : PhongLobe(d, cosine, exponent);
-    const V scaled = hn::Mul(hn::Mul(half_pi_inverse, hn::Add(exponent, one)), lobe);
-    V value = blinn ? scaled : PhongLobePdf(d, lobe, exponent);
-    // |u| = 2 v.h: the pdf of h over 4 v.h is that of l.
-    const V u_length = hn::Sqrt(hn::Max(angles.u_squared, smallest));
-    if (blinn) value = hn::Div(value, hn::Add(u_length, u_length));
+    const V value =
+        blinn ? BlinnLobePdf(d, lobe, angles, exponent) : PhongLobePdf(d, lobe, exponent);
     hn::BlendedStore(value, hn::FirstN(d, range.end - i), d, pdf + i);
   }
 }

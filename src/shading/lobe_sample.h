@@ -42,7 +42,7 @@ void SampleUnderLayers(const ShadingMaterial& material, const LobeRange& range, 
 void UnderLayersPdf(const ShadingMaterial& material, const LobeRange& range,
                     const Soa3<float>& to_light, const float* light_pdf, float* pdf);
 
-// Directions by the material's lobe: the normals that are visible (Heitz 2018) of a GGX lobe,
+// Directions by the material's lobe: the visible normals of a GGX lobe (SampleGgxVisible),
 // shared out between it and the lobe of Kulla and Conty's compensation, of which PrepareRun must
 // have run; the lobe itself of the Phong family. Directions below the surface reflect nothing.
 void SampleLobe(const ShadingMaterial& material, const LobeRange& range, const float* u,

@@ -111,8 +111,6 @@ void TakeColors(const OfChannel& of_channel, MicrofacetModel* model) {
     model->f82_slope[c] = at.f82_slope;
     model->f0[c] = mix.f0;
     model->f90 = MixedF90(at.dielectric_f90, at.metallic);
-    model->turquin_f0[c] = mix.turquin_f0;
-    model->turquin_f90[c] = mix.turquin_f90;
     if (!kulla_conty) continue;
     const KullaContyChannel multiple = DeriveKullaConty(
         *model, at, {model->dielectric_f_average[c], model->metal_f_average[c]}, albedo);

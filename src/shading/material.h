@@ -73,9 +73,6 @@ struct MicrofacetModel : MicrofacetForm {
   Rgb eta{0, 0, 0}, k{0, 0, 0};  // kDielectric (eta), kConductor
   Rgb f0{0, 0, 0};               // of the mix
   double f90 = 1;
-  // kTurquin, Schlick's curve: F0 F of both, mixed, at normal and at grazing incidence; see
-  // TurquinTerm.
-  Rgb turquin_f0{0, 0, 0}, turquin_f90{0, 0, 0};
   // kKullaConty: the means of both Fresnel curves; what light that bounced more than once has left
   // of the dielectric's reflection, F_ms, and of the mix.
   Rgb dielectric_f_average{0, 0, 0}, metal_f_average{0, 0, 0};

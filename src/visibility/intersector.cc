@@ -97,8 +97,8 @@ bool Intersector::SphereIsFirst(uint32_t sphere, const RayBatch& rays, size_t ra
 
 bool Intersector::BinForCamera(const CameraFrame& frame, const Window& window,
                                double sample_margin) {
-  // 256 MiB; beyond that a tree is better.
-  constexpr size_t kMaxEntries = size_t{1} << 26;
+  // An entry is the number of a sphere and its pixel rows.
+  constexpr size_t kMaxEntries = kMaxCameraBinBytes / (sizeof(uint32_t) + sizeof(uint16_t));
   state_->camera = frame;
   return BinSpheres(state_->geometry, frame, window, sample_margin, kMaxEntries,
                     state_->settings.threads, &state_->bins);

@@ -23,6 +23,9 @@
 
 namespace nacre {
 
+// Bins of spheres for camera rays take at most this; beyond it a tree is better.
+inline constexpr size_t kMaxCameraBinBytes = size_t{384} << 20;
+
 struct IntersectorSettings {
   int threads = 0;      // that building uses; 0: as many as the machine has
   bool tree = true;     // false: no tree is built until BuildTree is called
@@ -90,8 +93,8 @@ class Intersector {
   bool SphereIsFirst(uint32_t sphere, const RayBatch& rays, size_t ray, double t) const;
 
   // Bins the spheres for the camera rays of the window's pixels, whose samples lie at most
-  // `sample_margin` pixels outside them (BinSpheres). False, and no bins, if that would take too
-  // much room. Triangles are not binned.
+  // `sample_margin` pixels outside them (BinSpheres). False, and no bins, if that would take more
+  // than kMaxCameraBinBytes. Triangles are not binned.
   bool BinForCamera(const CameraFrame& frame, const Window& window, double sample_margin);
 
   // Then, instead of Closest and Refine, for a tile that lies within one row of cells

@@ -23,7 +23,7 @@ using F = hn::ScalableTag<float>;
 using VF = hn::Vec<F>;
 
 // A vector of rays that start on one sphere, in float.
-struct FloatRays {
+struct ListRays {
   Vec3V<VF> to_own;     // from the origin to that sphere's centre
   Vec3V<VF> direction;  // unit
   VF length;            // of the ray, up to t_max
@@ -38,9 +38,9 @@ HWY_INLINE Vec3V<VF> SubtractAndRound3(const Vec3d& minuend, const Soa3<double>&
 }
 
 // Directions whose squares leave the range of float become NaN, and are left to the exact test.
-HWY_INLINE FloatRays LoadFloatRays(const ShadowRayBatch& rays, size_t first, const Vec3d& own) {
+HWY_INLINE ListRays LoadListRays(const ShadowRayBatch& rays, size_t first, const Vec3d& own) {
   const F d;
-  FloatRays loaded;
+  ListRays loaded;
   loaded.to_own = SubtractAndRound3(own, rays.origin, first);
   const Vec3V<VF> back = SubtractAndRound3(Vec3d(0, 0, 0), rays.direction, first);
   const VF length2 = FusedDot(back, back);
@@ -61,7 +61,7 @@ struct Approach {
                  // origin
 };
 
-HWY_INLINE Approach FindApproach(const FloatOccluder& sphere, const FloatRays& rays) {
+HWY_INLINE Approach FindApproach(const FloatOccluder& sphere, const ListRays& rays) {
   const F d;
   const Vec3V<VF> to_center{hn::Add(hn::Set(d, sphere.center[0]), rays.to_own.x),
                             hn::Add(hn::Set(d, sphere.center[1]), rays.to_own.y),
@@ -125,7 +125,7 @@ struct ListPart {
 
 // Collects those spheres of the part that any of the rays `pending` may hit; returns their number.
 // Without a branch, because no branch predictor would find a pattern.
-HWY_INLINE size_t FindNear(const OccluderLists& lists, const ListPart& part, const FloatRays& rays,
+HWY_INLINE size_t FindNear(const OccluderLists& lists, const ListPart& part, const ListRays& rays,
                            uint32_t pending, uint32_t* near) {
   size_t count = 0;
   for (size_t k = 0; k < part.count; ++k) {
@@ -143,7 +143,7 @@ HWY_INLINE uint32_t OccludedByList(const TraceGeometry& geometry, const Occluder
                                    size_t first, uint32_t pending) {
   const F d;
   const TraceSphere& own = geometry.spheres[start];
-  const FloatRays floats = LoadFloatRays(rays, first, own.center);
+  const ListRays floats = LoadListRays(rays, first, own.center);
   pending &= floats.active;
   uint32_t occluded = 0;
   uint32_t near[kMaxListedSpheres];
@@ -223,7 +223,8 @@ TraceSphere BoundPositionsT(const HitBatch& hits) {
   return {(low + high) / 2, (high - low).length() / 2 * (1 + 1e-9)};
 }
 
-HWY_INLINE void StoreOccluded(uint32_t occluded, size_t first, size_t count, ShadowRayBatch* rays) {
+HWY_INLINE void StoreListOccluded(uint32_t occluded, size_t first, size_t count,
+                                  ShadowRayBatch* rays) {
   for (size_t lane = 0; lane < count; ++lane) {
     rays->occluded[first + lane] = static_cast<uint8_t>((occluded >> lane) & 1);
   }
@@ -239,8 +240,8 @@ HWY_INLINE void OccludedOfRun(const TraceGeometry& geometry, const OccluderLists
   for (; first < end; first += step) {
     const size_t count = std::min(step, end - first);
     const uint32_t lanes = (1u << count) - 1;
-    StoreOccluded(OccludedByList(geometry, lists, {entries, kept}, start, *rays, first, lanes),
-                  first, count, rays);
+    StoreListOccluded(OccludedByList(geometry, lists, {entries, kept}, start, *rays, first, lanes),
+                      first, count, rays);
   }
 }
 

@@ -59,7 +59,7 @@ struct Gathered {
   bool any_triangle = false;
 };
 
-struct Surface {
+struct RefinedHit {
   Vec3V<V> position;
   Vec3V<V> normal;   // unit, on the ray's side
   Vec3V<V> to_view;  // unit, above the normal's horizon
@@ -81,7 +81,7 @@ HWY_INLINE Vec3V<V> RefineProjectedNormal(const Gathered& in, size_t i, const Re
                          rays.inverse_length);
 }
 
-HWY_INLINE Surface RefineSphere(const Gathered& in, size_t i, const RefineRays& rays) {
+HWY_INLINE RefinedHit RefineSphere(const Gathered& in, size_t i, const RefineRays& rays) {
   const D d;
   const Vec3V<V> center = in.center.Load(i);
   const V radius = hn::Load(d, in.radius + i);
@@ -121,7 +121,7 @@ HWY_INLINE Vec3V<V> ScaledAndNormalized(const Vec3V<V>& v) {
   return Scale(scaled, hn::Div(hn::Set(d, 1.0), hn::Sqrt(Dot(scaled, scaled))));
 }
 
-HWY_INLINE Surface RefineTriangle(const Gathered& in, size_t i, const RefineRays& rays) {
+HWY_INLINE RefinedHit RefineTriangle(const Gathered& in, size_t i, const RefineRays& rays) {
   const D d;
   const auto& [origin, direction] = std::tie(rays.origin, rays.direction);
   const V zero = hn::Zero(d);
@@ -158,8 +158,7 @@ HWY_INLINE void GatherTriangle(const TraceGeometry& geometry, uint32_t triangle,
 HWY_INLINE bool IsStart(const TraceGeometry& geometry, const RayBatch& rays, uint32_t ray,
                         const TraceSphere& sphere) {
   if (!rays.from_surfaces || rays.start[ray] >= geometry.SphereCount()) return false;
-  const TraceSphere& start = geometry.spheres[rays.start[ray]];
-  return start.center == sphere.center && start.radius == sphere.radius;
+  return Coincide(geometry.spheres[rays.start[ray]], sphere);
 }
 
 HWY_INLINE void GatherSphere(const TraceSphere& sphere, const ProjectedTestView& view, size_t i,
@@ -202,7 +201,7 @@ HWY_INLINE void Gather(const RefineRequest& request, size_t first, size_t size, 
   }
 }
 
-HWY_INLINE void StoreSurfaces(const Surface& surface, size_t first, const HitOutput& to) {
+HWY_INLINE void StoreSurfaces(const RefinedHit& surface, size_t first, const HitOutput& to) {
   const D d;
   const hn::Rebind<float, D> df;
   HitBatch& hits = *to.hits;
@@ -233,8 +232,8 @@ HWY_INLINE void RefineVector(const Gathered& in, size_t i, size_t first, const H
   } else if (!in.any_sphere) {
     StoreSurfaces(RefineTriangle(in, i, rays), first, to);
   } else {
-    const Surface sphere = RefineSphere(in, i, rays);
-    const Surface triangle = RefineTriangle(in, i, rays);
+    const RefinedHit sphere = RefineSphere(in, i, rays);
+    const RefinedHit triangle = RefineTriangle(in, i, rays);
     const auto is_triangle = hn::Gt(hn::Load(d, in.is_triangle + i), hn::Zero(d));
     StoreSurfaces({Select(is_triangle, triangle.position, sphere.position),
                    Select(is_triangle, triangle.normal, sphere.normal),

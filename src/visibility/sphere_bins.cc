@@ -52,6 +52,16 @@ Projector MakeProjector(const CameraFrame& frame) {
   return p;
 }
 
+double PixelsPerLength(const Projector& projector, const Vec3d& point) {
+  return projector.inverse_pixel / (projector.perspective ? point.dot(projector.forward) : 1);
+}
+
+FilmPoint ProjectPoint(const Projector& projector, const Vec3d& point) {
+  const double scale = PixelsPerLength(projector, point);
+  return {point.dot(projector.right) * scale + projector.middle_x,
+          point.dot(projector.down) * scale + projector.middle_y};
+}
+
 // A thousandth of a pixel and a billionth of the film coordinate. The last term is the rounding of
 // directions of length 1, which matters for telephoto lenses, whose pixels are that small.
 double ProjectionMargin(const Projector& projector, double at) {

@@ -18,6 +18,11 @@ namespace nacre {
 inline constexpr int kCellSize = 16;
 // Where the cell of a pixel's column, or row, begins.
 inline int DownToCell(int pixel) { return pixel / kCellSize * kCellSize; }
+// The window extended to whole cells.
+inline Window ExtendToCells(const Window& window) {
+  const auto up = [](int pixel) { return DownToCell(pixel + kCellSize - 1); };
+  return {DownToCell(window.x0), DownToCell(window.y0), up(window.x1), up(window.y1)};
+}
 
 // A camera's projection from camera space to pixels.
 struct Projector {
@@ -28,6 +33,16 @@ struct Projector {
 };
 
 Projector MakeProjector(const CameraFrame& frame);
+
+// How many pixels a unit length parallel to the film has at a point. Points are relative to the
+// camera.
+double PixelsPerLength(const Projector& projector, const Vec3d& point);
+
+// Positions on the film, in pixels.
+struct FilmPoint {
+  double x, y;
+};
+FilmPoint ProjectPoint(const Projector& projector, const Vec3d& point);
 
 // Bounds of a sphere's projection, in pixels; infinite where the sphere extends behind the camera.
 struct ProjectedBounds {

@@ -298,6 +298,25 @@ TEST_CASE("a tree is there where it is needed, and only there") {
 
 // Adaptive sampling's batches may end within a row of the cell; behind them lies what the one
 // before left there.
+// Along the first light's rays all spheres lie in one cell of its bins, where a tree is better;
+// each light is planned by its own bins.
+TEST_CASE("a light that needs a tree for its shadow rays leaves the others their bins") {
+  Scene scene;
+  scene.camera.position = {0, 0, 40};
+  scene.materials = {Material{}};
+  for (int i = 0; i < 2500; ++i) scene.spheres.push_back({{3.0 * i, 0, 0}, 1, {0}});
+  Light along, across;
+  along.kind = DirectionalLight{{-1, 0, 0}, {1, 1, 1}};
+  across.kind = DirectionalLight{{0, -1, 0}, {1, 1, 1}};
+  for (const bool first : {true, false}) {
+    scene.lights = first ? std::vector{along, across} : std::vector{across, along};
+    const FramePlan plan = MakePlan(scene, {});
+    REQUIRE(plan.direct.lights.size() == 2);
+    CHECK(plan.direct.lights[first ? 0 : 1].occluders == kAnyLight);
+    CHECK(plan.direct.lights[first ? 1 : 0].occluders != kAnyLight);
+  }
+}
+
 TEST_CASE("a tile's hits are of the batch's own rays, wherever it ends") {
   for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
     Scene scene = OneSphere(LambertMaterial{}, 16);

@@ -338,6 +338,26 @@ TEST_CASE("of triangles with the same vertices the first one is seen") {
   }
 }
 
+// Counts of shadow rays, lights and bad directions belong to the picture, whenever they were made.
+TEST_CASE("what shading vertices and triangles takes is counted in the picture's statistics") {
+  for (const Interpolation interpolation : {Interpolation::kGouraud, Interpolation::kFlat}) {
+    Scene scene = MakeSphereScene(interpolation, 2);
+    scene.image.shadows = true;
+    const FramePlan plan = MakePlan(scene, {});
+    const Mesh& mesh = scene.meshes[0];
+    const size_t points =
+        interpolation == Interpolation::kFlat ? mesh.triangles.size() / 3 : mesh.positions.size();
+    RenderStats stats;
+    RenderImage(plan, {}, &stats);
+    CAPTURE(static_cast<int>(interpolation), points, stats.shades);
+    // Both lights at each point; vertices on the outline have a point on either side.
+    CHECK(stats.shades >= 2 * points);
+    CHECK(stats.shades <= 4 * points);
+    CHECK(stats.shadow_rays >= points / 4);
+    CHECK(stats.shades == plan.planning.shades);
+  }
+}
+
 TEST_CASE("lights with an extent shine on vertices and centroids, too") {
   for (const Interpolation interpolation : {Interpolation::kGouraud, Interpolation::kFlat}) {
     Scene scene = MakeSphereScene(interpolation, 3);

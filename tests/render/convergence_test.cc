@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// tests/render/convergence_test.cc: which pixels are told as not settled.
+#include "render/convergence.h"
+
+#include <memory>
+
+#include "catch.h"
+#include "render/frame_plan.h"
+
+namespace nacre {
+namespace {
+
+// One pixel on an outline, half covered, with one sample in each replicate: the first two hit what
+// shines with 0.6, the others a black background. Other hits of the pixel's block shine with `low`
+// to `high`.
+size_t CountUnsettledOf(double low, double high, size_t levels) {
+  FramePlan plan;
+  plan.film.layers.resize(1);
+  plan.adaptive.max_error = 0.1;
+  plan.adaptive.levels.resize(levels);
+  const auto cell = std::make_unique<CellState>();
+  cell->active = {0};
+  cell->samples[0] = 1;
+  for (size_t r = 0; r < 2; ++r) {
+    for (size_t channel = 0; channel < 3; ++channel) cell->replicate[r][channel][0] = 0.6;
+    cell->replicate[r][3][0] = 1;
+  }
+  cell->outlined = 1;
+  cell->on_outline[0] = cell->sees_background[0] = true;
+  cell->coverage[0] = 0.5;
+  for (size_t channel = 0; channel < 3; ++channel) {
+    cell->hit_low[channel][0] = low;
+    cell->hit_high[channel][0] = high;
+    cell->second_highest[channel][0] = cell->highest[channel][0] = 0.6;
+  }
+  const Window window{0, 0, kCellSize, kCellSize};
+  return CountUnsettled(plan, window, window, cell.get());
+}
+
+// With so few samples that no pixel was ever dropped, a block's range was never found before: the
+// error of an outline pixel is its coverage times the range, over its two hits.
+TEST_CASE("outline pixels of few samples are told by the range of their block's hits") {
+  CHECK(CountUnsettledOf(0.6, 0.6, 1) == 0);
+  CHECK(CountUnsettledOf(0.55, 0.65, 1) == 0);  // 0.025 of 0.3
+  CHECK(CountUnsettledOf(0.2, 1, 1) == 1);      // 0.2 of 0.3
+}
+
+}  // namespace
+}  // namespace nacre
