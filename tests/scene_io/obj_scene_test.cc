@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "catch.h"
+#include "image_io/png_writer.h"
 #include "messages.h"
 #include "scene_io/gltf_builder.h"
 #include "scene_io/obj.h"
@@ -477,6 +478,26 @@ TEST_CASE("an image is decoded once, however its name is spelled") {
   CHECK(std::count_if(warnings.begin(), warnings.end(), [](const std::string& text) {
           return Contains(text, "differ in size");
         }) == 1);
+}
+
+// 32 times its values would be more than the images of a model may have (TexelBudget).
+TEST_CASE("a pair of images that does not fit is decoded once, too") {
+  const ModelFolder folder;
+  WritePng((folder.path / "r.png").string(), FilledPicture(1024, 1024, {9, 9, 9}));
+  WritePng((folder.path / "m.png").string(), FilledPicture(1024, 1023, {9, 9, 9}));
+  std::string mtl;
+  for (int i = 0; i < 32; ++i) mtl += fmt::format("newmtl m{}\nmap_Pr r.png\nmap_Pm m.png\n", i);
+  folder.Write("a.mtl", mtl);
+  std::vector<std::string> warnings;
+  LoadOptions options;
+  options.on_warning = [&](const std::string& text) { warnings.push_back(text); };
+  LoadScene(folder.Write("m.obj", kCorner), options);
+  const auto count = [&](const char* text) {
+    return std::count_if(warnings.begin(), warnings.end(),
+                         [&](const std::string& warning) { return Contains(warning, text); });
+  };
+  CHECK(count("differ in size") == 1);
+  CHECK(count("too many") == 0);
 }
 
 TEST_CASE("materials of one name become different ones") {
