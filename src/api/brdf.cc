@@ -115,15 +115,6 @@ void CopyFrom(const Soa3<float>& from, size_t begin, size_t count,
   }
 }
 
-// below = below * left + over.
-void Cover(const Soa3<float>& left, const Soa3<float>& over, size_t count, Soa3<float>* below) {
-  for (size_t i = 0; i < count; ++i) {
-    below->x[i] = below->x[i] * left.x[i] + over.x[i];
-    below->y[i] = below->y[i] * left.y[i] + over.y[i];
-    below->z[i] = below->z[i] * left.z[i] + over.z[i];
-  }
-}
-
 // A batch under a light of irradiance 1, and what it takes to shade it.
 class Batch {
  public:
@@ -142,14 +133,7 @@ class Batch {
       lit_.irradiance[i] = above ? 1.0f : 0.0f;
     }
     PrepareSurface(hits_, &surface_);
-    PrepareRun(material, 0, count, &surface_);
-    ShadeRun(material, {hits_, surface_, light_, &lit_}, 0, count, &scratch_, &radiance_);
-    if (!material.coat) return;
-    // What the coat leaves of what is below it, and what it reflects itself.
-    PrepareRun(*material.coat, 0, count, &surface_);
-    ShadeRun(*material.coat, {hits_, surface_, light_, &lit_}, 0, count, &scratch_, &of_coat_);
-    Cover(surface_.base, of_coat_.diffuse, count, &radiance_.diffuse);
-    Cover(surface_.base, of_coat_.specular, count, &radiance_.specular);
+    ShadeWithCoat(material, hits_, light_, lit_, &surface_, &scratch_, &of_coat_, &radiance_);
   }
 
   const ReflectedRadiance& radiance() const { return radiance_; }

@@ -95,6 +95,10 @@ std::optional<Error> UnknownArgument(const CLI::App& app, const CLI::ParseError&
   for (const CLI::Option* known : command.get_options()) {
     for (std::string& name : NamesOf(*known)) names.push_back(std::move(name));
   }
+  if (word == "--fast") {
+    return Error(ExitCode::kUsage, "", "unknown option --fast: the fast mode is gone",
+                 "leave it out: samples reach the fast mode's error sooner");
+  }
   const std::string meant = OptionMeant(word, names);
   return Error(ExitCode::kUsage, "", fmt::format("unknown option {}", word),
                meant.empty() ? fmt::format("{} tells every option", help)

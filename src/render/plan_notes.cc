@@ -43,7 +43,8 @@ double LobeRoughness(const Material& material) {
       material.model);
 }
 
-// A perfect mirror reflects only what has an extent. This notes mirrors where no light has one.
+// A perfect mirror reflects only what has an extent. This notes mirrors where no light has one, if
+// there are lights.
 // `parameter`: the name of the roughness that makes material i a mirror if is_mirror(i), and whose
 // value is roughness_of(i).
 template <class IsMirror, class RoughnessOf>
@@ -214,7 +215,8 @@ std::vector<bool> FindUsedMaterials(const Scene& scene) {
 void NoteMaterials(const Scene& scene, const std::vector<ShadingMaterial>& materials,
                    bool sampled_lights, std::vector<std::string>* notes) {
   NoteDarkness(scene, notes);
-  if (!sampled_lights) NoteMirrors(scene, materials, notes);
+  const bool has_punctual = std::any_of(scene.lights.begin(), scene.lights.end(), IsPunctual);
+  if (!sampled_lights && has_punctual) NoteMirrors(scene, materials, notes);
   NoteGain(scene, materials, notes);
   NotePhongGain(scene, notes);
 }

@@ -210,8 +210,10 @@ constexpr std::array kMetallicRoughnessParameters = {
         "get the light that its albedo leaves."),
     Number<&MetallicRoughnessMaterial::coat_roughness>("coat_roughness", limits::kUnit,
                                                        kRoughnessMeaning),
-    Number<&MetallicRoughnessMaterial::coat_ior>("coat_ior", limits::kIor,
-                                                 "Index of refraction of the coat."),
+    Number<&MetallicRoughnessMaterial::coat_ior>(
+        "coat_ior", limits::kIor,
+        "Index of refraction of the coat, which gives F0 of Schlick's "
+        "curve."),
     Color<&MetallicRoughnessMaterial::sheen_color>(
         "sheen_color", limits::kUnit,
         "Colour of the sheen, the fuzz of velvet, which is bright at grazing angles (Estevez and "

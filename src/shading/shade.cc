@@ -217,6 +217,15 @@ void ShadeModel(const ShadingMaterial& material, const ShadeRange& range, ShadeS
       material.model);
 }
 
+// below = below * left + over: what a coat leaves of what is below it, and reflects itself.
+void Cover(const Soa3<float>& left, const Soa3<float>& over, size_t count, Soa3<float>* below) {
+  for (size_t i = 0; i < count; ++i) {
+    below->x[i] = below->x[i] * left.x[i] + over.x[i];
+    below->y[i] = below->y[i] * left.y[i] + over.y[i];
+    below->z[i] = below->z[i] * left.z[i] + over.z[i];
+  }
+}
+
 }  // namespace
 
 void ShadeRun(const ShadingMaterial& material, const LitHits& lit, size_t begin, size_t end,
@@ -227,6 +236,21 @@ void ShadeRun(const ShadingMaterial& material, const LitHits& lit, size_t begin,
   for (const LayerModel& layer : material.layers) {
     CoverByLayer(layer, material.mapped_model ? lit.textures : nullptr, range);
   }
+}
+
+void ShadeWithCoat(const ShadingMaterial& material, const HitBatch& hits, const ShadingLight& light,
+                   const LightBatch& on_hits, Surface* surface, ShadeScratch* scratch,
+                   ReflectedRadiance* of_coat, ReflectedRadiance* radiance) {
+  const auto shade = [&](const ShadingMaterial& own, ReflectedRadiance* to) {
+    PrepareRun(own, 0, hits.count, surface);
+    ShadeRun(own, {hits, *surface, light, &on_hits}, 0, hits.count, scratch, to);
+  };
+  shade(material, radiance);
+  if (!material.coat) return;
+  shade(*material.coat, of_coat);
+  Cover(surface->base, of_coat->diffuse, hits.count, &radiance->diffuse);
+  Cover(surface->base, of_coat->specular, hits.count, &radiance->specular);
+  Cover(surface->base, of_coat->sum, hits.count, &radiance->sum);
 }
 
 void ClearSoa(size_t count, Soa3<float>* soa) {

@@ -106,6 +106,12 @@ void EvaluateLight(const ShadingLight& light, const HitBatch& hits, const Surfac
 void ShadeRun(const ShadingMaterial& material, const LitHits& lit, size_t begin, size_t end,
               ShadeScratch* scratch, ReflectedRadiance* radiance);
 
+// The same of all hits of a batch, on one material without maps, with its coat, if it has one, over
+// it. Prepares the run. `of_coat`: a buffer.
+void ShadeWithCoat(const ShadingMaterial& material, const HitBatch& hits, const ShadingLight& light,
+                   const LightBatch& on_hits, Surface* surface, ShadeScratch* scratch,
+                   ReflectedRadiance* of_coat, ReflectedRadiance* radiance);
+
 // Zeroes the first `count` entries.
 void ClearSoa(size_t count, Soa3<float>* soa);
 void ClearRadiance(size_t count, ReflectedRadiance* radiance);

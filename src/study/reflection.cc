@@ -16,7 +16,7 @@ Reflection ReflectByKernel(const ShadingMaterial& material, const Vec3d& normal,
     Surface surface;
     LightBatch light;
     ShadeScratch scratch;
-    ReflectedRadiance radiance;
+    ReflectedRadiance of_coat, radiance;
   };
   const auto batches = std::make_unique<Batches>();
   HitBatch& hits = batches->hits;
@@ -34,9 +34,8 @@ Reflection ReflectByKernel(const ShadingMaterial& material, const Vec3d& normal,
   const ShadingLight prepared = PrepareLight(light, Vec3d(0));
   PrepareSurface(hits, &batches->surface);
   EvaluateLight(prepared, hits, batches->surface, &batches->light);
-  PrepareRun(material, 0, 1, &batches->surface);
-  ShadeRun(material, {hits, batches->surface, prepared, &batches->light}, 0, 1, &batches->scratch,
-           &batches->radiance);
+  ShadeWithCoat(material, hits, prepared, batches->light, &batches->surface, &batches->scratch,
+                &batches->of_coat, &batches->radiance);
   const auto get = [](const Soa3<float>& soa) { return Rgb(soa.x[0], soa.y[0], soa.z[0]); };
   return {get(batches->radiance.diffuse), get(batches->radiance.specular)};
 }

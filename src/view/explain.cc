@@ -161,8 +161,14 @@ Reflection ReflectedJson(const ExplainedMaterial& material, const Point& point,
   }
   if (const ShadingMaterial* const coat = material.prepared.coat.get()) {
     const Vec3d& m = material.coat_normal;
-    cover("coat", TermsJson(*coat, m, to_light, v), Reflect(*coat, m, to_light, v),
-          LeftByCoat(*coat, m ^ v));
+    Json terms = TermsJson(*coat, m, to_light, v);
+    if (m != n) {  // its own normal, whose angles the terms follow
+      const Vec3d u = to_light + v;
+      terms["n_dot_l"] = m ^ to_light;
+      terms["n_dot_v"] = m ^ v;
+      terms["n_dot_h"] = u.length() > 0 ? (m ^ u) / u.length() : 1;
+    }
+    cover("coat", std::move(terms), Reflect(*coat, m, to_light, v), LeftByCoat(*coat, m ^ v));
   }
   (*json)["covers"] = std::move(covers);
   return {sum.diffuse * irradiance, sum.specular * irradiance};

@@ -619,6 +619,7 @@ class CliTest(unittest.TestCase):
                             ('--spp-', '--spp'), ('--wdith', '--size')):
             with self.subTest(word=word):
                 self.check_fails(64, f'did you mean {meant}?', 'render', scene, *out, word, '4')
+        self.check_fails(64, 'the fast mode is gone', 'render', scene, *out, '--fast')
         # A command without that option: plot has no samples.
         self.check_fails(64, 'tells every option', 'plot', 'fresnel', '-o', self.out / 'a.png', '--smaples', '4')
 

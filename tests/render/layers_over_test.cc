@@ -157,13 +157,16 @@ TEST_CASE("a white surface under white sheen makes no light, and sheen brightens
 TEST_CASE("a plan notes coats that are perfect mirrors") {
   MetallicRoughnessMaterial model;
   model.coat = 1;
-  const auto notes = [&](double roughness) {
+  const auto notes = [&](double roughness, bool lamp) {
     model.coat_roughness = roughness;
-    return MakePlan(UnderALamp(model, Vec3d(0, 0, 1)), {}).why.notes;
+    Scene scene = UnderALamp(model, Vec3d(0, 0, 1));
+    if (!lamp) scene.lights = {Named("ambient", AmbientLight{Rgb(1)})};
+    return MakePlan(scene, {}).why.notes;
   };
-  CHECK(notes(0.1).empty());
-  REQUIRE(notes(0).size() == 1);
-  CHECK(notes(0)[0].find(": coat_roughness 0 is below 2^-20") != std::string::npos);
+  CHECK(notes(0.1, true).empty());
+  CHECK(notes(0, false).empty());  // no light has a highlight that could be missed
+  REQUIRE(notes(0, true).size() == 1);
+  CHECK(notes(0, true)[0].find(": coat_roughness 0 is below 2^-20") != std::string::npos);
 }
 
 TEST_CASE("no coat has the bits of none, and constant maps of a coat those of constants") {

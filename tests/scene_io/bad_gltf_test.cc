@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // glTF files that must be refused, in one clear line, whatever is wrong with them.
+#include <limits>
+#include <numeric>
 #include <random>
 
 #include <fmt/format.h>
@@ -166,6 +168,25 @@ TEST_CASE("numbers in buffers are looked at, too") {
   file.json["meshes"][0]["primitives"][0]["attributes"] = {
       {"POSITION", 0}, {"NORMAL", file.Accessor(std::vector<float>(12, nan), 5126, "VEC3", 3)}};
   CHECK(MessageOf("a.glb", file.Binary()) == "no error");
+}
+
+// Pieces of 2^14 vertices are read at the same time: the first is wrong in its middle, so that the
+// others, which are wrong at their ends, have begun by then and end after it.
+TEST_CASE("of wrong vertices the first is told, however many threads read them") {
+  std::vector<float> positions(3 * 65535);
+  for (const size_t vertex : {8000u, 32767u, 49151u, 65534u}) {
+    positions[3 * vertex] = std::numeric_limits<float>::quiet_NaN();
+  }
+  std::vector<uint32_t> indices(65535);
+  std::iota(indices.begin(), indices.end(), 0u);
+  GltfFile file = MakeSquare();
+  Json& primitive = file.json["meshes"][0]["primitives"][0];
+  primitive["attributes"]["POSITION"] = file.Accessor(positions, 5126, "VEC3", 3);
+  primitive["indices"] = file.Accessor(indices, 5125, "SCALAR", 1);
+  const std::string bytes = file.Binary();
+  for (int i = 0; i < 40; ++i) {
+    CHECK(Contains(MessageOf("a.glb", bytes), "position 8000 is out of range"));
+  }
 }
 
 TEST_CASE("binary files that are cut or lie about their lengths") {

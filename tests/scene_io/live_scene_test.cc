@@ -264,6 +264,9 @@ TEST_CASE("Files that are wrong leave the scene as it was, until they are right"
   // A change of the mesh is not forgotten because the scene is wrong.
   folder.Write("m.obj", "v -1 -1 0\nv 1 -1 0\nv 0 2 0\nf 1 2 3\n");
   check_wrong();
+  // Nor because what it says is, which is found later.
+  folder.Write("s.json", WatchedText("7"));
+  check_wrong();
   folder.Write("s.json", WatchedText("0.5"));
   REQUIRE(SoonChanged(&live));
   CHECK(live.ReadChangedFiles().Has(ScenePart::kShapes));

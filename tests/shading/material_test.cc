@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "brdf/angles.h"
+#include "brdf/burley.h"
+#include "brdf/eon.h"
 #include "brdf/fresnel.h"
 #include "brdf/ggx.h"
 #include "brdf/multi_scatter.h"
@@ -395,6 +398,35 @@ TEST_CASE("a normal that leans away from the viewer counts as seen edge-on") {
     ShadeRun(prepared, {hits, surface, prepared_light, &batch}, 0, 1, &scratch, &radiance);
     CHECK(radiance.specular.x[0] == Approx(expected).epsilon(1e-5));
   });
+}
+
+TEST_CASE("rough diffuse surfaces whose normal leans away count as seen edge-on, too") {
+  const Vec3d to_light = Vec3d(1, 0.5, 0).normalized();
+  const Vec3d to_view = Vec3d(-0.2, -0.3, 1).normalized();
+  const HitBatch hits = MakeHit(to_view);
+  Angles<double> edge_on = ComputeAngles(Vec3d(0, 1, 0), to_light, to_view);
+  edge_on.n_dot_v = 1e-300;
+  Light light;
+  light.kind = DirectionalLight{.direction_of_travel = -to_light, .irradiance = {1, 1, 1}};
+  const ShadingLight prepared_light = PrepareLight(light, {0, 0, 0});
+  const std::pair<ShadingMaterial, double> cases[] = {
+      {Prepare(OrenNayarMaterial{.albedo = {0.8, 0.8, 0.8}, .roughness = 1}),
+       Eon(edge_on, 0.8, 1.0)},
+      {Prepare(BurleyMaterial{.albedo = {0.8, 0.8, 0.8}, .roughness = 1}),
+       0.8 * BurleyDiffuse(edge_on, 1.0)}};
+  for (const auto& [material, brdf] : cases) {
+    ForEachTarget([&](Target) {
+      Surface surface;
+      LightBatch batch;
+      PrepareSurface(hits, &surface);
+      PrepareRun(material, 0, 1, &surface);
+      EvaluateLight(prepared_light, hits, surface, &batch);
+      ReflectedRadiance radiance;
+      ShadeScratch scratch;
+      ShadeRun(material, {hits, surface, prepared_light, &batch}, 0, 1, &scratch, &radiance);
+      CHECK(radiance.diffuse.x[0] == Approx(brdf * edge_on.n_dot_l).epsilon(1e-5));
+    });
+  }
 }
 
 TEST_CASE("light exactly opposite the viewer of a normal that leans away: no highlight, no NaN") {

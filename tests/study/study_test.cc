@@ -6,10 +6,10 @@
 #include "brdf/phong.h"
 #include "catch.h"
 #include "light/punctual.h"
+#include "shading/share.h"
 #include "study/light_curves.h"
 #include "study/material_curves.h"
 #include "study/rounding.h"
-#include "shading/share.h"
 #include "tables.h"
 #include "targets.h"
 
@@ -54,6 +54,13 @@ std::vector<NamedMaterial> AllModels() {
                                                                    .diffuse_coupling = coupling})});
     }
   }
+  MetallicRoughnessMaterial covered{.base_color = {0.3, 0.1, 0.1}, .roughness = 0.6};
+  covered.coat = 0.7;
+  covered.coat_roughness = 0.2;
+  models.push_back({"coated", Prepare(covered)});
+  covered.sheen_color = {0.4, 0.5, 1};
+  covered.sheen_roughness = 0.3;
+  models.push_back({"coated velvet", Prepare(covered)});
   return models;
 }
 

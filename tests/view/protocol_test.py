@@ -173,6 +173,11 @@ class ProtocolTest(unittest.TestCase):
         self.assertGreater(self.adds_up(answer), 0)
         coat, = next(light for light in answer['lights'] if light['name'] == 'sun')['covers']
         self.assertGreater(coat['specular'][1], 0.5)
+        # The terms are those of the coat's own normal, which has no flakes: the sphere's.
+        terms = coat['terms']
+        self.assertAlmostEqual(terms['n_dot_v'], cosine, places=5)
+        self.assertAlmostEqual(terms['n_dot_l'], cosine, places=5)
+        self.assertAlmostEqual(terms['n_dot_h'], 1, places=9)
 
     def test_it_refines_while_nothing_moves(self):
         _, page = self.open(SCENE, '--size', '320x180', '--spp', 64)
