@@ -400,6 +400,36 @@ TEST_CASE("a normal that leans away from the viewer counts as seen edge-on") {
   });
 }
 
+// On spheres n.v of what is seen rounds to above -4e-7, and with it n.u: the limit of grazing
+// viewers then, and not no lobe at all.
+TEST_CASE("a hit at the limb whose half vector rounds to below the surface has its lobe") {
+  MetallicRoughnessMaterial material;
+  material.roughness = 0.7;
+  material.compensation = Compensation::kNone;
+  const ShadingMaterial prepared = Prepare(material);
+  const auto& model = std::get<MicrofacetModel>(prepared.model);
+  const Vec3d to_light(1, 1e-7, 0), to_view(0, -3e-7, 1);
+  const HitBatch hits = MakeHit(to_view);
+  const Angles<double> angles = ComputeAngles(Vec3d(0, 1, 0), to_light, to_view);
+  // h in the surface: D is alpha^2 / pi; n.l V with n.v = 0 is 1 / (2 alpha).
+  const double expected =
+      model.alpha * FresnelSchlick(model.f0.x, SchlickWeight(angles)) / (2 * M_PI);
+  ForEachTarget([&](Target) {
+    Surface surface;
+    LightBatch batch;
+    PrepareSurface(hits, &surface);
+    PrepareRun(prepared, 0, 1, &surface);
+    Light light;
+    light.kind = DirectionalLight{.direction_of_travel = -to_light, .irradiance = {1, 1, 1}};
+    const ShadingLight prepared_light = PrepareLight(light, {0, 0, 0});
+    EvaluateLight(prepared_light, hits, surface, &batch);
+    ReflectedRadiance radiance;
+    ShadeScratch scratch;
+    ShadeRun(prepared, {hits, surface, prepared_light, &batch}, 0, 1, &scratch, &radiance);
+    CHECK(radiance.specular.x[0] == Approx(expected).epsilon(1e-5));
+  });
+}
+
 TEST_CASE("rough diffuse surfaces whose normal leans away count as seen edge-on, too") {
   const Vec3d to_light = Vec3d(1, 0.5, 0).normalized();
   const Vec3d to_view = Vec3d(-0.2, -0.3, 1).normalized();
