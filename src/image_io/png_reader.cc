@@ -62,8 +62,53 @@ class PngFile {
   // is_wide(), 16 bits in the processor's order.
   template <class WithRow>
   void ForEachRow(const WithRow& with_row) {
-    const size_t row_bytes = header_.width * channels() * (is_wide() ? 2 : 1);
-    const int flags = has_alpha_ ? SPNG_DECODE_TRNS : 0;
+    if (!has_palette()) {
+      ForEachDecodedRow(header_.width * channels() * (is_wide() ? 2 : 1), with_row);
+      return;
+    }
+    spng_plte palette{};
+    Check(spng_get_plte(get(), &palette));
+    spng_trns transparency{};
+    if (has_alpha_) Check(spng_get_trns(get(), &transparency));
+    std::vector<uint8_t> colors(header_.width * channels());
+    ForEachDecodedRow((size_t{header_.width} * header_.bit_depth + 7) / 8,
+                      [&](uint32_t y, const uint8_t* indices) {
+                        LookUp(y, indices, palette, transparency, colors.data());
+                        with_row(y, colors.data());
+                      });
+  }
+
+ private:
+  bool has_palette() const { return header_.color_type == 3; }
+
+  // The colours of a row, whose indices are packed from the high bits on.
+  void LookUp(uint32_t y, const uint8_t* indices, const spng_plte& palette,
+              const spng_trns& transparency, uint8_t* colors) const {
+    const unsigned bits = header_.bit_depth;
+    for (uint32_t x = 0; x < header_.width; ++x) {
+      const size_t bit = size_t{x} * bits;
+      const unsigned index = indices[bit / 8] >> (8 - bits - bit % 8) & ((1u << bits) - 1);
+      if (index >= palette.n_entries) {
+        throw Error(ExitCode::kBadInput, path_,
+                    fmt::format("cannot be read: pixel ({}, {}) is colour {} of a palette that has "
+                                "{}, counted from 0",
+                                x, y, index, palette.n_entries),
+                    "save it again without a palette, or with all colours in it");
+      }
+      const spng_plte_entry& color = palette.entries[index];
+      *colors++ = color.red;
+      *colors++ = color.green;
+      *colors++ = color.blue;
+      if (!has_alpha_) continue;
+      const bool is_opaque = index >= transparency.n_type3_entries;
+      *colors++ = is_opaque ? 255 : transparency.type3_alpha[index];
+    }
+  }
+
+  // Rows as Format() says, and what follows them.
+  template <class WithRow>
+  void ForEachDecodedRow(size_t row_bytes, const WithRow& with_row) {
+    const int flags = has_alpha_ && !has_palette() ? SPNG_DECODE_TRNS : 0;
     if (header_.interlace_method != 0) {
       std::vector<uint8_t> image(row_bytes * header_.height);
       Check(spng_decode_image(get(), image.data(), image.size(), Format(), flags));
@@ -87,17 +132,17 @@ class PngFile {
     }
   }
 
- private:
   // What libspng unpacks to: one sample a channel, transparency that a colour stands for as alpha.
+  // But indices as they are: libspng makes up a black of those beyond the palette.
   int Format() const {
-    const bool by_palette_or_bits = header_.color_type == 3 || header_.bit_depth < 8;
+    if (has_palette()) return SPNG_FMT_PNG;
     if (!is_color()) {
       if (!has_alpha_) return is_wide() ? SPNG_FMT_PNG : SPNG_FMT_G8;
       if ((header_.color_type & 4) != 0) return SPNG_FMT_PNG;
       return is_wide() ? SPNG_FMT_GA16 : SPNG_FMT_GA8;
     }
     if (has_alpha_) return is_wide() ? SPNG_FMT_RGBA16 : SPNG_FMT_RGBA8;
-    return by_palette_or_bits || !is_wide() ? SPNG_FMT_RGB8 : SPNG_FMT_PNG;
+    return is_wide() ? SPNG_FMT_PNG : SPNG_FMT_RGB8;
   }
 
   void Check(int status) const {

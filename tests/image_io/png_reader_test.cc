@@ -167,6 +167,47 @@ TEST_CASE("PNG files of every kind are read") {
   }
 }
 
+TEST_CASE("PNG files whose pixels are beyond their palettes are refused") {
+  const TestFolder folder;
+  const std::string path = folder / "a.png";
+  for (const int bits : {1, 2, 4, 8}) {
+    for (const bool interlaced : {false, true}) {
+      CAPTURE(bits, interlaced);
+      const auto colors = static_cast<size_t>(bits == 8 ? 16 : (1 << bits) - 1);
+      const auto write = [&](const std::vector<unsigned>& row) {
+        std::vector<uint8_t> file = PngHead(kPngWidth, kPngHeight, bits, 3, interlaced);
+        AppendChunk("PLTE", std::vector<uint8_t>(3 * colors, 200), &file);
+        Codes codes(size_t{kPngWidth} * kPngHeight);
+        for (size_t x = 0; x < row.size(); ++x) codes[4 * kPngWidth + x] = row[x];
+        AppendPixels(RowsOf(codes, {3, bits}, interlaced), &file);
+        WriteBytes(path, file);
+        return Catching([&] { ReadImage(path); });
+      };
+      const auto most = static_cast<unsigned>(colors) - 1;
+      CHECK(write({0, 0, most}).code == ExitCode::kOk);
+      const Caught beyond = write({0, 0, most, most + 1});
+      CHECK(beyond.code == ExitCode::kBadInput);
+      CAPTURE(beyond.message);
+      CHECK(beyond.Says("a.png: cannot be read: pixel (3, 4) is colour " + std::to_string(colors) +
+                        " of a palette that has " + std::to_string(colors)));
+      CHECK(beyond.Says("hint: save it again"));
+    }
+  }
+}
+
+// As libpng reads them: libspng, which reads no further than the last row needs, does not tell.
+TEST_CASE("what a PNG has behind its last row changes nothing") {
+  const TestFolder folder;
+  for (const size_t more : {0, 300}) {
+    std::vector<uint8_t> file = PngHead(2, 1, 8, 0);
+    std::vector<uint8_t> rows = {0, 51, 255};
+    rows.resize(rows.size() + more);
+    AppendPixels(rows, &file);
+    WriteBytes(folder / "a.png", file);
+    CHECK(ReadImage(folder / "a.png").channels[0].samples == std::vector<float>{0.2f, 1});
+  }
+}
+
 TEST_CASE("texts of PNG files are metadata, but not in the place of facts") {
   const TestFolder folder;
   std::vector<uint8_t> file = PngHead(1, 1, 8, 0);
