@@ -160,7 +160,15 @@ class JpegFile {
   }
 
   [[noreturn]] void Fail(const std::string& reason) const { FailToRead(path_, reason); }
-  [[noreturn]] void FailWithMessage() const { Fail(decoder_->message); }
+  [[noreturn]] void FailWithMessage() const {
+    if (decoder_->errors.msg_code == JERR_IMAGE_TOO_BIG) {
+      throw Error(ExitCode::kBadInput, path_,
+                  "cannot be read: it is wider or higher than " +
+                      std::to_string(JPEG_MAX_DIMENSION) + " pixels",
+                  "make it smaller");
+    }
+    Fail(decoder_->message);
+  }
 
   std::string path_;
   CFile file_;

@@ -148,6 +148,12 @@ class PngFile {
   void Check(int status) const {
     if (status == SPNG_EMEM) throw std::bad_alloc();
     if (status == SPNG_IO_EOF) FailToRead(path_, "the file ends too early");
+    if (status == SPNG_EUSER_WIDTH || status == SPNG_EUSER_HEIGHT) {
+      throw Error(ExitCode::kBadInput, path_,
+                  fmt::format("cannot be read: it is {} than {} pixels",
+                              status == SPNG_EUSER_WIDTH ? "wider" : "higher", kLargestPngSide),
+                  "make it smaller");
+    }
     if (status != 0) FailToRead(path_, spng_strerror(status));
   }
 

@@ -215,6 +215,24 @@ TEST_CASE("a JPEG that promises more than it holds costs nothing") {
   }
 }
 
+TEST_CASE("pictures with longer sides than are read say how long they may be") {
+  const TestFolder folder;
+  const auto message = [&](const std::string& name, const std::vector<uint8_t>& bytes) {
+    WriteBytes(folder / name, bytes);
+    return Catching([&] { ReadImage(folder / name); }).message;
+  };
+  const std::string end = " pixels\n  hint: make it smaller";
+  CHECK(message("a.png", PngHead(66000, 10, 8, 2)).ends_with("is wider than 65536" + end));
+  CHECK(message("a.png", PngHead(10, 66000, 8, 2)).ends_with("is higher than 65536" + end));
+  std::vector<uint8_t> jpeg = ReadBytes(NACRE_SOURCE_DIR "/tests/fuzz/corpus/texture_image/a.jpg");
+  for (size_t i = 0; i + 9 < jpeg.size(); ++i) {
+    if (jpeg[i] != 0xff || jpeg[i + 1] < 0xc0 || jpeg[i + 1] > 0xc2) continue;
+    jpeg[i + 7] = jpeg[i + 8] = 0xff;  // of the frame's header: its columns
+    break;
+  }
+  CHECK(message("a.jpg", jpeg).ends_with("is wider or higher than 65500" + end));
+}
+
 TEST_CASE("a file that is replaced between its header and its samples is refused") {
   const TestFolder folder;
   const std::string path = folder / "a.png";
