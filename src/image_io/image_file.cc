@@ -103,7 +103,7 @@ ImageFile OpenImage(const std::string& path, const std::string& part) {
   if (format == FileFormat::kTga) return OpenTga(path);
   if (format == FileFormat::kTiff) return OpenWithOiio(path);
   throw Error(ExitCode::kBadInput, path,
-              "cannot be read: not PNG, JPEG, TIFF, Radiance HDR, PNM or TGA");
+              "cannot be read: not EXR, PNG, JPEG, TIFF, Radiance HDR, PNM or TGA");
 }
 
 std::vector<ImagePart> DescribeImage(const std::string& path) {
