@@ -255,7 +255,9 @@ std::string PolarText(const Plot& plot) {
 }
 
 std::string PanelText(const Figure& figure, size_t index, int width, int height) {
-  const Plot& plot = figure.panels[index];
+  Plot plot = figure.panels[index];
+  const std::vector<std::string> titles = KeyTitles(plot, width);
+  for (size_t i = 0; i < titles.size(); ++i) plot.curves[i].title = titles[i];
   PlotLayout layout(plot, width, height);
   std::string text = std::string(kCommon) + "unset label\nunset arrow\nunset object\n";
   text += "set size noratio\n";

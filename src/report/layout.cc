@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/printable.h"
+#include "image_io/draw_text.h"
 #include "report/axis_range.h"
 
 namespace nacre {
@@ -18,6 +20,65 @@ size_t GlyphCount(const std::string& text) {
   return static_cast<size_t>(std::count_if(text.begin(), text.end(), [](char c) {
     return (static_cast<unsigned char>(c) & 0xc0) != 0x80;  // all but continuations of UTF-8
   }));
+}
+
+// In a key, of the same fonts.
+double WidthInKey(const std::string& text) {
+  constexpr double kTextSize = 25.5;  // pixels: 19 points
+  return TextWidth(Printable(text), kTextSize);
+}
+
+constexpr std::string_view kSeparator = ", ";
+
+std::vector<std::string> PartsOf(const std::string& title) {
+  std::vector<std::string> parts;
+  size_t begin = 0;
+  for (size_t end; (end = title.find(kSeparator, begin)) != std::string::npos;
+       begin = end + kSeparator.size()) {
+    parts.push_back(title.substr(begin, end - begin));
+  }
+  parts.push_back(title.substr(begin));
+  return parts;
+}
+
+bool Has(const std::vector<std::string>& parts, const std::string& part) {
+  return std::find(parts.begin(), parts.end(), part) != parts.end();
+}
+
+// Title i without the parts that all have; the first one, the model, stays.
+std::string WithoutShared(const std::vector<std::vector<std::string>>& all, size_t i) {
+  std::string title = all[i].front();
+  bool left_out = false;
+  for (size_t k = 1; k < all[i].size(); ++k) {
+    const std::string& part = all[i][k];
+    const bool shared =
+        std::all_of(all.begin(), all.end(), [&](const auto& other) { return Has(other, part); });
+    if (!shared || !left_out) title += std::string(kSeparator) + (shared ? "…" : part);
+    left_out = shared;
+  }
+  return title;
+}
+
+// Where the character that `at` lies in begins.
+size_t CharacterStart(const std::string& text, size_t at) {
+  while (at > 0 && at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80) --at;
+  return at;
+}
+
+// With an ellipsis in place of so much of the middle that it fits. The end keeps more than the
+// beginning.
+std::string WithoutMiddle(const std::string& text, double room) {
+  const auto cut = [&](size_t kept) {
+    const size_t head = CharacterStart(text, kept / 3);
+    const size_t tail = CharacterStart(text, text.size() - (kept - kept / 3));
+    return text.substr(0, head) + "…" + text.substr(tail);
+  };
+  size_t fits = 0, too_many = text.size();
+  while (fits + 1 < too_many) {
+    const size_t kept = (fits + too_many) / 2;
+    (WidthInKey(cut(kept)) > room ? too_many : fits) = kept;
+  }
+  return cut(fits);
 }
 
 // How far a box is from the nearest corner.
@@ -96,6 +157,26 @@ PlotBox RoomAboveRow(const PlotLayout& layout, double y, double width) {
     if (layout.IsFree({box.x0, y0 + 0.1 * height, box.x1, box.y1})) return box;
   }
   return {0.99 - width, y0, 0.99, y0 + height};
+}
+
+std::vector<std::string> KeyTitles(const Plot& plot, int width) {
+  constexpr double kBeside = 150;  // pixels: the sample of the line, and margins
+  const double room = std::max(width - kBeside, 50.0);
+  std::vector<std::string> titles;
+  std::vector<std::vector<std::string>> all;
+  for (const Curve& curve : plot.curves) {
+    titles.push_back(curve.title);
+    if (!curve.title.empty()) all.push_back(PartsOf(curve.title));
+  }
+  const auto too_wide = [&](const std::string& title) { return WidthInKey(title) > room; };
+  if (std::none_of(titles.begin(), titles.end(), too_wide)) return titles;
+  size_t i = 0;
+  for (std::string& title : titles) {
+    if (title.empty()) continue;
+    if (all.size() > 1) title = WithoutShared(all, i++);
+    if (too_wide(title)) title = WithoutMiddle(title, room);
+  }
+  return titles;
 }
 
 std::optional<PlotBox> FindKeyRoom(const Plot& plot, const PlotLayout& layout) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "report/plot.h"
@@ -39,6 +40,11 @@ class PlotLayout {
 // the horizontal line at `y`, from the right; if nowhere, at the first of these places.
 PlotBox RoomBesideColumn(const PlotLayout& layout, double x, double width);
 PlotBox RoomAboveRow(const PlotLayout& layout, double y, double width);
+
+// The curves' titles as the key of a plot so many pixels wide has room for. Where one is too wide,
+// all leave out what they share, and what is still too wide loses its middle: the ends of titles
+// tell curves of a material apart.
+std::vector<std::string> KeyTitles(const Plot& plot, int width);
 
 // Where the key of the curves' titles has room between them; none: only outside.
 std::optional<PlotBox> FindKeyRoom(const Plot& plot, const PlotLayout& layout);

@@ -149,6 +149,48 @@ TEST_CASE("The key lies where no curve does") {
   CHECK(!room(wide));
 }
 
+TEST_CASE("Titles too wide for the key keep what tells them apart") {
+  const std::string material =
+      "metallic roughness, base color [0.3,0.1,0.1], roughness 0.6, coat 1, coat roughness 0.2, "
+      "sheen color [0.4,0.5,1], sheen roughness 0.3";
+  Plot plot = Line(0, 1);
+  plot.curves.push_back(plot.curves[0]);
+  const auto titles = [&](const std::string& a, const std::string& b) {
+    plot.curves[0].title = a;
+    plot.curves[1].title = b;
+    return KeyTitles(plot, 1280);
+  };
+  using Titles = std::vector<std::string>;
+  CHECK(titles("gold, viewer 30°", "gold, viewer 75°") ==
+        Titles{"gold, viewer 30°", "gold, viewer 75°"});
+  CHECK(titles(material + ", viewer 30°", material + ", viewer 30°, SIMD kernel") ==
+        Titles{"metallic roughness, …", "metallic roughness, …, SIMD kernel"});
+  CHECK(titles(material + ", viewer 30°", material + ", viewer 75°") ==
+        Titles{"metallic roughness, …, viewer 30°", "metallic roughness, …, viewer 75°"});
+  // A parameter in the middle.
+  CHECK(titles(material + ", a 1, b 2", material + ", a 2, b 2") ==
+        Titles{"metallic roughness, …, a 1, …", "metallic roughness, …, a 2, …"});
+  // Nothing is shared: the middle goes, and no letter is halved.
+  const Titles cut = titles(std::string(300, 'W') + "äöü 1", "short, one");
+  CHECK(cut[0].substr(0, 2) == "WW");
+  CHECK(cut[0].find("W…W") != std::string::npos);
+  CHECK(cut[0].substr(cut[0].size() - 8) == "äöü 1");
+  CHECK(cut[0].size() < 60);
+  CHECK(cut[1] == "short, one");
+  std::string umlauts;
+  for (int i = 0; i < 400; ++i) umlauts += "ä";
+  std::string left = titles(umlauts, "")[0];
+  left.erase(left.find("…"), std::string("…").size());
+  CHECK(left == umlauts.substr(0, left.size()));
+  CHECK(left.size() % 2 == 0);
+  // The script has them; CSV keeps whole titles.
+  titles(material + ", viewer 30°", material + ", viewer 75°");
+  const Figure figure = MakeFigure(plot);
+  CHECK(GnuplotScript(figure, PictureFormat::kPng).find("'metallic roughness, …, viewer 30°'") !=
+        std::string::npos);
+  CHECK(FigureCsv(figure).find("sheen roughness 0.3; viewer 30°") != std::string::npos);
+}
+
 TEST_CASE("Words stand beside their lines") {
   const PlotLayout layout(Line(0, 1), 1280, 800);
   const PlotBox beside = RoomBesideColumn(layout, 0.5, 0.2);
