@@ -17,11 +17,13 @@ constexpr double kFooterSize = 0.82;
 constexpr double kLine = 1.3;      // from line to line, of the line's own size
 constexpr double kRowLine = 1.15;  // from row to row, at least
 constexpr double kGap = 0.55;      // between text and what it belongs to
+constexpr double kWidestRowLabel = 20;
 
 struct Margins {
   double left = 0, right = 0, top = 0, bottom = 0;
   FittedLabels columns;
   double row_label_size = 0;
+  std::vector<std::string> row_labels;
   std::vector<std::string> title, footer;  // lines
 };
 
@@ -42,15 +44,20 @@ Margins MeasureMargins(const SheetText& text, double em, double cell, double wid
     m.top += static_cast<double>(m.title.size()) * LineHeight(kTitleSize * em) + kGap * em;
   }
   if (!text.column_name.empty()) m.top += LineHeight(em);
-  m.columns = FitLabels(text.column_labels, em, cell);
-  m.top += m.columns.lines * LineHeight(m.columns.size);
-  if (!text.column_labels.empty()) m.top += kGap * em / 2;
   m.row_label_size = std::clamp(cell / kRowLine, 0.7 * em, em);
   double widest = TextWidth(text.row_name, em);
   for (const std::string& label : text.row_labels) {
-    widest = std::max(widest, TextWidth(label, m.row_label_size));
+    m.row_labels.push_back(CutText(label, m.row_label_size, kWidestRowLabel * em));
+    widest = std::max(widest, TextWidth(m.row_labels.back(), m.row_label_size));
   }
   if (widest > 0) m.left += widest + kGap * em;
+  // The block of cells is in the middle of what the margins leave; half of the padding stays free.
+  const double columns = static_cast<double>(text.column_labels.size());
+  const double spare = std::max(width - m.left - m.right - columns * cell, 0.0) / 2;
+  m.columns = FitLabels(text.column_labels, em, cell,
+                        {m.left + spare - kPad * em / 2, m.right + spare - kPad * em / 2});
+  m.top += m.columns.lines * LineHeight(m.columns.size);
+  if (!text.column_labels.empty()) m.top += kGap * em / 2;
   if (!m.footer.empty()) {
     m.bottom += static_cast<double>(m.footer.size()) * LineHeight(kFooterSize * em) + kGap * em;
   }
@@ -100,7 +107,7 @@ void WriteRows(const SheetText& text, const Margins& m, bool light, SheetPage* p
       count > 1 ? SpreadPlaces(count - 1, written) : std::vector<size_t>{0};
   for (const size_t i : places) {
     const double y = page->top + (static_cast<double>(i) + 0.5) * page->cell;
-    Write(text.row_labels[i], x, y, m.row_label_size, AlignX::kRight, InkColor(light), page,
+    Write(m.row_labels[i], x, y, m.row_label_size, AlignX::kRight, InkColor(light), page,
           AlignY::kCenter);
   }
 }

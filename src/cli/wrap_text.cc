@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "base/printable.h"
 #include "image_io/draw_text.h"
 
 namespace nacre {
@@ -26,15 +27,60 @@ std::string WithoutEndSpace(std::string text) {
   return text;
 }
 
+// How many bytes of the text, whole characters, are at most `width` wide.
+size_t LengthThatFits(const std::string& text, double size_px, double width) {
+  double used = 0;
+  size_t length = 0;
+  while (length < text.size()) {
+    size_t next = length + 1;
+    while (next < text.size() && (static_cast<unsigned char>(text[next]) & 0xc0) == 0x80) ++next;
+    used += TextWidth(std::string_view(text).substr(length, next - length), size_px);
+    if (used > width) break;
+    length = next;
+  }
+  return length;
+}
+
+// Lines of whole words; one that is too wide has a line to itself. Control characters are spelled
+// out first, as drawing does, since that makes text wider.
+std::vector<std::string> WrapWords(const std::string& text, double size_px, double width) {
+  std::vector<std::string> lines;
+  std::string line;
+  for (const std::string& word : Words(Printable(text))) {
+    if (!line.empty() && TextWidth(WithoutEndSpace(line + word), size_px) > width) {
+      lines.push_back(WithoutEndSpace(line));
+      line.clear();
+    }
+    line += word;
+  }
+  if (!line.empty()) lines.push_back(WithoutEndSpace(line));
+  return lines;
+}
+
 // Room between neighbouring labels, in sizes of the text.
 constexpr double kBetween = 0.6;
+constexpr size_t kMostLines = 3;
 
-bool Fits(const FittedLabels& fitted, double room) {
-  constexpr size_t kMostLines = 3;
+struct LabelRow {
+  const std::vector<std::string>& labels;
+  double width;
+  RoomBeside beside;
+};
+
+// What of `room` around place i lies on the page.
+double RoomAt(const LabelRow& row, size_t i, double room) {
+  const double left = row.beside.left + (static_cast<double>(i) + 0.5) * row.width;
+  const double right =
+      row.beside.right + (static_cast<double>(row.labels.size() - i) - 0.5) * row.width;
+  return std::min({room, 2 * left, 2 * right});
+}
+
+bool Fits(const LabelRow& row, const FittedLabels& fitted, double room) {
   for (const FittedLabels::Label& label : fitted.labels) {
     if (label.lines.size() > kMostLines) return false;
     for (const std::string& line : label.lines) {
-      if (TextWidth(line, fitted.size) + kBetween * fitted.size > room) return false;
+      const double width = TextWidth(line, fitted.size) + kBetween * fitted.size;
+      if (width > RoomAt(row, label.place, room)) return false;
     }
   }
   return true;
@@ -47,47 +93,72 @@ bool IsNumber(const std::string& text) {
   return result.ec == std::errc() && result.ptr == end;
 }
 
-FittedLabels Fit(const std::vector<std::string>& labels, const std::vector<size_t>& places,
-                 double size_px, double room) {
+FittedLabels Fit(const LabelRow& row, const std::vector<size_t>& places, double size_px,
+                 double room) {
   FittedLabels fitted;
   fitted.size = size_px;
   for (const size_t i : places) {
-    fitted.labels.push_back({i, WrapText(labels[i], size_px, room - kBetween * size_px)});
+    const double width = RoomAt(row, i, room) - kBetween * size_px;
+    fitted.labels.push_back({i, WrapWords(row.labels[i], size_px, width)});
     fitted.lines = std::max(fitted.lines, static_cast<double>(fitted.labels.back().lines.size()));
   }
   return fitted;
 }
 
-// Every label, label i in tier i modulo `tiers`: neighbours in a tier are that many places apart.
-FittedLabels FitTiers(const std::vector<std::string>& labels, const std::vector<size_t>& places,
-                      size_t tiers, double size_px, double width) {
-  FittedLabels fitted = Fit(labels, places, size_px, static_cast<double>(tiers) * width);
-  fitted.lines = 0;
+// Label i in tier i modulo `tiers`.
+void StackTiers(size_t tiers, FittedLabels* fitted) {
+  fitted->lines = 0;
   for (size_t tier = 0; tier < tiers; ++tier) {
     double most = 0;
-    for (size_t i = tier; i < fitted.labels.size(); i += tiers) {
-      fitted.labels[i].below = fitted.lines;
-      most = std::max(most, static_cast<double>(fitted.labels[i].lines.size()));
+    for (size_t i = tier; i < fitted->labels.size(); i += tiers) {
+      fitted->labels[i].below = fitted->lines;
+      most = std::max(most, static_cast<double>(fitted->labels[i].lines.size()));
     }
-    fitted.lines += most;
+    fitted->lines += most;
   }
+}
+
+// Every label: neighbours in a tier are `tiers` places apart.
+FittedLabels FitTiers(const LabelRow& row, const std::vector<size_t>& places, size_t tiers,
+                      double size_px) {
+  FittedLabels fitted = Fit(row, places, size_px, static_cast<double>(tiers) * row.width);
+  StackTiers(tiers, &fitted);
   return fitted;
+}
+
+// What fits nowhere: words are broken, and what needs too many lines ends in an ellipsis.
+void CutToFit(const LabelRow& row, size_t tiers, double room, FittedLabels* fitted) {
+  for (FittedLabels::Label& label : fitted->labels) {
+    const double width = RoomAt(row, label.place, room) - kBetween * fitted->size;
+    label.lines = WrapText(row.labels[label.place], fitted->size, width);
+    if (label.lines.size() <= kMostLines) continue;
+    label.lines.resize(kMostLines);
+    label.lines.back() = CutText(label.lines.back() + "……", fitted->size, width);
+  }
+  StackTiers(tiers, fitted);
 }
 
 }  // namespace
 
 std::vector<std::string> WrapText(const std::string& text, double size_px, double width) {
   std::vector<std::string> lines;
-  std::string line;
-  for (const std::string& word : Words(text)) {
-    if (!line.empty() && TextWidth(WithoutEndSpace(line + word), size_px) > width) {
-      lines.push_back(WithoutEndSpace(line));
-      line.clear();
+  for (std::string& line : WrapWords(text, size_px, width)) {
+    while (TextWidth(line, size_px) > width) {
+      const size_t length = LengthThatFits(line, size_px, width);
+      if (length == 0) break;  // no room for a single character
+      lines.push_back(line.substr(0, length));
+      line.erase(0, length);
     }
-    line += word;
+    lines.push_back(std::move(line));
   }
-  if (!line.empty()) lines.push_back(WithoutEndSpace(line));
   return lines;
+}
+
+std::string CutText(const std::string& text, double size_px, double width) {
+  const std::string shown = Printable(text);
+  if (TextWidth(shown, size_px) <= width) return shown;
+  const double room = width - TextWidth("…", size_px);
+  return WithoutEndSpace(shown.substr(0, LengthThatFits(shown, size_px, room))) + "…";
 }
 
 std::vector<size_t> SpreadPlaces(size_t last, size_t count) {
@@ -99,25 +170,33 @@ std::vector<size_t> SpreadPlaces(size_t last, size_t count) {
   return places;
 }
 
-FittedLabels FitLabels(const std::vector<std::string>& labels, double size_px, double width) {
+FittedLabels FitLabels(const std::vector<std::string>& labels, double size_px, double width,
+                       const RoomBeside& beside) {
+  const LabelRow row{labels, width, beside};
   FittedLabels fitted;
   std::vector<size_t> places(labels.size());
   for (size_t i = 0; i < places.size(); ++i) places[i] = i;
   for (const double scale : {1.0, 0.85, 0.7}) {
-    fitted = Fit(labels, places, scale * size_px, width);
-    if (Fits(fitted, width)) return fitted;
+    fitted = Fit(row, places, scale * size_px, width);
+    if (Fits(row, fitted, width)) return fitted;
   }
+  size_t last_tiers = 1;
+  double room = width;
   const bool are_numbers = std::all_of(labels.begin(), labels.end(), IsNumber);
   for (size_t tiers = 2; tiers <= 4 && !are_numbers; ++tiers) {
-    fitted = FitTiers(labels, places, tiers, 0.7 * size_px, width);
-    if (Fits(fitted, static_cast<double>(tiers) * width)) return fitted;
+    fitted = FitTiers(row, places, tiers, 0.7 * size_px);
+    last_tiers = tiers;
+    room = static_cast<double>(tiers) * width;
+    if (Fits(row, fitted, room)) return fitted;
   }
   for (size_t count = labels.size() - 1; labels.size() > 2 && count >= 2; --count) {
     const size_t last = labels.size() - 1;
-    const double room = static_cast<double>(last / (count - 1)) * width;  // at least
-    fitted = Fit(labels, SpreadPlaces(last, count), 0.7 * size_px, room);
-    if (Fits(fitted, room)) return fitted;
+    room = static_cast<double>(last / (count - 1)) * width;  // at least
+    last_tiers = 1;
+    fitted = Fit(row, SpreadPlaces(last, count), 0.7 * size_px, room);
+    if (Fits(row, fitted, room)) return fitted;
   }
+  CutToFit(row, last_tiers, room, &fitted);
   return fitted;
 }
 

@@ -733,6 +733,16 @@ class CliTest(unittest.TestCase):
                 result = run('grid', '-o', self.out / 'a.png', '--labels', '--spp', '1', *arguments)
                 self.assertEqual(result.returncode, 0, result.stderr)
 
+    def test_names_do_not_widen_a_sheet_without_end(self):
+        for length in 400, 20000:
+            with self.subTest(length=length):
+                name = json.dumps({'model': 'phong', 'name': 'n' * length})
+                result = run('grid', '-o', self.out / 'a.png', '--rows', f'material={name},blinn_phong',
+                             '--sphere-size', '24', '--spp', '1')
+                self.assertEqual(result.returncode, 0, result.stderr)
+                width = int.from_bytes((self.out / 'a.png').read_bytes()[16:20], 'big')
+                self.assertLess(width, 1000)
+
     def test_no_input_is_overwritten(self):
         self.render('-o', self.out / 'a.exr', *SMALL)
         scene = self.out / 'scene.json'
