@@ -17,6 +17,7 @@
 
 #include "base/error.h"
 #include "base/excerpt.h"
+#include "base/path.h"
 #include "scene_io/gltf_types.h"
 #include "scene_io/text_file.h"
 #include "scene_io/text_lines.h"
@@ -60,7 +61,14 @@ constexpr uint32_t kJson = 0x4e4f534a, kBinary = 0x004e4942;
 // (kBadInput) for what cannot be glTF.
 uint64_t JudgeHead(std::string_view head, uint64_t size, const std::string& file) {
   if (!IsBinary(head)) {
-    const size_t zero = WithoutByteOrderMark(head, file).find('\0');
+    const std::string_view text = WithoutByteOrderMark(head, file);
+    // The JSON of a .gltf file may have the wrong name.
+    const size_t start = text.find_first_not_of(" \t\r\n");
+    if (HasExtension(file, ".glb") && (start == std::string_view::npos || text[start] != '{')) {
+      throw Error(ExitCode::kBadInput, file, R"(does not begin with "glTF", as .glb files do)",
+                  "is it a web page that a download left, or another kind of file?");
+    }
+    const size_t zero = text.find('\0');
     if (zero != std::string_view::npos) RefuseZero(head, zero, file);
     return size;
   }

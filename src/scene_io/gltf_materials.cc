@@ -80,17 +80,13 @@ TextureId AddTexture(const GltfDocument& document, const GltfExtension& extensio
                      const std::string& place, TextureEncoding encoding, GltfTextures* textures,
                      bool needs_rgb = false) {
   if (!extension.Has(name)) return {};
-  const Json& info = extension.Get(name);
   const std::string member = place + "/" + name;
-  const GltfExtension reader(document, info, member);
-  const double index = reader.Number("index", -1), tex_coord = reader.Number("texCoord", 0);
-  if (!(index >= 0 && index < 1e9) || !(tex_coord >= 0 && tex_coord < 1e9)) {
-    document.Refuse(member, "has no texture's \"index\"");
-  }
-  const bool has_extensions = reader.Has("extensions") && reader.Get("extensions").is_object();
-  const gltf::Extensions extensions = has_extensions ? &reader.Get("extensions") : nullptr;
+  const GltfExtension reader(document, extension.Get(name), member);
+  const gltf::Extensions extensions =
+      reader.Has("extensions") ? &reader.Get("extensions") : nullptr;
   return textures->Add(
-      {static_cast<int>(index), static_cast<int>(tex_coord), extensions, encoding, needs_rgb},
+      {static_cast<int>(reader.Number("index", -1)), static_cast<int>(reader.Number("texCoord", 0)),
+       extensions, encoding, needs_rgb},
       member);
 }
 
@@ -206,6 +202,28 @@ void AddCommonTextures(const gltf::Material& material, const std::string& place,
   result->normal_map.convention = NormalMap::Convention::kLiteral;
 }
 
+// All references that are read, also those that are not followed because the factor beside them is
+// 0. Their types have been checked.
+void CheckTextures(const GltfDocument& document, size_t index, const GltfTextures& textures) {
+  const Json& material = document.root["materials"][index];
+  for (const char* texture :
+       {"/normalTexture", "/occlusionTexture", "/emissiveTexture",
+        "/pbrMetallicRoughness/baseColorTexture", "/pbrMetallicRoughness/metallicRoughnessTexture",
+        "/extensions/KHR_materials_clearcoat/clearcoatTexture",
+        "/extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture",
+        "/extensions/KHR_materials_clearcoat/clearcoatNormalTexture",
+        "/extensions/KHR_materials_pbrSpecularGlossiness/diffuseTexture",
+        "/extensions/KHR_materials_sheen/sheenColorTexture",
+        "/extensions/KHR_materials_sheen/sheenRoughnessTexture",
+        "/extensions/KHR_materials_specular/specularTexture",
+        "/extensions/KHR_materials_specular/specularColorTexture"}) {
+    const Json::json_pointer pointer(texture);
+    if (!material.contains(pointer)) continue;
+    textures.CheckIndex(material[pointer]["index"].get<int>(),
+                        fmt::format("/materials/{}{}", index, texture));
+  }
+}
+
 Material MakeMaterial(GltfDocument* document, size_t index, std::string name,
                       GltfTextures* textures) {
   const gltf::Material& material = document->model.materials[index];
@@ -223,18 +241,20 @@ Material MakeMaterial(GltfDocument* document, size_t index, std::string name,
     document->Warn("transparency is not shown: materials whose alphaMode is BLEND are opaque");
   }
   const Rgb base_color = ColorOf(pbr.baseColorFactor, Rgb(1));
-  const auto mask_by_base_color = [&](const std::string& member) {
-    const TextureId alpha = masked ? AddTexture(pbr.baseColorTexture, place + member,
-                                                TextureEncoding::kAlpha, false, textures)
-                                   : TextureId{};
+  const auto mask_by_base_color = [&] {
+    const TextureId alpha =
+        masked ? AddTexture(pbr.baseColorTexture, place + "/pbrMetallicRoughness/baseColorTexture",
+                            TextureEncoding::kAlpha, false, textures)
+               : TextureId{};
     ApplyMask(material, AlphaOf(pbr.baseColorFactor), alpha, textures, &result);
   };
   if (FindExtension(*document, material, index, "KHR_materials_unlit")) {
     result.model = LambertMaterial{Rgb(0)};
     result.emission = base_color;
-    result.emission_map = AddTexture(pbr.baseColorTexture, place + "/baseColorTexture",
-                                     TextureEncoding::kSrgb, false, textures);
-    mask_by_base_color("/baseColorTexture");
+    result.emission_map =
+        AddTexture(pbr.baseColorTexture, place + "/pbrMetallicRoughness/baseColorTexture",
+                   TextureEncoding::kSrgb, false, textures);
+    mask_by_base_color();
     return result;
   }
   if (material.occlusionTexture.index >= 0) {
@@ -272,7 +292,7 @@ Material MakeMaterial(GltfDocument* document, size_t index, std::string name,
   ApplyReflectance(document, material, index, textures, &metallic_roughness);
   ApplyCoat(document, material, index, textures, &metallic_roughness);
   ApplySheen(document, material, index, textures, &metallic_roughness);
-  mask_by_base_color("/pbrMetallicRoughness/baseColorTexture");
+  mask_by_base_color();
   result.model = metallic_roughness;
   return result;
 }
@@ -287,6 +307,7 @@ std::vector<Material> MakeGltfMaterials(GltfDocument* document, Scene* scene) {
   materials.reserve(count + 1);
   UniqueNames names;
   for (size_t i = 0; i < count; ++i) {
+    CheckTextures(*document, i, textures);
     std::string name = names.Take(document->model.materials[i].name, "#", i);
     materials.push_back(MakeMaterial(document, i, std::move(name), &textures));
   }

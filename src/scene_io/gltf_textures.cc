@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "scene/limits.h"
 #include "scene_io/gltf_extension.h"
 #include "scene_io/uri.h"
 
@@ -46,6 +47,27 @@ struct UvChange {
     texture->offset = {offset.x + scale.y * s, 1 - offset.y - scale.y * c};
   }
 };
+
+// Here, not when the scene is validated: of its numbers few are the file's own. `place`: of the
+// extension.
+void ApplyTransform(const GltfDocument& document, const UvChange& change, const std::string& place,
+                    Texture* texture) {
+  const Range& range = limits::kTextureScale;
+  const auto check = [&](const char* name, const Vec2d& given, const Vec2d& tested,
+                         const char* hint) {
+    if (range.Contains(tested.x) && range.Contains(tested.y)) return;
+    document.Refuse(place + "/" + name, fmt::format("[{}, {}] is out of range", given.x, given.y),
+                    fmt::format("each number {}{}", Describe(range), hint));
+  };
+  check("scale", change.scale, change.scale, "");
+  constexpr double kMostTurns = limits::kAngleDeg.max / 360;
+  if (!(std::abs(change.rotation) <= kMostTurns * 2 * M_PI)) {
+    document.Refuse(place + "/rotation", fmt::format("{} is out of range", change.rotation),
+                    fmt::format("radians, {} turns at most", kMostTurns));
+  }
+  change.Apply(texture);
+  check("offset", change.offset, texture->offset, ", with what the scale adds to it");
+}
 
 // Throws Error (kBadInput) for images that are not there, out of bounds, or outside the folder, and
 // for malformed data URIs.
@@ -172,13 +194,17 @@ bool GltfTextures::IsWhite(TextureId texture) {
   return known->second;
 }
 
+void GltfTextures::CheckIndex(int texture, const std::string& place) const {
+  const size_t count = document_.model.textures.size();
+  if (texture >= 0 && static_cast<size_t>(texture) < count) return;
+  document_.Refuse(place, fmt::format("there is no texture {}", texture),
+                   fmt::format("the file has {}", count));
+}
+
 TextureId GltfTextures::Add(const GltfTextureUse& use, const std::string& place) {
   if (use.texture < 0) return {};
+  CheckIndex(use.texture, place);
   const gltf::Model& model = document_.model;
-  if (static_cast<size_t>(use.texture) >= model.textures.size()) {
-    document_.Refuse(place, fmt::format("there is no texture {}", use.texture),
-                     fmt::format("the file has {}", model.textures.size()));
-  }
   const gltf::Texture& source = model.textures[static_cast<size_t>(use.texture)];
   if (source.source < 0) {
     document_.Warn("textures whose images only an extension names are left out");
@@ -189,12 +215,13 @@ TextureId GltfTextures::Add(const GltfTextureUse& use, const std::string& place)
   UvChange change;
   double tex_coord = use.tex_coord;
   if (const Json* transform = gltf::FindExtension(use.extensions, "KHR_texture_transform")) {
-    const GltfExtension reader(document_, *transform, place + "/extensions/KHR_texture_transform");
+    const std::string extension = place + "/extensions/KHR_texture_transform";
+    const GltfExtension reader(document_, *transform, extension);
     change.offset = reader.Pair("offset", change.offset);
     change.scale = reader.Pair("scale", change.scale);
     change.rotation = reader.Number("rotation", 0);
     tex_coord = reader.Number("texCoord", tex_coord);
-    change.Apply(&texture);
+    ApplyTransform(document_, change, extension, &texture);
   }
   if (tex_coord != 0 && tex_coord != 1) {
     document_.Warn("textures on other coordinates than TEXCOORD_0 and TEXCOORD_1 are left out");

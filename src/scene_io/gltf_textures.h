@@ -45,6 +45,9 @@ class GltfTextures {
   // for images that are missing or broken, or more than TexelBudget allows.
   TextureId Add(const GltfTextureUse& use, const std::string& place);
 
+  // Throws Error (kBadInput) if the file has no such texture.
+  void CheckIndex(int texture, const std::string& place) const;
+
   // Before all that: decodes the images that most materials have, several at a time.
   void DecodeAhead();
 

@@ -25,7 +25,11 @@ enum class Kind : uint8_t {
   kNumbers,  // an array of `length` numbers
   kObject,   // of which the table has more
   kObjects,  // an array of such
+  kTexture,  // an object of which the table has more as kTextureInfo
 };
+
+// The place of all textures that materials and their extensions refer to.
+constexpr std::string_view kTextureInfo = "textureInfo";
 
 struct Member {
   // Where: the names on the way, arrays left out. In an extension it is the extension's name and
@@ -100,25 +104,14 @@ constexpr std::array kMembers = {
     Member{"materials", "alphaMode", Kind::kText},
     Member{"materials", "alphaCutoff", Kind::kNumber},
     Member{"materials", "doubleSided", Kind::kBoolean},
-    Member{"materials", "emissiveTexture", Kind::kObject},
-    Member{"materials", "normalTexture", Kind::kObject},
-    Member{"materials", "occlusionTexture", Kind::kObject},
-    Required("materials/emissiveTexture", "index", Kind::kIndex),
-    Member{"materials/emissiveTexture", "texCoord", Kind::kIndex},
-    Required("materials/normalTexture", "index", Kind::kIndex),
-    Member{"materials/normalTexture", "texCoord", Kind::kIndex},
-    Member{"materials/normalTexture", "scale", Kind::kNumber},
-    Required("materials/occlusionTexture", "index", Kind::kIndex),
-    Member{"materials/occlusionTexture", "texCoord", Kind::kIndex},
+    Member{"materials", "emissiveTexture", Kind::kTexture},
+    Member{"materials", "normalTexture", Kind::kTexture},
+    Member{"materials", "occlusionTexture", Kind::kTexture},
     Member{"materials/pbrMetallicRoughness", "baseColorFactor", Kind::kNumbers, 4},
     Member{"materials/pbrMetallicRoughness", "metallicFactor", Kind::kNumber},
     Member{"materials/pbrMetallicRoughness", "roughnessFactor", Kind::kNumber},
-    Member{"materials/pbrMetallicRoughness", "baseColorTexture", Kind::kObject},
-    Member{"materials/pbrMetallicRoughness", "metallicRoughnessTexture", Kind::kObject},
-    Required("materials/pbrMetallicRoughness/baseColorTexture", "index", Kind::kIndex),
-    Member{"materials/pbrMetallicRoughness/baseColorTexture", "texCoord", Kind::kIndex},
-    Required("materials/pbrMetallicRoughness/metallicRoughnessTexture", "index", Kind::kIndex),
-    Member{"materials/pbrMetallicRoughness/metallicRoughnessTexture", "texCoord", Kind::kIndex},
+    Member{"materials/pbrMetallicRoughness", "baseColorTexture", Kind::kTexture},
+    Member{"materials/pbrMetallicRoughness", "metallicRoughnessTexture", Kind::kTexture},
     Member{"meshes", "name", Kind::kText},
     Required("meshes", "primitives", Kind::kObjects),
     Required("meshes/primitives", "attributes", Kind::kObject),
@@ -154,6 +147,17 @@ constexpr std::array kMembers = {
     Member{"KHR_lights_punctual/lights", "spot", Kind::kObject},
     Member{"KHR_lights_punctual/lights/spot", "innerConeAngle", Kind::kNumber},
     Member{"KHR_lights_punctual/lights/spot", "outerConeAngle", Kind::kNumber},
+    Member{"KHR_materials_clearcoat", "clearcoatTexture", Kind::kTexture},
+    Member{"KHR_materials_clearcoat", "clearcoatRoughnessTexture", Kind::kTexture},
+    Member{"KHR_materials_clearcoat", "clearcoatNormalTexture", Kind::kTexture},
+    Member{"KHR_materials_pbrSpecularGlossiness", "diffuseTexture", Kind::kTexture},
+    Member{"KHR_materials_sheen", "sheenColorTexture", Kind::kTexture},
+    Member{"KHR_materials_sheen", "sheenRoughnessTexture", Kind::kTexture},
+    Member{"KHR_materials_specular", "specularTexture", Kind::kTexture},
+    Member{"KHR_materials_specular", "specularColorTexture", Kind::kTexture},
+    Required(kTextureInfo, "index", Kind::kIndex),
+    Member{kTextureInfo, "texCoord", Kind::kIndex},
+    Member{kTextureInfo, "scale", Kind::kNumber},
     Member{"KHR_texture_transform", "offset", Kind::kNumbers, 2},
     Member{"KHR_texture_transform", "scale", Kind::kNumbers, 2},
     Member{"KHR_texture_transform", "rotation", Kind::kNumber},
@@ -203,6 +207,7 @@ bool HasKind(const Member& member, Json* json) {
       return json->size() == member.length &&
              AllOf(json, [](Json* element) { return element->is_number(); });
     case Kind::kObject:
+    case Kind::kTexture:
       return json->is_object();
     case Kind::kObjects:
       return json->size() <= MostOf(member) &&
@@ -229,6 +234,7 @@ std::string Describe(const Member& member) {
     case Kind::kNumbers:
       return fmt::format("an array of {} numbers", member.length);
     case Kind::kObject:
+    case Kind::kTexture:
       return "an object";
     case Kind::kObjects:
       return fmt::format("an array of objects, {} at most", MostOf(member));
@@ -277,8 +283,11 @@ void CheckObject(const std::string& pointer, const std::string& place, Json* obj
       faults->Add(where, "is not " + Describe(*member));
       continue;
     }
-    const std::string inner = place.empty() ? name : place + "/" + name;
-    if (member->kind == Kind::kObject) CheckObject(where, inner, &json, faults);
+    const bool is_texture = member->kind == Kind::kTexture;
+    const std::string inner = is_texture      ? std::string(kTextureInfo)
+                              : place.empty() ? name
+                                              : place + "/" + name;
+    if (member->kind == Kind::kObject || is_texture) CheckObject(where, inner, &json, faults);
     if (member->kind != Kind::kObjects) continue;
     for (size_t i = 0; i < json.size(); ++i) {
       CheckObject(fmt::format("{}/{}", where, i), inner, &json[i], faults);

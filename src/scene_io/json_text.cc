@@ -112,11 +112,28 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
     std::string shown(message.substr(0, quoted));
     if (quoted != std::string_view::npos) shown += Excerpt(message.substr(quoted));
     throw Error(ExitCode::kBadInput, file_ + ":" + LineAndColumn(text_, bytes_read),
-                "not JSON: " + shown, "JSON has no comments and no comma after the last item");
+                "not JSON: " + shown, HintFor(message, bytes_read));
   }
 
  private:
   static constexpr std::string_view kShapes = "shapes";
+
+  // What to do about what the parser says of the text that it has read so many bytes of.
+  std::string HintFor(std::string_view message, size_t bytes_read) const {
+    if (message.find("surrogate") != std::string_view::npos) {
+      return R"(half a character: give both of its \u escapes, or the character itself)";
+    }
+    const auto is_letter = [](char c) { return (c | 0x20) >= 'a' && (c | 0x20) <= 'z'; };
+    size_t begin = std::min(bytes_read, text_.size()), end = begin;
+    while (begin > 0 && is_letter(text_[begin - 1])) --begin;
+    while (end < text_.size() && is_letter(text_[end])) ++end;
+    std::string word(text_.substr(begin, std::min<size_t>(end - begin, 9)));
+    for (char& c : word) c = static_cast<char>(c | 0x20);
+    if (word == "nan" || word == "inf" || word == "infinity") {
+      return "JSON has no NaN and no Infinity: give a finite number";
+    }
+    return "JSON has no comments and no comma after the last item";
+  }
 
   struct Level {
     Json* value;       // an object or array; stays where it is while it is the last in its parent

@@ -200,6 +200,14 @@ TEST_CASE("binary files that are cut or lie about their lengths") {
     return MessageOf("a.glb", bytes);
   };
   CHECK(MessageOf("a.glb", good + "xyz") == "no error");  // behind the length that it states
+  for (const char* other :
+       {"<!DOCTYPE html>\n<html></html>", "version https://git-lfs", "", "glT"}) {
+    CHECK(
+        MessageOf("a.glb", other)
+            .ends_with("a.glb: does not begin with \"glTF\", as .glb files do\n  hint: is it a web "
+                       "page that a download left, or another kind of file?"));
+  }
+  CHECK(Contains(MessageOf("a.glb", "\n{\"a\": 1}"), "has no \"asset\""));  // .gltf by another name
   CHECK(Contains(with_word(4, 1), "is glTF 1"));
   CHECK(Contains(with_word(8, 0xffffffff), "says that it has 4294967295"));
   CHECK(Contains(with_word(8, 12), "its first chunk is not JSON"));

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "catch.h"
+#include "messages.h"
 #include "scene/texture_mapping.h"
 #include "scene_io/gltf_builder.h"
 
@@ -131,6 +132,74 @@ TEST_CASE("samplers and transforms") {
     CHECK(std::abs(got.x - expected.x) < 1e-12);
     CHECK(std::abs(1 - got.y - expected.y) < 1e-12);
   }
+}
+
+// The message of the one fault that the file is refused for, from its pointer on.
+std::string MessageOfTextures(const GltfFile& file) {
+  const std::string message = ErrorOf([&] { LoadFile(file); });
+  const std::string file_name = "model.glb: ";
+  const size_t found = message.find(file_name);
+  return found == std::string::npos ? message : message.substr(found + file_name.size());
+}
+
+TEST_CASE("transforms out of range are refused in the file's own words") {
+  const auto fault = [](const char* transform) {
+    GltfFile file = MakeTexturedSquare();
+    file.json["materials"][0]["extensions"]["KHR_materials_clearcoat"] = {
+        {"clearcoatFactor", 1},
+        {"clearcoatTexture",
+         {{"index", 0}, {"extensions", {{"KHR_texture_transform", Json::parse(transform)}}}}}};
+    return MessageOfTextures(file);
+  };
+  const std::string place =
+      "/materials/0/extensions/KHR_materials_clearcoat/clearcoatTexture/extensions/"
+      "KHR_texture_transform/";
+  CHECK(fault(R"({"scale": [1e30, 1e30]})") == place +
+                                                   "scale: [1e+30, 1e+30] is out of range\n"
+                                                   "  hint: each number from -1000000 to 1000000");
+  CHECK(fault(R"({"rotation": 1e30})") ==
+        place + "rotation: 1e+30 is out of range\n  hint: radians, 100 turns at most");
+  CHECK(fault(R"({"rotation": -629})").starts_with(place + "rotation: -629 is out of range\n"));
+  CHECK(fault(R"({"offset": [0, -2e6]})").starts_with(place + "offset: [0, -2000000] is out of"));
+  // What the scale adds: 1 - 1e6 - 1e6.
+  CHECK(fault(R"({"offset": [0, 1e6], "scale": [1, 1e6]})").starts_with(place + "offset: "));
+  CHECK(fault(R"({"texCoord": -1})").starts_with(place + "texCoord: is not a whole number from 0"));
+  CHECK(fault(R"({"offset": [5, -1e5], "scale": [1e6, 2], "rotation": 628})") == "no error");
+}
+
+TEST_CASE("references to textures are checked even where they are not followed") {
+  for (const char* texture :
+       {"occlusionTexture", "extensions/KHR_materials_clearcoat/clearcoatTexture",
+        "extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture",
+        "extensions/KHR_materials_clearcoat/clearcoatNormalTexture",
+        "extensions/KHR_materials_sheen/sheenColorTexture",
+        "extensions/KHR_materials_sheen/sheenRoughnessTexture",
+        "extensions/KHR_materials_specular/specularTexture",
+        "extensions/KHR_materials_specular/specularColorTexture"}) {
+    CAPTURE(texture);
+    const std::string place = std::string("/materials/0/") + texture;
+    const auto fault = [&](const Json& info) {
+      GltfFile file = MakeTexturedSquare();
+      file.json[Json::json_pointer(place)] = info;
+      return MessageOfTextures(file);
+    };
+    CHECK(fault({{"index", 0}}) == "no error");
+    CHECK(fault({{"index", 99}}) == place + ": there is no texture 99\n  hint: the file has 1");
+    CHECK(fault({{"index", -1}}).starts_with(place + "/index: is not a whole number from 0 on"));
+    CHECK(fault({{"index", 0}, {"texCoord", -1}})
+              .starts_with(place + "/texCoord: is not a whole number from 0 on"));
+    CHECK(fault({{"texCoord", 0}}).starts_with(place + ": has no \"index\""));
+    CHECK(fault(3).starts_with(place + ": is not an object"));
+  }
+  GltfFile unlit = MakeTexturedSquare();
+  unlit.json["materials"][0]["extensions"]["KHR_materials_unlit"] = Json::object();
+  unlit.json["materials"][0]["normalTexture"] = {{"index", 1}};
+  CHECK(MessageOfTextures(unlit).starts_with("/materials/0/normalTexture: there is no texture 1"));
+  // Of names that nothing is known of, nothing is asked.
+  GltfFile other = MakeTexturedSquare();
+  other.json["materials"][0]["extensions"]["EXT_a"]["aTexture"] = {{"index", 99}};
+  other.json["materials"][0]["aTexture"] = "a";
+  CHECK(MessageOfTextures(other) == "no error");
 }
 
 TEST_CASE("what cannot be shown is told, and the rest is shown") {
