@@ -233,7 +233,7 @@ std::vector<Glint> FindMeshGlints(const Scene& scene, const SurfacePlan& surface
   for (size_t number = 0; number < scene.meshes.size(); ++number) {
     const Mesh& mesh = scene.meshes[number];
     const size_t count = mesh.triangles.size() / 3;
-    if (InterpolatesRadiance(mesh)) {
+    if (!InterpolatesRadiance(mesh)) {
       std::vector<std::vector<Glint>> found((count + kAtOnce - 1) / kAtOnce);
       ParallelFor(found.size(), threads, [&](size_t piece) {
         const size_t end = std::min(count, (piece + 1) * kAtOnce);
