@@ -4,6 +4,7 @@
 #pragma once
 
 #include "render/direct_plan.h"
+#include "render/stats.h"
 #include "render/surfaces.h"
 
 namespace nacre {
