@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "brdf/angles.h"
@@ -398,6 +399,37 @@ TEST_CASE("a normal that leans away from the viewer counts as seen edge-on") {
     ShadeRun(prepared, {hits, surface, prepared_light, &batch}, 0, 1, &scratch, &radiance);
     CHECK(radiance.specular.x[0] == Approx(expected).epsilon(1e-5));
   });
+}
+
+TEST_CASE("a user's function is asked for hits that are seen from above their normal alone") {
+  size_t asked = 0;
+  const auto brdf = std::make_shared<UserBrdf>();
+  brdf->evaluate = [&](const UserBrdf::Batch& batch, const UserBrdf::Values& rgb) {
+    asked += batch.count;
+    for (double* const plane : rgb) std::fill_n(plane, batch.count, 1.0);
+  };
+  Material material;
+  material.user = brdf;
+  const ShadingMaterial prepared = Prepare(material);
+  const auto reflected = [&](const Vec3d& to_view) {
+    const HitBatch hits = MakeHit(to_view);
+    Light light;
+    light.kind = DirectionalLight{.direction_of_travel = {0, -1, 0}, .irradiance = {1, 1, 1}};
+    const ShadingLight prepared_light = PrepareLight(light, {0, 0, 0});
+    Surface surface;
+    LightBatch batch;
+    PrepareSurface(hits, &surface);
+    PrepareRun(prepared, 0, 1, &surface);
+    EvaluateLight(prepared_light, hits, surface, &batch);
+    ReflectedRadiance radiance;
+    ShadeScratch scratch;
+    ShadeRun(prepared, {hits, surface, prepared_light, &batch}, 0, 1, &scratch, &radiance);
+    return radiance.sum.x[0];
+  };
+  CHECK(reflected(Vec3d(0.6, 0.8, 0)) == 1);
+  CHECK(asked == 1);
+  CHECK(reflected(Vec3d(1, -1e-9, 0)) == 0);  // as roundings of grazing views are
+  CHECK(asked == 1);
 }
 
 // On spheres n.v of what is seen rounds to above -4e-7, and with it n.u: the limit of grazing
