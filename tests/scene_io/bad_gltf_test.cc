@@ -170,11 +170,11 @@ TEST_CASE("numbers in buffers are looked at, too") {
   CHECK(MessageOf("a.glb", file.Binary()) == "no error");
 }
 
-// Pieces of 2^14 vertices are read at the same time: the first is wrong in its middle, so that the
-// others, which are wrong at their ends, have begun by then and end after it.
+// Pieces of 2^14 vertices are read at the same time: each is wrong at its end, so that others have
+// begun when the first is found to be, and are found to be so after it.
 TEST_CASE("of wrong vertices the first is told, however many threads read them") {
   std::vector<float> positions(3 * 65535);
-  for (const size_t vertex : {8000u, 32767u, 49151u, 65534u}) {
+  for (const size_t vertex : {16383u, 32767u, 49151u, 65534u}) {
     positions[3 * vertex] = std::numeric_limits<float>::quiet_NaN();
   }
   std::vector<uint32_t> indices(65535);
@@ -185,7 +185,7 @@ TEST_CASE("of wrong vertices the first is told, however many threads read them")
   primitive["indices"] = file.Accessor(indices, 5125, "SCALAR", 1);
   const std::string bytes = file.Binary();
   for (int i = 0; i < 40; ++i) {
-    CHECK(Contains(MessageOf("a.glb", bytes), "position 8000 is out of range"));
+    CHECK(Contains(MessageOf("a.glb", bytes), "position 16383 is out of range"));
   }
 }
 
