@@ -14,10 +14,10 @@ namespace {
 constexpr double kPad = 1.1;  // around everything
 constexpr double kTitleSize = 1.25;
 constexpr double kFooterSize = 0.82;
-constexpr double kLine = 1.3;      // from line to line, of the line's own size
-constexpr double kRowLine = 1.15;  // from row to row, at least
-constexpr double kGap = 0.55;      // between text and what it belongs to
-constexpr double kWidestRowLabel = 20;
+constexpr double kLine = 1.3;           // from line to line, of the line's own size
+constexpr double kRowLine = 1.15;       // from row to row, at least
+constexpr double kGap = 0.55;           // between text and what it belongs to
+constexpr double kWidestRowLabel = 20;  // what is wider is cut
 
 struct Margins {
   double left = 0, right = 0, top = 0, bottom = 0;

@@ -372,6 +372,21 @@ TEST_CASE("runs may be prepared in any order") {
   });
 }
 
+// What the one hit reflects of a directional light of irradiance 1.
+void ReflectSun(const ShadingMaterial& material, const HitBatch& hits, const Vec3d& to_light,
+                ReflectedRadiance* radiance) {
+  Light light;
+  light.kind = DirectionalLight{.direction_of_travel = -to_light, .irradiance = {1, 1, 1}};
+  const ShadingLight prepared = PrepareLight(light, {0, 0, 0});
+  Surface surface;
+  LightBatch on_hit;
+  ShadeScratch scratch;
+  PrepareSurface(hits, &surface);
+  PrepareRun(material, 0, 1, &surface);
+  EvaluateLight(prepared, hits, surface, &on_hit);
+  ShadeRun(material, {hits, surface, prepared, &on_hit}, 0, 1, &scratch, radiance);
+}
+
 TEST_CASE("a normal that leans away from the viewer counts as seen edge-on") {
   MetallicRoughnessMaterial material;
   material.roughness = 0.7;
@@ -386,17 +401,8 @@ TEST_CASE("a normal that leans away from the viewer counts as seen edge-on") {
   const double expected = GgxDistribution(angles, model.alpha) * fresnel * angles.n_dot_l *
                           VisibilityHeightCorrelated(angles.n_dot_l, 0.0, model.alpha);
   ForEachTarget([&](Target) {
-    Surface surface;
-    LightBatch batch;
-    PrepareSurface(hits, &surface);
-    PrepareRun(prepared, 0, 1, &surface);
-    Light light;
-    light.kind = DirectionalLight{.direction_of_travel = -to_light, .irradiance = {1, 1, 1}};
-    const ShadingLight prepared_light = PrepareLight(light, {0, 0, 0});
-    EvaluateLight(prepared_light, hits, surface, &batch);
     ReflectedRadiance radiance;
-    ShadeScratch scratch;
-    ShadeRun(prepared, {hits, surface, prepared_light, &batch}, 0, 1, &scratch, &radiance);
+    ReflectSun(prepared, hits, to_light, &radiance);
     CHECK(radiance.specular.x[0] == Approx(expected).epsilon(1e-5));
   });
 }
@@ -412,18 +418,8 @@ TEST_CASE("a user's function is asked for hits that are seen from above their no
   material.user = brdf;
   const ShadingMaterial prepared = Prepare(material);
   const auto reflected = [&](const Vec3d& to_view) {
-    const HitBatch hits = MakeHit(to_view);
-    Light light;
-    light.kind = DirectionalLight{.direction_of_travel = {0, -1, 0}, .irradiance = {1, 1, 1}};
-    const ShadingLight prepared_light = PrepareLight(light, {0, 0, 0});
-    Surface surface;
-    LightBatch batch;
-    PrepareSurface(hits, &surface);
-    PrepareRun(prepared, 0, 1, &surface);
-    EvaluateLight(prepared_light, hits, surface, &batch);
     ReflectedRadiance radiance;
-    ShadeScratch scratch;
-    ShadeRun(prepared, {hits, surface, prepared_light, &batch}, 0, 1, &scratch, &radiance);
+    ReflectSun(prepared, MakeHit(to_view), {0, 1, 0}, &radiance);
     return radiance.sum.x[0];
   };
   CHECK(reflected(Vec3d(0.6, 0.8, 0)) == 1);
@@ -447,17 +443,8 @@ TEST_CASE("a hit at the limb whose half vector rounds to below the surface has i
   const double expected =
       model.alpha * FresnelSchlick(model.f0.x, SchlickWeight(angles)) / (2 * M_PI);
   ForEachTarget([&](Target) {
-    Surface surface;
-    LightBatch batch;
-    PrepareSurface(hits, &surface);
-    PrepareRun(prepared, 0, 1, &surface);
-    Light light;
-    light.kind = DirectionalLight{.direction_of_travel = -to_light, .irradiance = {1, 1, 1}};
-    const ShadingLight prepared_light = PrepareLight(light, {0, 0, 0});
-    EvaluateLight(prepared_light, hits, surface, &batch);
     ReflectedRadiance radiance;
-    ShadeScratch scratch;
-    ShadeRun(prepared, {hits, surface, prepared_light, &batch}, 0, 1, &scratch, &radiance);
+    ReflectSun(prepared, hits, to_light, &radiance);
     CHECK(radiance.specular.x[0] == Approx(expected).epsilon(1e-5));
   });
 }
@@ -468,9 +455,6 @@ TEST_CASE("rough diffuse surfaces whose normal leans away count as seen edge-on,
   const HitBatch hits = MakeHit(to_view);
   Angles<double> edge_on = ComputeAngles(Vec3d(0, 1, 0), to_light, to_view);
   edge_on.n_dot_v = 1e-300;
-  Light light;
-  light.kind = DirectionalLight{.direction_of_travel = -to_light, .irradiance = {1, 1, 1}};
-  const ShadingLight prepared_light = PrepareLight(light, {0, 0, 0});
   const std::pair<ShadingMaterial, double> cases[] = {
       {Prepare(OrenNayarMaterial{.albedo = {0.8, 0.8, 0.8}, .roughness = 1}),
        Eon(edge_on, 0.8, 1.0)},
@@ -478,14 +462,8 @@ TEST_CASE("rough diffuse surfaces whose normal leans away count as seen edge-on,
        0.8 * BurleyDiffuse(edge_on, 1.0)}};
   for (const auto& [material, brdf] : cases) {
     ForEachTarget([&](Target) {
-      Surface surface;
-      LightBatch batch;
-      PrepareSurface(hits, &surface);
-      PrepareRun(material, 0, 1, &surface);
-      EvaluateLight(prepared_light, hits, surface, &batch);
       ReflectedRadiance radiance;
-      ShadeScratch scratch;
-      ShadeRun(material, {hits, surface, prepared_light, &batch}, 0, 1, &scratch, &radiance);
+      ReflectSun(material, hits, to_light, &radiance);
       CHECK(radiance.diffuse.x[0] == Approx(brdf * edge_on.n_dot_l).epsilon(1e-5));
     });
   }
@@ -494,23 +472,14 @@ TEST_CASE("rough diffuse surfaces whose normal leans away count as seen edge-on,
 TEST_CASE("light exactly opposite the viewer of a normal that leans away: no highlight, no NaN") {
   const Vec3d to_view(0, -1, 0);  // of a hit whose normal is +y
   const HitBatch hits = MakeHit(to_view);
-  Light light;
-  light.kind = DirectionalLight{.direction_of_travel = to_view, .irradiance = {1, 1, 1}};
-  const ShadingLight prepared_light = PrepareLight(light, {0, 0, 0});
   for (const DiffuseCoupling coupling :
        {DiffuseCoupling::kAlbedoScaled, DiffuseCoupling::kOneMinusFresnel}) {
     MetallicRoughnessMaterial material;
     material.diffuse_coupling = coupling;
     const ShadingMaterial prepared = Prepare(material);
     ForEachTarget([&](Target) {
-      Surface surface;
-      PrepareSurface(hits, &surface);
-      PrepareRun(prepared, 0, 1, &surface);
-      LightBatch on_hit;
-      EvaluateLight(prepared_light, hits, surface, &on_hit);
       ReflectedRadiance radiance;
-      ShadeScratch scratch;
-      ShadeRun(prepared, {hits, surface, prepared_light, &on_hit}, 0, 1, &scratch, &radiance);
+      ReflectSun(prepared, hits, -to_view, &radiance);
       CHECK(radiance.specular.x[0] == 0);
       CHECK(std::isfinite(radiance.diffuse.x[0]));
     });
