@@ -97,20 +97,23 @@ Rgb8Picture Show(const Panel& panel, const RenderOptions& options) {
                    {.tone = ParseToneOperator(options.tonemap), .exposure_ev = options.exposure});
 }
 
-// The largest difference of each pixel's channels; the ground where there is no sphere.
+// The largest difference of each pixel's channels, on `ground` as far as the sphere covers it.
 Rgb8Picture ShowDifference(const Panel& a, const Panel& b, const HeatScale& scale,
-                           const Rgb8Picture& ground) {
-  Rgb8Picture picture = ground;
-  for (size_t i = 0; 3 * i < picture.rgb8.size(); ++i) {
-    if (!(a.Channel("A")[i] > 0.5f)) continue;
+                           const Rgb8& ground, int side) {
+  Rgb8Picture picture{side, side, {}};
+  const std::vector<float>& alpha = a.Channel("A");
+  for (size_t i = 0; i < alpha.size(); ++i) {
     double worst = 0;
     for (const char* name : {"R", "G", "B"}) {
       worst = std::max(worst, std::abs(static_cast<double>(a.Channel(name)[i]) -
                                        static_cast<double>(b.Channel(name)[i])));
     }
     const Rgb8 color = worst > 0 ? HeatColor(scale.Position(worst)) : kHeatEqual;
-    std::copy(color.begin(), color.end(),
-              picture.rgb8.begin() + 3 * static_cast<std::ptrdiff_t>(i));
+    const double covered = std::clamp(double{alpha[i]}, 0.0, 1.0);
+    for (size_t c = 0; c < 3; ++c) {
+      const double code = color[c] * covered + ground[c] * (1 - covered);
+      picture.rgb8.push_back(static_cast<uint8_t>(std::lround(code)));
+    }
   }
   return picture;
 }
@@ -121,8 +124,8 @@ double StripInset(const SheetPage& page) { return (0.5 - kSheetSphereRadius) * p
 // Whether the caption below the third cell would reach into the measures, or off the page.
 bool IsTooNarrow(const SheetPage& page) {
   const double em = page.text_px;
-  const double measures = page.left + StripInset(page) + TextWidth("mean of A - B -8.888e-88", em);
-  const double caption = TextWidth(kScaleCaption, kScaleText * em);
+  const double measures = page.left + StripInset(page) + DrawnWidth("mean of A - B -8.888e-88", em);
+  const double caption = DrawnWidth(kScaleCaption, kScaleText * em);
   const double center = page.left + 2.5 * page.cell;
   return center - caption / 2 < measures + em / 2 || center + caption / 2 > page.width;
 }
@@ -133,7 +136,7 @@ int LabelStep(int low, double width, double size) {
     bool apart = true;
     double end = -size;  // of the label before
     for (int power = low; power <= low + 4; power += step) {
-      const double label = TextWidth(fmt::format("1e{}", power), size);
+      const double label = DrawnWidth(fmt::format("1e{}", power), size);
       const double x = (power - low) / 4.0 * width;
       const double begin = power == low ? x : power == low + 4 ? x - label : x - label / 2;
       apart = apart && begin >= end + size / 2;
@@ -227,13 +230,14 @@ DifferenceMeasures DrawDifference(const DifferencePage& difference, const SheetO
   if (options.outputs.empty()) return measures;
 
   const Rgb8Picture shown_a = Show(a, options);
-  Canvas canvas(page.width, page.height, {shown_a.rgb8[0], shown_a.rgb8[1], shown_a.rgb8[2]});
+  const Rgb8 ground = {shown_a.rgb8[0], shown_a.rgb8[1], shown_a.rgb8[2]};
+  Canvas canvas(page.width, page.height, ground);
   const int top = static_cast<int>(page.top);
   const auto left = [&](int i) { return static_cast<int>(page.left) + i * side; };
   canvas.Paste(shown_a, left(0), top);
   canvas.Paste(Show(b, options), left(1), top);
   const HeatScale scale = ScaleFor(measures.max);
-  canvas.Paste(ShowDifference(a, b, scale, shown_a), left(2), top);
+  canvas.Paste(ShowDifference(a, b, scale, ground, side), left(2), top);
   if (page.text_px > 0) {
     DrawScale(page, scale, scale_below, request.light_ground, &canvas);
     WriteMeasures(page, measures, request.light_ground, &canvas);

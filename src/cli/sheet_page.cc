@@ -45,10 +45,10 @@ Margins MeasureMargins(const SheetText& text, double em, double cell, double wid
   }
   if (!text.column_name.empty()) m.top += LineHeight(em);
   m.row_label_size = std::clamp(cell / kRowLine, 0.7 * em, em);
-  double widest = TextWidth(text.row_name, em);
+  double widest = DrawnWidth(text.row_name, em);
   for (const std::string& label : text.row_labels) {
     m.row_labels.push_back(CutText(label, m.row_label_size, kWidestRowLabel * em));
-    widest = std::max(widest, TextWidth(m.row_labels.back(), m.row_label_size));
+    widest = std::max(widest, DrawnWidth(m.row_labels.back(), m.row_label_size));
   }
   if (widest > 0) m.left += widest + kGap * em;
   // The block of cells is in the middle of what the margins leave; half of the padding stays free.

@@ -34,7 +34,7 @@ size_t LengthThatFits(const std::string& text, double size_px, double width) {
   while (length < text.size()) {
     size_t next = length + 1;
     while (next < text.size() && (static_cast<unsigned char>(text[next]) & 0xc0) == 0x80) ++next;
-    used += TextWidth(std::string_view(text).substr(length, next - length), size_px);
+    used += DrawnWidth(std::string_view(text).substr(length, next - length), size_px);
     if (used > width) break;
     length = next;
   }
@@ -47,7 +47,7 @@ std::vector<std::string> WrapWords(const std::string& text, double size_px, doub
   std::vector<std::string> lines;
   std::string line;
   for (const std::string& word : Words(Printable(text))) {
-    if (!line.empty() && TextWidth(WithoutEndSpace(line + word), size_px) > width) {
+    if (!line.empty() && DrawnWidth(WithoutEndSpace(line + word), size_px) > width) {
       lines.push_back(WithoutEndSpace(line));
       line.clear();
     }
@@ -79,7 +79,7 @@ bool Fits(const LabelRow& row, const FittedLabels& fitted, double room) {
   for (const FittedLabels::Label& label : fitted.labels) {
     if (label.lines.size() > kMostLines) return false;
     for (const std::string& line : label.lines) {
-      const double width = TextWidth(line, fitted.size) + kBetween * fitted.size;
+      const double width = DrawnWidth(line, fitted.size) + kBetween * fitted.size;
       if (width > RoomAt(row, label.place, room)) return false;
     }
   }
@@ -143,7 +143,7 @@ void CutToFit(const LabelRow& row, size_t tiers, double room, FittedLabels* fitt
 std::vector<std::string> WrapText(const std::string& text, double size_px, double width) {
   std::vector<std::string> lines;
   for (std::string& line : WrapWords(text, size_px, width)) {
-    while (TextWidth(line, size_px) > width) {
+    while (DrawnWidth(line, size_px) > width) {
       const size_t length = LengthThatFits(line, size_px, width);
       if (length == 0) break;  // no room for a single character
       lines.push_back(line.substr(0, length));
@@ -156,8 +156,8 @@ std::vector<std::string> WrapText(const std::string& text, double size_px, doubl
 
 std::string CutText(const std::string& text, double size_px, double width) {
   const std::string shown = Printable(text);
-  if (TextWidth(shown, size_px) <= width) return shown;
-  const double room = width - TextWidth("…", size_px);
+  if (DrawnWidth(shown, size_px) <= width) return shown;
+  const double room = width - DrawnWidth("…", size_px);
   return WithoutEndSpace(shown.substr(0, LengthThatFits(shown, size_px, room))) + "…";
 }
 

@@ -217,7 +217,17 @@ constexpr std::array<uint16_t, 95> kAdvances = {
     1235, 1612, 1423, 1300, 1251, 1499, 1401, 2025, 1403, 1251, 1403, 799,  690,  799,  1716, 1024,
     1024, 1255, 1300, 1126, 1300, 1260, 721,  1300, 1298, 569,  569,  1186, 569,  1995, 1298, 1253,
     1300, 1300, 842,  1067, 803,  1298, 1212, 1675, 1212, 1212, 1075, 1303, 690,  1303, 1716};
-constexpr double kUnits = 2048;
+constexpr int kUnits = 2048;
+
+// In units; `other` is that of letters beyond ASCII.
+int AdvanceOf(char first_byte, int other) {
+  const auto code = static_cast<unsigned char>(first_byte);
+  return code >= 32 && code < 127 ? kAdvances[code - 32u] : other;
+}
+
+bool IsFirstByte(char byte) { return (static_cast<unsigned char>(byte) & 0xc0u) != 0x80u; }
+
+int SizeDrawn(double size_px) { return std::max(static_cast<int>(std::lround(size_px)), 1); }
 
 }  // namespace
 
@@ -226,7 +236,7 @@ TextItem PlainText(const std::string& text, double x, double y, double size_px, 
   return {.text = text,
           .x = static_cast<int>(std::lround(x)),
           .y = static_cast<int>(std::lround(y)),
-          .size_px = std::max(static_cast<int>(std::lround(size_px)), 1),
+          .size_px = SizeDrawn(size_px),
           .align_x = align_x,
           .align_y = align_y,
           .color = color,
@@ -245,12 +255,20 @@ void DrawText(std::span<uint8_t> rgb8, int width, int height, const std::vector<
 double TextWidth(std::string_view text, double size_px) {
   double units = 0;
   for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if ((code & 0xc0u) == 0x80u) continue;  // a later byte of a letter
-    const bool known = code >= 32 && code < 127;
-    units += known ? kAdvances[code - 32u] : kAdvances['0' - 32];
+    if (IsFirstByte(c)) units += AdvanceOf(c, kAdvances['0' - 32]);
   }
   return units / kUnits * size_px;
+}
+
+double DrawnWidth(std::string_view text, double size_px) {
+  const int size = SizeDrawn(size_px);
+  int width = 0;
+  for (const char c : text) {
+    // FreeType scales to 64ths of a pixel, and rounds those to pixels.
+    const int in_64ths = (2 * AdvanceOf(c, kUnits) * size + 32) / 64;
+    if (IsFirstByte(c)) width += (in_64ths + 32) / 64;
+  }
+  return width;
 }
 
 }  // namespace nacre

@@ -35,9 +35,14 @@ TextItem PlainText(const std::string& text, double x, double y, double size_px, 
 // Error (kInternal) if the font is not installed.
 void DrawText(std::span<uint8_t> rgb8, int width, int height, const std::vector<TextItem>& items);
 
-// Width in pixels of a line as it is laid out at any size, without the rounding that drawing does
-// for a size in whole pixels, and without the font's file: plots are laid out where no font is
-// installed, too. Letters beyond ASCII count as the widest digit.
+// Width in pixels of a line at any size, without the rounding that drawing does, and without the
+// font's file: plots are laid out where no font is installed, too. Letters beyond ASCII count as
+// the widest digit.
 double TextWidth(std::string_view text, double size_px);
+
+// Width in pixels of a line as PlainText has it drawn: the size and each letter's advance are whole
+// pixels, which for small sizes makes lines up to a tenth wider. Letters beyond ASCII count as wide
+// as they are high, which few exceed.
+double DrawnWidth(std::string_view text, double size_px);
 
 }  // namespace nacre

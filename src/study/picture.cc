@@ -16,7 +16,7 @@ constexpr Rgb8 kGround = {30, 30, 30};
 
 int LongestWidth(const std::vector<std::string>& texts) {
   double width = 0;
-  for (const std::string& text : texts) width = std::max(width, TextWidth(text, kTextPx));
+  for (const std::string& text : texts) width = std::max(width, DrawnWidth(text, kTextPx));
   return texts.empty() ? 0 : static_cast<int>(std::ceil(width)) + 2 * kGap;
 }
 

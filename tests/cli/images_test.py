@@ -342,6 +342,42 @@ class ImagesTest(unittest.TestCase):
             above = bytes(line)
         return rows
 
+    def test_names_on_sheets_stay_on_the_page(self):
+        """Long ones are wrapped or shortened: none reaches the page's edge, where ink would be cut
+        off. Titles, names of rows, of columns in tiers, and of both materials of a pair."""
+        named = lambda name: json.dumps({'model': 'phong', 'name': name})
+        four = lambda name: 'material=' + ','.join(named(name + str(i)) for i in range(4))
+        words, letters, control = 'of varnished wood ' * 30, 'W' * 300, 'W\x01' * 150
+        by_size, by_spheres = ['--size', '320x240'], ['--sphere-size', '24']
+        for sheet in (['pair', '--a', named(words), '--b', named(letters), *by_size],
+                      ['pair', '--layout', 'side', '--a', named(control), '--b', 'phong', *by_size],
+                      ['grid', '--title', letters, *by_size],
+                      ['grid', '--columns', four(words), *by_size],
+                      ['grid', '--columns', four(control), *by_spheres],
+                      ['grid', '--rows', four(letters), *by_size],
+                      ['grid', '--rows', four(control), *by_spheres]):
+            with self.subTest(sheet=[part[:30] for part in sheet]):
+                out = self.out / 'sheet.png'
+                result = run(*sheet, '--spp', '1', '--background', '0', '-o', out)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                rows = self.png_rows(out)
+                edge = [*rows[0], *rows[1], *rows[-2], *rows[-1]]
+                for row in rows:
+                    edge += [row[0], row[1], row[-2], row[-1]]
+                self.assertEqual(set(edge), {(0, 0, 0)})
+                self.assertGreater(max(max(row) for row in rows), (0, 0, 0))
+
+    def test_a_pair_without_a_difference_shows_none(self):
+        """Not at the sphere's outline either, where the picture of A was to be seen."""
+        result = run('pair', '--layout', 'difference', '--a', 'phong', '--b', 'phong', '--light',
+                     'furnace', '--background', '0', '--sphere-size', '120', '--spp', '4', '--no-labels',
+                     '-o', self.out / 'a.png')
+        self.assertEqual(result.returncode, 0, result.stderr)
+        rows = self.png_rows(self.out / 'a.png')
+        beside = {pixel for row in rows[:150] for pixel in row[300:]}  # of the spheres of A and B
+        self.assertEqual(beside, {(0, 0, 0)})
+        self.assertGreater(rows[80][100], (200, 200, 200))
+
     # ---- Parts ----
 
     def two_parts(self, name, second=0.0, window=(0, 0, 5, 3)):
