@@ -33,6 +33,18 @@ int LabelSize(const Scene& scene, const Imath::M44d& ndc_from_world) {
   return static_cast<int>(std::max(size, kSmallest));
 }
 
+// Whether two lines of one size would touch.
+bool Touch(const TextItem& a, const TextItem& b) {
+  const auto begin = [](const TextItem& item, double width) {
+    return item.x - (item.align_x == AlignX::kRight ? width : width / 2);
+  };
+  const double a_width = DrawnWidth(a.text, a.size_px), b_width = DrawnWidth(b.text, b.size_px);
+  const double a_begin = begin(a, a_width), b_begin = begin(b, b_width);
+  const double gap = a.size_px / 2.0;
+  return std::abs(a.y - b.y) < a.size_px && a_begin < b_begin + b_width + gap &&
+         b_begin < a_begin + a_width + gap;
+}
+
 }  // namespace
 
 void DrawLabels(const Scene& scene, const Window& window, std::span<uint8_t> rgb8) {
@@ -74,6 +86,8 @@ void DrawLabels(const Scene& scene, const Window& window, std::span<uint8_t> rgb
         item.align_y = AlignY::kTop;
         break;
     }
+    const auto touches = [&](const TextItem& other) { return Touch(item, other); };
+    if (std::any_of(items.begin(), items.end(), touches)) continue;
     items.push_back(item);
   }
   DrawText(rgb8, window.width(), window.height(), items);

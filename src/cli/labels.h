@@ -10,8 +10,8 @@
 
 namespace nacre {
 
-// Draws each label beside the projection of its anchor. `rgb8` holds the pixels of `window` of the
-// scene's frame.
+// Draws each label beside the projection of its anchor, but none that would touch one before it.
+// `rgb8` holds the pixels of `window` of the scene's frame.
 void DrawLabels(const Scene& scene, const Window& window, std::span<uint8_t> rgb8);
 
 }  // namespace nacre

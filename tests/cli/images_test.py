@@ -378,6 +378,20 @@ class ImagesTest(unittest.TestCase):
         self.assertEqual(beside, {(0, 0, 0)})
         self.assertGreater(rows[80][100], (200, 200, 200))
 
+    def test_labels_of_a_small_picture_do_not_touch(self):
+        """Names of columns that have no room beside their neighbours are left out."""
+        grid = str(SOURCE / 'scenes/material_grid.json')
+        files = [self.out / 'with.png', self.out / 'without.png']
+        for path, labels in zip(files, (['--labels'], [])):
+            result = run('render', grid, *labels, '--size', '240x135', '--spp', '1', '-o', path)
+            self.assertEqual(result.returncode, 0, result.stderr)
+        rows, bare = map(self.png_rows, files)
+        # The rows above the spheres; the names of rows are to the left of all spheres.
+        inked = [any(rows[y][x] != bare[y][x] for y in range(14)) for x in range(240)]
+        gaps = ''.join('x' if ink else ' ' for ink in inked).split('x')
+        words = [gap for gap in gaps[1:-1] if len(gap) > 4]  # wider than a space
+        self.assertEqual(len(words), 2)  # three names, of five
+
     # ---- Parts ----
 
     def two_parts(self, name, second=0.0, window=(0, 0, 5, 3)):
