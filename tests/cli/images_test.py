@@ -347,12 +347,14 @@ class ImagesTest(unittest.TestCase):
         off. Titles, names of rows, of columns in tiers, and of both materials of a pair."""
         named = lambda name: json.dumps({'model': 'phong', 'name': name})
         four = lambda name: 'material=' + ','.join(named(name + str(i)) for i in range(4))
+        one_row = ['--rows', 'ks=0.1']
         words, letters, control = 'of varnished wood ' * 30, 'W' * 300, 'W\x01' * 150
         by_size, by_spheres = ['--size', '320x240'], ['--sphere-size', '24']
         for sheet in (['pair', '--a', named(words), '--b', named(letters), *by_size],
                       ['pair', '--layout', 'side', '--a', named(control), '--b', 'phong', *by_size],
                       ['grid', '--title', letters, *by_size],
-                      ['grid', '--columns', four(words), *by_size],
+                      ['grid', *one_row, '--columns', four(words), *by_size],
+                      ['grid', *one_row, '--columns', four(letters), *by_size],
                       ['grid', '--columns', four(control), *by_spheres],
                       ['grid', '--rows', four(letters), *by_size],
                       ['grid', '--rows', four(control), *by_spheres]):
