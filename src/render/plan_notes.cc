@@ -10,6 +10,7 @@
 #include "brdf/burley.h"
 #include "brdf/ggx.h"
 #include "brdf/phong.h"
+#include "scene/coat.h"
 
 namespace nacre {
 namespace {
@@ -74,10 +75,7 @@ void NoteMirrors(const Scene& scene, const std::vector<ShadingMaterial>& materia
   NoteMirrors(
       scene, "coat_roughness",
       [&](size_t i) { return materials[i].coat && HasDeltaLobe(*materials[i].coat); },
-      [&](size_t i) {
-        return std::get<MetallicRoughnessMaterial>(scene.materials[i].model).coat_roughness;
-      },
-      notes);
+      [&](size_t i) { return LobeRoughness(*CoatOf(scene.materials[i])); }, notes);
 }
 
 // The share of grazing light that Burley's diffuse term reflects, in the brightest channel; 0 for

@@ -173,6 +173,21 @@ TEST_CASE("exponent 0 is 1 on every side, also where the cosine is 0 or negative
   });
 }
 
+TEST_CASE("light exactly opposite the viewer: |l + v|^2 is a normal number, terms are finite") {
+  std::vector<TermInput> inputs;
+  for (const Vec3f& l : {Vec3f(1, 0, 0), Vec3f(0, 0, 1), Vec3f(0, 0.6f, 0.8f)}) {
+    inputs.push_back({Vec3f(0, 0, 1), l, -l, 20, 0.5f, 0.04f});
+  }
+  ForEachTarget([&](Target) {
+    for (const TermOutput& terms : EvaluateTerms(inputs)) {
+      CHECK(std::isnormal(terms.u_squared));
+      CHECK(std::isfinite(terms.blinn));
+      CHECK(std::isfinite(terms.distribution));
+      CHECK(terms.fresnel == 1);
+    }
+  });
+}
+
 TEST_CASE("Schlick is F0 at normal and 1 at grazing incidence, exactly") {
   for (const double f0 : {0.0, 0.04, 0.5, 1.0}) {
     const Vec3d n(0, 0, 1);

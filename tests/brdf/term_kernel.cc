@@ -64,12 +64,14 @@ void EvaluateTermsT(const std::vector<TermInput>& inputs, std::vector<TermOutput
         hn::Div(one, VisibilityDenominatorSchlick(d, a.n_dot_l, n_dot_v, direct_k, one)),
         hn::Div(one, VisibilityDenominatorSchlick(d, a.n_dot_l, n_dot_v, ibl_k, one)),
         FresnelSchlick(d, f0, hn::Set(d, hn::TFromD<D>(1)), SchlickWeight(d, a)),
+        a.u_squared,
     };
     float TermOutput::*const members[] = {
         &TermOutput::phong,        &TermOutput::blinn,
         &TermOutput::distribution, &TermOutput::height_correlated,
         &TermOutput::separable,    &TermOutput::schlick_direct,
         &TermOutput::schlick_ibl,  &TermOutput::fresnel,
+        &TermOutput::u_squared,
     };
     for (size_t m = 0; m < std::size(members); ++m) {
       alignas(64) float lanes[16];

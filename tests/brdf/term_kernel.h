@@ -20,6 +20,7 @@ struct TermOutput {
   float distribution;                                               // GGX
   float height_correlated, separable, schlick_direct, schlick_ibl;  // visibility terms
   float fresnel;                                                    // Schlick
+  float u_squared;                                                  // of the half vector's angles
 };
 
 // On the active target.
