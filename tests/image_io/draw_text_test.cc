@@ -2,6 +2,10 @@
 // tests/image_io/draw_text_test.cc: lines are as wide as they are measured.
 #include "image_io/draw_text.h"
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include "catch.h"
 
 namespace nacre {
