@@ -62,6 +62,8 @@ class SlurmTest(unittest.TestCase):
         result = self.farm('5', '--retries', '0')
         self.assertEqual(result.returncode, 1)
         self.assertIn('1 of 64 tiles failed 1 times', result.stderr)
+        queue = self.slurm.run('squeue', '--noheader')  # nothing is in the way of the next call
+        self.assertEqual((queue.returncode, queue.stdout), (0, ''))
         self.assertFalse((self.out / 'a.exr').exists())
         tiles = {path: path.stat().st_mtime_ns for path in self.out.rglob('tile_*.exr')}
         self.assertEqual(len(tiles), TILES - 1)
