@@ -54,8 +54,9 @@ Margins MeasureMargins(const SheetText& text, double em, double cell, double wid
   // The block of cells is in the middle of what the margins leave; half of the padding stays free.
   const double columns = static_cast<double>(text.column_labels.size());
   const double spare = std::max(width - m.left - m.right - columns * cell, 0.0) / 2;
-  m.columns = FitLabels(text.column_labels, em, cell,
-                        {m.left + spare - kPad * em / 2, m.right + spare - kPad * em / 2});
+  // The name of the rows is in line with the labels of columns.
+  const double left = text.row_name.empty() ? m.left + spare - kPad * em / 2 : kGap * em / 2;
+  m.columns = FitLabels(text.column_labels, em, cell, {left, m.right + spare - kPad * em / 2});
   m.top += m.columns.lines * LineHeight(m.columns.size);
   if (!text.column_labels.empty()) m.top += kGap * em / 2;
   if (!m.footer.empty()) {

@@ -5,7 +5,9 @@
 #include <climits>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <memory>
+#include <utility>
 
 #include <ft2build.h>
 #include FT_FREETYPE_H
@@ -42,7 +44,11 @@ class Font {
                 "Debian has it in the package fonts-dejavu-core");
   }
 
-  void SetSize(int size_px) { FT_Set_Pixel_Sizes(face_.get(), 0, static_cast<FT_UInt>(size_px)); }
+  void SetSize(int size_px) {
+    if (size_px == size_px_) return;
+    FT_Set_Pixel_Sizes(face_.get(), 0, static_cast<FT_UInt>(size_px));
+    size_px_ = size_px;
+  }
 
   // The glyph of a character, drawn at the current size; valid until the next call.
   const FT_GlyphSlotRec_& Glyph(char32_t character) {
@@ -52,9 +58,16 @@ class Font {
     return *face_->glyph;
   }
 
+  // What Glyph would advance by, in pixels, without drawing it.
+  int Advance(char32_t character) {
+    if (FT_Load_Char(face_.get(), character, FT_LOAD_DEFAULT) != 0) return 0;
+    return static_cast<int>(face_->glyph->advance.x >> 6);
+  }
+
  private:
   Library library_{nullptr, &FT_Done_FreeType};
   Face face_{nullptr, &FT_Done_Face};
+  int size_px_ = 0;
 };
 
 // The characters of UTF-8, which Printable() leaves valid.
@@ -229,6 +242,27 @@ bool IsFirstByte(char byte) { return (static_cast<unsigned char>(byte) & 0xc0u) 
 
 int SizeDrawn(double size_px) { return std::max(static_cast<int>(std::lround(size_px)), 1); }
 
+std::unique_ptr<Font> OpenFontIfInstalled() {
+  try {
+    return std::make_unique<Font>();
+  } catch (const Error&) {
+    return nullptr;  // who draws will be told
+  }
+}
+
+// Of a letter beyond ASCII. Without the font, which only pictures without text can do without, as
+// wide as it is high.
+int AdvanceBeyondAscii(char32_t character, int size_px) {
+  static thread_local const std::unique_ptr<Font> font = OpenFontIfInstalled();
+  static thread_local std::map<std::pair<int, char32_t>, int> known;  // FreeType takes its time
+  const auto [at, is_new] = known.try_emplace({size_px, character}, size_px);
+  if (is_new && font) {
+    font->SetSize(size_px);
+    at->second = font->Advance(character);
+  }
+  return at->second;
+}
+
 }  // namespace
 
 TextItem PlainText(const std::string& text, double x, double y, double size_px, AlignX align_x,
@@ -263,10 +297,14 @@ double TextWidth(std::string_view text, double size_px) {
 double DrawnWidth(std::string_view text, double size_px) {
   const int size = SizeDrawn(size_px);
   int width = 0;
-  for (const char c : text) {
+  for (const char32_t character : Decode(std::string(text))) {
+    if (character >= 127) {
+      width += AdvanceBeyondAscii(character, size);
+      continue;
+    }
     // FreeType scales to 64ths of a pixel, and rounds those to pixels.
-    const int in_64ths = (2 * AdvanceOf(c, kUnits) * size + 32) / 64;
-    if (IsFirstByte(c)) width += (in_64ths + 32) / 64;
+    const int in_64ths = (2 * AdvanceOf(static_cast<char>(character), kUnits) * size + 32) / 64;
+    width += (in_64ths + 32) / 64;
   }
   return width;
 }

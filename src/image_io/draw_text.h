@@ -41,8 +41,7 @@ void DrawText(std::span<uint8_t> rgb8, int width, int height, const std::vector<
 double TextWidth(std::string_view text, double size_px);
 
 // Width in pixels of a line as PlainText has it drawn: the size and each letter's advance are whole
-// pixels, which for small sizes makes lines up to a tenth wider. Letters beyond ASCII count as wide
-// as they are high, which few exceed.
+// pixels, which for small sizes makes lines up to a tenth wider.
 double DrawnWidth(std::string_view text, double size_px);
 
 }  // namespace nacre
