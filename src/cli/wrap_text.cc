@@ -133,6 +133,7 @@ void CutToFit(const LabelRow& row, size_t tiers, double room, FittedLabels* fitt
     label.lines = WrapText(row.labels[label.place], fitted->size, width);
     if (label.lines.size() <= kMostLines) continue;
     label.lines.resize(kMostLines);
+    // Longer than it was, so that it is cut and ends in an ellipsis.
     label.lines.back() = CutText(label.lines.back() + "……", fitted->size, width);
   }
   StackTiers(tiers, fitted);

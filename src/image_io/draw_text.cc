@@ -250,11 +250,11 @@ std::unique_ptr<Font> OpenFontIfInstalled() {
   }
 }
 
-// Of a letter beyond ASCII. Without the font, which only pictures without text can do without, as
-// wide as it is high.
+// The advance of a letter beyond ASCII, in pixels. If the font is not installed, its size: sheets
+// are laid out for EXR files, too, into which no text is drawn.
 int AdvanceBeyondAscii(char32_t character, int size_px) {
   static thread_local const std::unique_ptr<Font> font = OpenFontIfInstalled();
-  static thread_local std::map<std::pair<int, char32_t>, int> known;  // FreeType takes its time
+  static thread_local std::map<std::pair<int, char32_t>, int> known;  // FreeType is slow to ask
   const auto [at, is_new] = known.try_emplace({size_px, character}, size_px);
   if (is_new && font) {
     font->SetSize(size_px);
