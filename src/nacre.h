@@ -327,9 +327,9 @@ NACRE_API Image Render(const Scene& scene, const RenderSettings& settings = {},
 
 // A scene that is rendered again and again while it changes. What a change does not touch is not
 // read or made again: files, trees, tables of lights. Pictures have the bits that Render would give
-// them. One call at a time; Cancel alone may come from any thread. Files are read when the session is
-// made, and again only where a change touches what they are named in: after a texture or a model has
-// changed on disk, make a new one.
+// them. One call at a time; Cancel alone may come from any thread. Files are read when the session
+// is made, and again only where a change touches what they are named in: after a texture or a model
+// has changed on disk, make a new one.
 class NACRE_API Session {
  public:
   // Of a copy of the scene. Throws Error as Scene::Check does.

@@ -11,8 +11,8 @@
 
 namespace nacre {
 
-// Below this sine of the angle between them two directions span no plane: a basis made of them would
-// be rounding errors, as coordinates carry 53 bits.
+// Below this sine of the angle between them two directions span no plane: a basis made of them
+// would be rounding errors, as coordinates carry 53 bits.
 constexpr double kMinSineOfUp = 1e-12;
 
 void CheckNumber(double value, const Range& range, const std::string& where, FaultList* faults);

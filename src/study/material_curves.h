@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "report/plot.h"
-#include "study/reflection.h"
 #include "shading/share.h"
+#include "study/reflection.h"
 
 namespace nacre {
 

@@ -36,8 +36,8 @@ struct PixelSpan {
 };
 
 // The rays that a tile is traced with: one sample after the other of each of its pixels, or of each
-// of those in TileCandidates::spans, row by row (FilmBatch::pixels); or any rays in any order, which
-// requires that the tile lies in one cell.
+// of those in TileCandidates::spans, row by row (FilmBatch::pixels); or any rays in any order,
+// which requires that the tile lies in one cell.
 enum class TileRays : uint8_t { kSamples, kAny };
 
 // The candidates of each of a tile's cells, the cells from left to right, the candidates nearest

@@ -71,8 +71,9 @@ TEST_CASE("fall-offs match the table", "[table]") {
     CHECK(Within(SpotFactor(row.cone, row.one_minus_cos), row.value, 8 * (row.cone.exponent + 8),
                  kHalfUlpDouble));
     // Both, and the product's own rounding.
-    CHECK(Within(AttenuationFactor(row.terms, row.distance) * SpotFactor(row.cone, row.one_minus_cos),
-                 row.total, 8 * (row.cone.exponent + 8) + 5, kHalfUlpDouble));
+    CHECK(
+        Within(AttenuationFactor(row.terms, row.distance) * SpotFactor(row.cone, row.one_minus_cos),
+               row.total, 8 * (row.cone.exponent + 8) + 5, kHalfUlpDouble));
   }
   ForEachTarget([&](Target) {
     for (const Expected& row : falloffs) {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/render/hit_positions_test.cc: pictures without the positions of their hits.
-#include "render/frame_plan.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "catch.h"
+#include "render/frame_plan.h"
 #include "render/pictures.h"
 #include "render/render.h"
 #include "render/textured_scenes.h"
@@ -43,9 +42,9 @@ Scene LitSpheres() {
 }
 
 const PlanItem& PositionsOf(const FramePlan& plan) {
-  const auto found = std::find_if(plan.why.items.begin(), plan.why.items.end(), [](const PlanItem& item) {
-    return item.what == "positions of hits";
-  });
+  const auto found =
+      std::find_if(plan.why.items.begin(), plan.why.items.end(),
+                   [](const PlanItem& item) { return item.what == "positions of hits"; });
   REQUIRE(found != plan.why.items.end());
   return *found;
 }
@@ -60,8 +59,10 @@ TEST_CASE("pictures without positions have the bits of those with them") {
       CHECK(PositionsOf(plan).used == shadows);
       if (shadows) {
         // Some are asked, not all.
-        CHECK(std::count(plan.hits.may_be_shadowed.begin(), plan.hits.may_be_shadowed.end(), 1) > 0);
-        CHECK(std::count(plan.hits.may_be_shadowed.begin(), plan.hits.may_be_shadowed.end(), 0) > 0);
+        CHECK(std::count(plan.hits.may_be_shadowed.begin(), plan.hits.may_be_shadowed.end(), 1) >
+              0);
+        CHECK(std::count(plan.hits.may_be_shadowed.begin(), plan.hits.may_be_shadowed.end(), 0) >
+              0);
       }
       RenderSettings settings;
       settings.threads = 1;

@@ -90,7 +90,8 @@ std::string AllOf(const std::string& text) {
   return all;
 }
 
-// With such blanks in the place of @, statements are in different pieces, which are read at the same time.
+// With such blanks in the place of @, statements are in different pieces, which are read at the
+// same time.
 const std::string kPadding(size_t{5} << 18, ' ');
 
 void CheckPieces(std::string text) {
