@@ -38,6 +38,7 @@ Json ResidualJson(const MaterialResidual& residual) {
     views.push_back({{"view_deg", view.view_deg},
                      {"rms", view.rms},
                      {"peak", view.peak},
+                     {"width", view.width},
                      {"albedo", view.albedo}});
   }
   return {{"rms", residual.rms}, {"views", views}};
@@ -48,22 +49,25 @@ std::string RmsText(double rms) { return std::isinf(rms) ? "-" : fmt::format("{:
 
 std::string Table(const MaterialFit& fit) {
   std::string text =
-      "                closed form               fit\n"
-      "view  lobe rms    peak  albedo  lobe rms    peak  albedo\n";
+      "                closed form                        fit\n"
+      "view  lobe rms    peak   width  albedo  lobe rms    peak   width  albedo\n";
   const auto row = [](const LobeResidual& r) {
-    return fmt::format("{:>9} {:>+7.3f} {:>7.4f}", RmsText(r.rms), r.peak, r.albedo);
+    return fmt::format("{:>9} {:>+7.3f} {:>+7.3f} {:>7.4f}", RmsText(r.rms), r.peak, r.width,
+                       r.albedo);
   };
   for (size_t i = 0; i < fit.residual.views.size(); ++i) {
     text += fmt::format("{:>3.0f}  {} {}\n", fit.residual.views[i].view_deg,
                         row(fit.guess_residual.views[i]), row(fit.residual.views[i]));
   }
-  text += fmt::format("all  {:>9}                 {:>9}\n", RmsText(fit.guess_residual.rms),
+  text += fmt::format("all  {:>9}                         {:>9}\n", RmsText(fit.guess_residual.rms),
                       RmsText(fit.residual.rms));
   text +=
       "lobe rms: of the difference of BRDF n.l over all directions of light, over the original's,\n"
-      "  - where that has no lobe;\n"
-      "peak: the highlight's largest value, relative; albedo: of lobe and base, the worst "
-      "channel\n";
+      "  - where that has no lobe; all: where a sphere shows the highlights of lights in front of "
+      "it\n"
+      "peak, width: of the highlight in the plane of incidence (the width at half its peak), "
+      "relative;\n"
+      "albedo: of lobe and base, the worst channel\n";
   for (const std::string& note : fit.notes) text += "not kept: " + note + "\n";
   return text;
 }

@@ -16,11 +16,11 @@
 namespace nacre {
 namespace {
 
-// The original's lobe at the samples of all views. The weights of a view's samples are such that
-// squared differences add up to that of MaterialResidual::rms, but for its denominator.
+// The original's lobe at the samples of all views. Their weights are such that squared differences
+// add up to that of MaterialResidual::rms, but for its denominator.
 struct LobeTable {
   struct Entry {
-    size_t view;
+    Vec3d to_view;
     LobeSample sample;
     Rgb lobe;  // BRDF n.l
   };
@@ -32,23 +32,16 @@ LobeTable Tabulate(const Material& original) {
   const ShadingMaterial prepared = PrepareMaterial(original, Rgb(0));
   LobeTable table;
   table.alpha = LobeAlpha(original);
-  for (size_t view = 0; view < kResidualViewsDeg.size(); ++view) {
-    const Vec3d to_view = ViewDirection(kResidualViewsDeg[view]);
-    const size_t first = table.entries.size();
-    double energy = 0;
-    for (const LobeSample& sample : MakeLobeSamples(1.5 * table.alpha, kResidualViewsDeg[view])) {
+  for (const auto& [view_deg, weight] : HighlightViews()) {
+    const Vec3d to_view = ViewDirection(view_deg);
+    for (LobeSample sample : MakeLobeSamples(1.5 * table.alpha, view_deg)) {
       const Rgb lobe = Reflect(prepared, Vec3d(0, 0, 1), sample.to_light, to_view).specular;
-      table.entries.push_back({view, sample, lobe});
-      energy += (lobe ^ lobe) * sample.weight;
+      sample.weight *= weight;
+      table.entries.push_back({to_view, sample, lobe});
     }
-    if (energy == 0) continue;
-    const double scale = ViewWeight(kResidualViewsDeg[view]) / energy;
-    for (size_t i = first; i < table.entries.size(); ++i) table.entries[i].sample.weight *= scale;
   }
   return table;
 }
-
-Vec3d ViewOf(const LobeTable::Entry& entry) { return ViewDirection(kResidualViewsDeg[entry.view]); }
 
 // The error of the best strengths in [0, 1], which minimise a quadratic each.
 FittedLobe SolvePhong(const LobeTable& table, PhongModel model, double shininess) {
@@ -60,7 +53,7 @@ FittedLobe SolvePhong(const LobeTable& table, PhongModel model, double shininess
   double own = 0;
   for (const LobeTable::Entry& entry : table.entries) {
     const double g =
-        Reflect(prepared, Vec3d(0, 0, 1), entry.sample.to_light, ViewOf(entry)).specular.x;
+        Reflect(prepared, Vec3d(0, 0, 1), entry.sample.to_light, entry.to_view).specular.x;
     cross += entry.lobe * (g * entry.sample.weight);
     squares += entry.lobe * entry.lobe * entry.sample.weight;
     own += g * g * entry.sample.weight;
@@ -91,30 +84,14 @@ struct GgxMoments {
     }
     return error;
   }
-
-  // The same with the best scale in place of 1.
-  double ShapeError(int channel, double f0) const {
-    const std::array<double, 3> powers = {1, f0, f0 * f0};
-    double with_original = 0;
-    double with_itself = 0;
-    for (size_t i = 0; i < 3; ++i) {
-      with_original += powers[i] * cross[i][channel];
-      for (size_t j = 0; j < 3; ++j) with_itself += powers[i] * powers[j] * own[i][j];
-    }
-    const double explained = with_itself > 0 ? with_original * with_original / with_itself : 0;
-    return squares[channel] - explained;
-  }
 };
 
-// One for each view.
-using ViewMoments = std::array<GgxMoments, kResidualViewsDeg.size()>;
-
-ViewMoments MakeMoments(const LobeTable& table, double alpha) {
+GgxMoments MakeMoments(const LobeTable& table, double alpha) {
   const AlbedoFit albedo = MakeAlbedoFit(Shadowing::kHeightCorrelated, std::sqrt(alpha));
   const Vec3d normal(0, 0, 1);
-  ViewMoments views;
+  GgxMoments moments;
   for (const LobeTable::Entry& entry : table.entries) {
-    const Vec3d to_view = ViewOf(entry);
+    const Vec3d& to_view = entry.to_view;
     const Vec3d& to_light = entry.sample.to_light;
     const Angles<double> a = ComputeAngles(normal, to_light, to_view);
     const double lobe = GgxDistribution(a, alpha) *
@@ -125,30 +102,22 @@ ViewMoments MakeMoments(const LobeTable& table, double alpha) {
     const double head_on = lobe - grazing;
     const std::array<double, 3> terms = {grazing, head_on + more * grazing, more * head_on};
     const double weight = entry.sample.weight;
-    GgxMoments& moments = views[entry.view];
     for (size_t i = 0; i < 3; ++i) {
       moments.cross[i] += entry.lobe * (terms[i] * weight);
       for (size_t j = 0; j < 3; ++j) moments.own[i][j] += terms[i] * terms[j] * weight;
     }
     moments.squares += entry.lobe * entry.lobe * weight;
   }
-  return views;
+  return moments;
 }
 
-// F0 by all views together. The error is that of the lobe's shape: each view may scale it, so that
-// Fresnel's growth towards grazing angles, which the original may lack, does not widen the lobe.
 FittedLobe SolveGgx(const LobeTable& table, double alpha) {
-  const ViewMoments views = MakeMoments(table, alpha);
+  const GgxMoments moments = MakeMoments(table, alpha);
   FittedLobe fit;
   fit.width = alpha;
   for (int c = 0; c < 3; ++c) {
-    const auto error = [&](double f0) {
-      double sum = 0;
-      for (const GgxMoments& view : views) sum += view.Error(c, f0);
-      return sum;
-    };
-    fit.strength[c] = GoldenMinimum(error, 0, 1);
-    for (const GgxMoments& view : views) fit.error += view.ShapeError(c, fit.strength[c]);
+    fit.strength[c] = GoldenMinimum([&](double f0) { return moments.Error(c, f0); }, 0, 1);
+    fit.error += moments.Error(c, fit.strength[c]);
   }
   return fit;
 }

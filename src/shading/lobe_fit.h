@@ -17,8 +17,7 @@ struct FittedLobe {
 FittedLobe FitPhongLobe(const Material& original, PhongModel model);
 
 // F0 and alpha of a metallic-roughness lobe with Schlick's Fresnel, height-correlated and
-// compensated as Turquin has it: the defaults. Alpha is that of the nearest shape, whatever the
-// strength in each view; F0 is the best for it.
+// compensated as Turquin has it: the defaults.
 FittedLobe FitGgxLobe(const Material& original);
 
 }  // namespace nacre

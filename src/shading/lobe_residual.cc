@@ -8,6 +8,7 @@
 #include "brdf/ggx.h"
 #include "brdf/quadrature.h"
 #include "scene/limits.h"
+#include "shading/golden.h"
 
 namespace nacre {
 namespace {
@@ -39,8 +40,7 @@ Rgb DiffuseAlbedoAt(const ShadingMaterial& material, double n_dot_v) {
 // Of both materials at one view; squares and albedos still to be divided.
 struct ViewSums {
   double difference2 = 0, original2 = 0;
-  double original_peak = 0, other_peak = 0;
-  Rgb albedo{0, 0, 0};  // of the other, minus the original's
+  Rgb albedo{0, 0, 0};  // of the other's lobe, minus the original's
 };
 
 ViewSums SumView(const ShadingMaterial& original, const ShadingMaterial& other, double alpha,
@@ -53,12 +53,57 @@ ViewSums SumView(const ShadingMaterial& original, const ShadingMaterial& other, 
     const Rgb difference = b - a;
     sums.difference2 += (difference ^ difference) * sample.weight;
     sums.original2 += (a ^ a) * sample.weight;
-    sums.original_peak = std::max(sums.original_peak, a.x + a.y + a.z);
-    sums.other_peak = std::max(sums.other_peak, b.x + b.y + b.z);
     sums.albedo += difference * sample.weight;
   }
-  sums.albedo += DiffuseAlbedoAt(other, to_view.z) - DiffuseAlbedoAt(original, to_view.z);
   return sums;
+}
+
+// A highlight in the plane of incidence, all channels together.
+struct Highlight {
+  double peak = 0;   // the largest BRDF n.l
+  double width = 0;  // the angle of light between the halves of it, or where the surface ends
+};
+
+Highlight MeasureHighlight(const ShadingMaterial& material, double view_deg) {
+  const double mirror = view_deg * M_PI / 180;
+  const auto lobe = [&](double light) {
+    const Vec3d to_light(-std::sin(light), 0, std::cos(light));
+    const Rgb rgb = Reflect(material, Vec3d(0, 0, 1), to_light, ViewDirection(view_deg)).specular;
+    return rgb.x + rgb.y + rgb.z;
+  };
+  // Angles of light from one end of the surface to the other. Their distance from the mirror
+  // direction grows by a tenth a step, from a tenth of the narrowest lobe's width, so that lobes of
+  // every width are met.
+  std::vector<double> lights = {-M_PI / 2, mirror, M_PI / 2};
+  for (double distance = kLeastAlpha / 10; distance < M_PI; distance *= 1.1) {
+    if (mirror - distance > -M_PI / 2) lights.push_back(mirror - distance);
+    if (mirror + distance < M_PI / 2) lights.push_back(mirror + distance);
+  }
+  std::sort(lights.begin(), lights.end());
+  const size_t last = lights.size() - 1;
+  size_t top = 0;
+  for (size_t i = 1; i <= last; ++i) {
+    if (lobe(lights[i]) > lobe(lights[top])) top = i;
+  }
+  const double at_peak =
+      GoldenMinimum([&](double light) { return -lobe(light); }, lights[top == 0 ? 0 : top - 1],
+                    lights[std::min(top + 1, last)]);
+  const double half = lobe(at_peak) / 2;
+  if (!(half > 0)) return {};
+  size_t low = top;
+  while (low > 0 && lobe(lights[low]) >= half) --low;
+  size_t high = top;
+  while (high < last && lobe(lights[high]) >= half) ++high;
+  // The lobe falls through its half between `outside` and `inside`.
+  const auto at_half = [&](double outside, double inside) {
+    if (lobe(outside) >= half) return outside;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = (outside + inside) / 2;
+      (lobe(middle) >= half ? inside : outside) = middle;
+    }
+    return inside;
+  };
+  return {2 * half, at_half(lights[high], at_peak) - at_half(lights[low], at_peak)};
 }
 
 double RelativeRms(double difference2, double original2) {
@@ -70,7 +115,14 @@ double RelativeRms(double difference2, double original2) {
 
 Vec3d ViewDirection(double view_deg) { return Direction(std::cos(view_deg * M_PI / 180), 0); }
 
-double ViewWeight(double view_deg) { return std::cos(view_deg * M_PI / 180); }
+std::array<HighlightView, 4> HighlightViews() {
+  const QuadratureRule& rule = GaussLegendre(4);
+  std::array<HighlightView, 4> views;
+  for (size_t i = 0; i < views.size(); ++i) {
+    views[i] = {std::acos(rule.x[i]) / 2 * 180 / M_PI, rule.w[i]};
+  }
+  return views;
+}
 
 std::vector<LobeSample> MakeLobeSamples(double alpha, double view_deg) {
   const double a = std::clamp(alpha, kLeastAlpha, 1.0);
@@ -125,21 +177,27 @@ MaterialResidual MeasureResidual(const Material& original, const Material& other
   const ShadingMaterial b = PrepareMaterial(other, Rgb(0));
   const double alpha = 1.5 * LobeAlpha(original);  // wider, for the flanks
   MaterialResidual residual;
-  double weighted = 0;
-  double weights = 0;
   for (const double view_deg : kResidualViewsDeg) {
     const ViewSums sums = SumView(a, b, alpha, view_deg);
-    const double rms = RelativeRms(sums.difference2, sums.original2);
-    weighted += ViewWeight(view_deg) * rms * rms;
-    weights += ViewWeight(view_deg);
-    const Rgb& albedo = sums.albedo;
+    const Highlight from = MeasureHighlight(a, view_deg);
+    const Highlight to = MeasureHighlight(b, view_deg);
+    const double n_dot_v = ViewDirection(view_deg).z;
+    const Rgb albedo = sums.albedo + DiffuseAlbedoAt(b, n_dot_v) - DiffuseAlbedoAt(a, n_dot_v);
     residual.views.push_back(
         {.view_deg = view_deg,
-         .rms = rms,
-         .peak = sums.original_peak > 0 ? sums.other_peak / sums.original_peak - 1 : 0,
+         .rms = RelativeRms(sums.difference2, sums.original2),
+         .peak = from.peak > 0 ? to.peak / from.peak - 1 : 0,
+         .width = from.width > 0 && to.width > 0 ? to.width / from.width - 1 : 0,
          .albedo = std::max({std::abs(albedo.x), std::abs(albedo.y), std::abs(albedo.z)})});
   }
-  residual.rms = std::sqrt(weighted / weights);
+  double difference2 = 0;
+  double original2 = 0;
+  for (const auto& [view_deg, weight] : HighlightViews()) {
+    const ViewSums sums = SumView(a, b, alpha, view_deg);
+    difference2 += weight * sums.difference2;
+    original2 += weight * sums.original2;
+  }
+  residual.rms = RelativeRms(difference2, original2);
   return residual;
 }
 

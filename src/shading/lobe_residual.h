@@ -11,8 +11,20 @@
 
 namespace nacre {
 
-// Angles between normal and viewer at which lobes are compared.
+// Angles between normal and viewer at which lobes are told apart, one by one.
 inline constexpr std::array<double, 4> kResidualViewsDeg = {0, 30, 60, 75};
+
+// A view of a highlight on a sphere, and how much it counts.
+struct HighlightView {
+  double view_deg, weight;
+};
+
+// The views at which the viewer of a sphere sees highlights, for lights spread evenly over the
+// hemisphere on the viewer's side. A light at the angle t from the viewer has its highlight where
+// normal and viewer are t / 2 apart, so that the cosine of twice the view's angle is uniform in
+// [0, 1]: four Gauss-Legendre points. Rims, which only lights behind the sphere make shine, do not
+// count: Fresnel's growth there, which Phong lacks, would otherwise decide the whole fit.
+std::array<HighlightView, 4> HighlightViews();
 
 // A direction of light and the solid angle that it stands for.
 struct LobeSample {
@@ -21,9 +33,6 @@ struct LobeSample {
 };
 
 Vec3d ViewDirection(double view_deg);
-
-// How much a view counts: n.v, the share that it has of the disc that a sphere is seen as.
-double ViewWeight(double view_deg);
 
 // Directions as dense as a GGX lobe of this alpha, which also suits lobes a few times narrower or
 // wider: 48 x 32 points of the half vector, on one side of the plane of incidence.
@@ -41,13 +50,15 @@ struct LobeResidual {
   // Of the difference of BRDF n.l, over the rms of the first lobe's: infinite where that has none
   // and the second has.
   double rms = 0;
-  double peak = 0;    // the second lobe's largest value over the first's, minus 1
+  // The second highlight's over the first's, minus 1, in the plane of incidence: its largest value,
+  // and the angle of light between the halves of that. 0 where there is none to compare with.
+  double peak = 0, width = 0;
   double albedo = 0;  // largest difference of a channel's directional albedo, diffuse and specular
 };
 
 struct MaterialResidual {
   std::vector<LobeResidual> views;
-  double rms = 0;  // root of the mean square over the views, weighted by ViewWeight
+  double rms = 0;  // as that of a view, of all HighlightViews together
 };
 
 MaterialResidual MeasureResidual(const Material& original, const Material& other);

@@ -24,6 +24,9 @@ constexpr std::array<std::string_view, 5> kTargets = {"phong", "modified_phong",
 // Perfect mirrors have no lobe to fit: this is the roughness that the largest exponent stands for.
 constexpr double kLeastRoughness = 0.007;
 
+// A base whose albedo changes by more than this is told of: one 8-bit code of middle grey.
+constexpr double kToldAlbedo = 0.005;
+
 constexpr const char* kColoredLobe = "the lobe is coloured; a dielectric's is grey";
 
 Rgb ClampUnit(const Rgb& rgb) {
@@ -150,6 +153,28 @@ void FitWeakLobe(const Material& original, const Summary& summary, MaterialFit* 
   fit->fitted.model = material;
 }
 
+double IndexFromF0(double f0) {
+  const double root = std::sqrt(std::clamp(f0, 0.0, 0.999));
+  return std::clamp((1 + root) / (1 - root), limits::kIor.min, limits::kIor.max);
+}
+
+// Plastics have indices from 1.3 (fluoropolymers) to 1.75 (optical resins).
+constexpr double kLeastPlasticIor = 1.3;
+constexpr double kMostPlasticIor = 1.75;
+
+// A lobe of Phong's may be of any strength, whatever it lies on: what no plastic reflects is told.
+void NoteStrength(double f0, MaterialFit* fit) {
+  const double ior = IndexFromF0(f0);
+  if (ior >= kLeastPlasticIor && ior <= kMostPlasticIor) return;
+  const double least = FresnelF0(kLeastPlasticIor, 0.0);
+  const double most = FresnelF0(kMostPlasticIor, 0.0);
+  fit->notes.push_back(fmt::format(
+      "plastics reflect {:.2g} to {:.2g} of the light at normal view (indices of {} to {}); this "
+      "lobe reflects {:.2g}, as an index of {:.3g} does{}",
+      least, most, kLeastPlasticIor, kMostPlasticIor, f0, ior,
+      f0 > most ? ": ks is that of a gem or a metal" : ""));
+}
+
 void FitMetallic(const Material& original, MaterialFit* fit) {
   if (std::holds_alternative<MetallicRoughnessMaterial>(original.model)) {
     Material plain = original;
@@ -176,6 +201,7 @@ void FitMetallic(const Material& original, MaterialFit* fit) {
   const Rgb f0 = Rgb(kDielectricF0) * (1 - base.metallic) + base.base_color * base.metallic;
   material.roughness = std::sqrt(free.width);
   fit->fitted.model = material;
+  if (base.metallic > 0 && base.metallic < 1) NoteStrength(Mean(free.strength), fit);
   const Rgb gap = free.strength - f0;
   const double worst = std::max({std::abs(gap.x), std::abs(gap.y), std::abs(gap.z)});
   if (worst > 0.005) {
@@ -186,11 +212,6 @@ void FitMetallic(const Material& original, MaterialFit* fit) {
         base.metallic < 0.5 ? "; its dielectric_f0 says it apart, and so does --to dielectric"
                             : ""));
   }
-}
-
-double IndexFromF0(double f0) {
-  const double root = std::sqrt(std::clamp(f0, 0.0, 0.999));
-  return std::clamp((1 + root) / (1 - root), limits::kIor.min, limits::kIor.max);
 }
 
 void FitDielectric(const Material& original, MaterialFit* fit) {
@@ -209,6 +230,7 @@ void FitDielectric(const Material& original, MaterialFit* fit) {
   material.base_color = BaseUnder(white, summary.base);
   fit->fitted.model = material;
   if (IsTinted(lobe.strength)) fit->notes.emplace_back(kColoredLobe);
+  NoteStrength(Mean(lobe.strength), fit);
 }
 
 // What no fit of these models keeps.
@@ -281,6 +303,14 @@ MaterialFit FitMaterial(const Material& original, std::string_view target) {
     FitDielectric(material, &fit);
   } else {
     FitMetallic(material, &fit);
+  }
+  const Rgb base = DiffuseAlbedo(material);
+  const Rgb fitted_base = DiffuseAlbedo(fit.fitted);
+  if (LargestChannel((fitted_base - base) * (fitted_base - base)) > kToldAlbedo * kToldAlbedo) {
+    fit.notes.push_back(
+        fmt::format("the base's albedo: {:.3f} {:.3f} {:.3f} of light from everywhere becomes "
+                    "{:.3f} {:.3f} {:.3f}",
+                    base.x, base.y, base.z, fitted_base.x, fitted_base.y, fitted_base.z));
   }
   NoteLosses(original, to_phong, &fit);
   fit.guess_residual = MeasureResidual(material, fit.guess);

@@ -3,9 +3,8 @@
 // Phong family <-> metallic-roughness and dielectric. The closed forms that books give
 // (n = 2 / alpha^2 - 2 for Blinn's lobe, a fourth of it for Phong's) are where a fit starts.
 //
-// The lobe is fitted by least squares over the directions of light at kResidualViewsDeg (towards
-// GGX: its shape first, then its strength); the base keeps its mean albedo. What the other model
-// cannot say is told in words.
+// The lobe is fitted by least squares over the directions of light at HighlightViews(); the base
+// keeps its mean albedo. What the other model cannot say is told in words.
 #pragma once
 
 #include <span>
