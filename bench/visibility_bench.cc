@@ -2,6 +2,7 @@
 // bench/visibility_bench.cc: camera rays against spheres: the exact hits of a 1920x1080 frame,
 // one thread, by number of spheres. bench/embree_baseline.cc is what they are held against.
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include <benchmark/benchmark.h>

@@ -7,6 +7,8 @@
 #define NACRE_BRDF_BURLEY_INL_H_
 #endif
 
+#include <cmath>
+
 #include "brdf/angles-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -7,6 +7,8 @@
 // it receives at grazing angles, up to 1.56 times at roughness 1. brdf/eon.h does keep it.
 #pragma once
 
+#include <cmath>
+
 #include "brdf/angles.h"
 
 namespace nacre {

@@ -7,6 +7,7 @@
 #define NACRE_BRDF_EON_INL_H_
 #endif
 
+#include <cmath>
 #include <limits>
 
 #include "base/trig-inl.h"

@@ -2,6 +2,7 @@
 #include "brdf/fresnel_average.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "brdf/fresnel.h"
 #include "brdf/quadrature.h"

@@ -7,6 +7,8 @@
 #define NACRE_BRDF_GGX_INL_H_
 #endif
 
+#include <cmath>
+
 #include "base/target_ops-inl.h"
 #include "brdf/angles-inl.h"
 

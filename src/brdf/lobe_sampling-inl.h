@@ -10,6 +10,7 @@
 #define NACRE_BRDF_LOBE_SAMPLING_INL_H_
 #endif
 
+#include <cmath>
 #include <limits>
 
 #include "base/basis-inl.h"

@@ -8,6 +8,7 @@
 #define NACRE_BRDF_SHEEN_INL_H_
 #endif
 
+#include <cmath>
 #include <limits>
 
 #include "hwy/contrib/math/math-inl.h"

@@ -4,6 +4,7 @@
 #define HWY_TARGET_INCLUDE "color/display_kernel.cc"
 #include "hwy/foreach_target.h"
 
+#include <cmath>
 #include <cstring>
 
 #include "hwy/highway.h"

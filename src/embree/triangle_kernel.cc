@@ -5,6 +5,8 @@
 // on which rays share a packet, and so would the picture.
 #include "embree/triangle_kernel.h"
 
+#include <cmath>
+
 #include "embree/embree_packet.h"
 
 #undef HWY_TARGET_INCLUDE

@@ -11,6 +11,8 @@
 #define NACRE_LIGHT_DISK_IRRADIANCE_INL_H_
 #endif
 
+#include <cmath>
+
 #include "light/disk_irradiance.h"
 #include "light/disk_light-inl.h"
 

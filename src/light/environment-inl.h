@@ -10,6 +10,7 @@
 #define NACRE_LIGHT_ENVIRONMENT_INL_H_
 #endif
 
+#include <cmath>
 #include <cstddef>
 #include <limits>
 

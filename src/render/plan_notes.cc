@@ -2,6 +2,7 @@
 #include "render/plan_notes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>

@@ -244,7 +244,7 @@ class MtlFileReader {
         Numbers(&rest, &numbers);
         if (option != "-t") {
           for (double& number : numbers) number = Clamped(option, number, limits::kTextureScale);
-          (option == "-s" ? image->scale : image->offset) = {numbers[0], numbers[1]};
+          (option == "-s" ? image->scale : image->offset) = Vec2d(numbers[0], numbers[1]);
         }
         const bool turbulent = numbers[0] != 0 || numbers[1] != 0 || numbers[2] != 0;
         if (option == "-t" && turbulent) warn_("the turbulence of images (-t) is not shown");

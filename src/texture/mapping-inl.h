@@ -8,6 +8,8 @@
 #define NACRE_TEXTURE_MAPPING_INL_H_
 #endif
 
+#include <cmath>
+
 #include "hwy/contrib/math/math-inl.h"
 
 #include "base/vec3-inl.h"

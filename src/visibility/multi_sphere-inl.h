@@ -12,6 +12,7 @@
 #define NACRE_VISIBILITY_MULTI_SPHERE_INL_H_
 #endif
 
+#include <cmath>
 #include <limits>
 
 #include "visibility/exact_lanes-inl.h"

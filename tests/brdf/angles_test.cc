@@ -3,6 +3,7 @@
 // half vector, where that can be trusted.
 #include "brdf/angles.h"
 
+#include <cmath>
 #include <random>
 
 #include "brdf/fresnel.h"

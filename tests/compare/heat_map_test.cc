@@ -2,6 +2,7 @@
 // tests/compare/heat_map_test.cc: colours of errors.
 #include "compare/heat_map.h"
 
+#include <cmath>
 #include <limits>
 
 #include "catch.h"

@@ -2,6 +2,7 @@
 // tests/image_io/exr_writer_test.cc: EXR files, read back by OpenEXR.
 #include "image_io/exr_writer.h"
 
+#include <cmath>
 #include <limits>
 
 #include <OpenEXR/ImfChannelList.h>

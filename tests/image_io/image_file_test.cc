@@ -3,6 +3,7 @@
 #include "image_io/image_file.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "image_io/draw_text.h"
 #include "pictures.h"

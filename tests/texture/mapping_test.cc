@@ -3,6 +3,7 @@
 // finite differences, and the SIMD twins against the scalar ones.
 #include "texture/mapping.h"
 
+#include <cmath>
 #include <random>
 
 #include "catch.h"

@@ -3,6 +3,7 @@
 // twin against the scalar one.
 #include "texture/sample.h"
 
+#include <cmath>
 #include <limits>
 #include <random>
 #include <string>

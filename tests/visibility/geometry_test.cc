@@ -2,6 +2,8 @@
 // tests/visibility/geometry_test.cc: the parts beneath the intersector: geometry, exact products.
 #include "visibility/geometry.h"
 
+#include <cmath>
+
 #include "catch.h"
 #include "quad.h"
 #include "targets.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/visibility/mesh_test.cc: triangles: watertight, the first of equal hits, no self-shadowing.
 #include <array>
+#include <cmath>
 #include <map>
 #include <set>
 

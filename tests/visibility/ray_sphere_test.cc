@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/visibility/ray_sphere_test.cc: the ray-sphere test against exact references.
+#include <cmath>
+
 #include "catch.h"
 #include "tables.h"
 #include "targets.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/visibility/sky_occluders_test.cc: shadow rays in all directions by lists, whose float test
 // must leave uncertain rays to the double test, against brute force.
+#include <cmath>
+
 #include "catch.h"
 #include "targets.h"
 #include "visibility/rays.h"

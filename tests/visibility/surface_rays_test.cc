@@ -2,6 +2,7 @@
 // tests/visibility/surface_rays_test.cc: rays that leave surfaces, and where they arrive: for
 // light that is followed over several bounces.
 #include <array>
+#include <cmath>
 
 #include "catch.h"
 #include "targets.h"
