@@ -135,7 +135,7 @@ def _python_rows(runner, tool, rounds):
     """Those of the Python package, if it is built: by the Python that it is for."""
     build = runner.nacre.parent
     found = re.search("^NACRE_PYTHON_EXECUTABLE:[A-Z]+=(.+)$", (build / "CMakeCache.txt").read_text(), re.M)
-    if not found or not (build / "python/nacre/__init__.py").exists():
+    if not found or not any((build / "python/nacre").glob("_nacre.*.so")):
         return {}
     say("Python")
     script = pathlib.Path(__file__).with_name("python_bench.py")

@@ -87,6 +87,8 @@ class Picture:
         if not arguments.output:
             fail('-o FILE is required', USAGE)
         self.nacre = os.path.abspath(arguments.nacre)
+        if not os.path.exists(self.nacre):
+            fail(f'{self.nacre} is not there: scripts/build release nacre builds build/nacre', USAGE)
         self.scene = os.path.abspath(arguments.scene)
         self.outputs = [os.path.abspath(path) for path in arguments.output]
         self.options, self.merge_options = split_options(options)

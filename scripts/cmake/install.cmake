@@ -6,6 +6,27 @@
 # be moved.
 include(CMakePackageConfigHelpers)
 
+# All that is compiled for it, as one target, and what stops an installation before it has copied
+# anything: a file of these that is not built.
+set(docs_folder ${CMAKE_BINARY_DIR}/docs)
+set(installed_targets nacre nacre_shared)
+if(NACRE_OIIO)
+  list(APPEND installed_targets nacre_oiio)
+endif()
+if(TARGET nacre_python)
+  list(APPEND installed_targets nacre_python)
+endif()
+add_custom_target(installed DEPENDS ${installed_targets} nacre_docs)
+list(TRANSFORM installed_targets REPLACE "(.+)" "$<TARGET_FILE:\\1>" OUTPUT_VARIABLE installed_files)
+install(CODE "
+  foreach(file \"$<JOIN:${installed_files},\" \">\" \"${docs_folder}/nacre.1.gz\")
+    if(NOT EXISTS \"\${file}\")
+      message(FATAL_ERROR \" Nothing is installed: \${file} is not built yet: \"
+        \"cmake --build '${CMAKE_BINARY_DIR}' --target installed\")
+    endif()
+  endforeach()"
+  ALL_COMPONENTS)
+
 install(TARGETS nacre RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
 if(NACRE_OIIO)
   install(TARGETS nacre_oiio
@@ -14,6 +35,19 @@ endif()
 install(TARGETS nacre_shared EXPORT nacreTargets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+if(TARGET nacre_python)
+  # Debian's place for all Pythons 3. An installation for others than the system finds its library by a
+  # relative path; the system's is found anyway.
+  set(python_folder lib/python3/dist-packages/nacre)
+  if(NOT CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+    file(RELATIVE_PATH library_from_package
+      /prefix/${python_folder} /prefix/${CMAKE_INSTALL_LIBDIR})
+    set_target_properties(nacre_python PROPERTIES INSTALL_RPATH "$ORIGIN/${library_from_package}")
+  endif()
+  install(TARGETS nacre_python LIBRARY DESTINATION ${python_folder} COMPONENT python)
+  get_property(python_files GLOBAL PROPERTY NACRE_PYTHON_FILES)
+  install(FILES ${python_files} DESTINATION ${python_folder} COMPONENT python)
+endif()
 install(FILES src/nacre.h
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nacre COMPONENT development)
 
@@ -35,7 +69,6 @@ install(FILES ${CMAKE_BINARY_DIR}/nacre.pc
   DESTINATION ${pkgconfig_folder} COMPONENT development)
 
 # The manual page and the shell's completion, which the program writes itself.
-set(docs_folder ${CMAKE_BINARY_DIR}/docs)
 file(MAKE_DIRECTORY ${docs_folder})
 add_custom_command(OUTPUT ${docs_folder}/nacre.1.gz ${docs_folder}/nacre
   COMMAND nacre docs man > ${docs_folder}/nacre.1
@@ -52,8 +85,8 @@ install(FILES ${docs_folder}/nacre
 # Scenes with their schema and files, and what to read: the READMEs in their places, without pictures.
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/nacre COMPONENT runtime
   PATTERN gallery EXCLUDE PATTERN README.md EXCLUDE)
-foreach(folder . scenes src src/cli bench tests scripts)
-  install(FILES ${folder}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT runtime)
+foreach(folder "" /scenes /src /src/cli /bench /tests /scripts)
+  install(FILES .${folder}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}${folder} COMPONENT runtime)
 endforeach()
 
 # scripts/package: nacre_*.deb, libnacre0_*.deb and libnacre-dev_*.deb.

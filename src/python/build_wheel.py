@@ -10,12 +10,14 @@ import hashlib
 import os
 import pathlib
 import re
+import shlex
 import subprocess
 import sys
 import sysconfig
 import zipfile
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
+MODULE = f"_nacre{sysconfig.get_config_var('EXT_SUFFIX')}"
 
 
 def _version():
@@ -34,7 +36,7 @@ def _files(folder):
     """What the wheel's folder nacre/ holds, by name."""
     package = folder / "python/nacre"
     for path in sorted(package.iterdir()):
-        if path.suffix in (".py", ".pyi", ".so") or path.name == "py.typed":
+        if path.suffix in (".py", ".pyi") or path.name in (MODULE, "py.typed"):
             yield path.name, path
     yield "libnacre.so.0", folder / "libnacre.so.0"
     if (folder / "nacre_oiio.so").exists():
@@ -53,9 +55,12 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     folder = SOURCE / (chosen or "build-wheel")
     if not chosen:
         _build(folder)
+    if not (folder / "python/nacre" / MODULE).exists():
+        # Ends the process that pip has started, without a traceback.
+        where, python = shlex.quote(str(folder)), shlex.quote(sys.executable)
+        sys.exit(f"error: {where} holds no package for {python}: cmake -DNACRE_PYTHON_EXECUTABLE={python} "
+                 f"{where} && cmake --build {where} --target nacre_python")
     files = {f"nacre/{name}": path.read_bytes() for name, path in _files(folder)}
-    if not any(re.match(r"nacre/_nacre\..*so$", name) for name in files):
-        raise RuntimeError(f"{folder} holds no Python package: build the target nacre_python")
     python = f"cp{sys.version_info.major}{sys.version_info.minor}"
     platform = re.sub(r"\W", "_", sysconfig.get_platform())
     tag = f"{python}-{python}-{platform}"

@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs every command of the READMEs as it is written there, in a folder that looks like the root.
 
-Of scripts, which would build and install, the names and options are checked. The programs of
-README.md are built by tests/install.
+The blocks of README.md run in the order in which they stand, programs and all, from the state that its
+first command leaves: the program alone is built. Of scripts, which would build and install, the names and
+options are checked; what `scripts/build` makes comes from the build under test.
 
 Usage: readme_test.py PROGRAM SOURCE_FOLDER [UNITTEST-ARGUMENTS...]
 """
 import json
+import os
 import pathlib
 import re
 import shlex
@@ -19,31 +21,38 @@ import tempfile
 import unittest
 
 PROGRAM, SOURCE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+BUILD = PROGRAM.parent
+PACKAGE = list(BUILD.glob('python/nacre/_nacre.*.so'))
+# A Python without the sanitizer's run time cannot load the package.
+CAN_IMPORT = PACKAGE and '-fsanitize' not in os.environ.get('CXXFLAGS', '')
 BLOCK = re.compile(r'^```(\w*)\n(.*?)^```$', re.M | re.S)
 READMES = sorted(path for path in SOURCE.rglob('README.md')
                  if not re.match(r'build|out/|\.git', path.relative_to(SOURCE).as_posix()))
 # Options in the text that belong to other programs: cmake, ctest, pip.
 OTHERS = {'--install', '--prefix', '--preset', '--no-build-isolation', '--no-deps'}
+IMPORTS = 'PYTHONPATH=build/python'
+# Where README.md puts its programs.
+PROGRAMS = {'python': 'check.py', 'cpp': 'out/check/check.cc', 'cmake': 'out/check/CMakeLists.txt'}
 
 
 def blocks(path, kind):
     return [text for tag, text in BLOCK.findall(path.read_text()) if tag == kind]
 
 
-def commands(path):
-    """[(command line, exit code)] of the sh blocks; the code is told by a comment behind it."""
+def commands(block):
+    """[(command line, exit code)] of a sh block; the code is told by a comment behind it."""
     found = []
-    for block in blocks(path, 'sh'):
-        for line in block.replace('\\\n', ' ').splitlines():
-            words = shlex.split(line, comments=True)
-            code = re.search(r'# exit code (\d+)$', line)
-            if words:
-                found.append((words, int(code.group(1)) if code else 0))
+    for line in block.replace('\\\n', ' ').splitlines():
+        words = shlex.split(line, comments=True)
+        code = re.search(r'# exit code (\d+)$', line)
+        if words:
+            found.append((words, int(code.group(1)) if code else 0))
     return found
 
 
-def run(words, cwd):
-    return subprocess.run(words, cwd=cwd, capture_output=True, text=True, timeout=900, check=False)
+def run(words, cwd, **options):
+    return subprocess.run(words, cwd=cwd, capture_output=True, text=True, timeout=900, check=False,
+                          **options)
 
 
 def built_targets():
@@ -59,6 +68,17 @@ def with_built_target(words, targets):
 
 
 class ReadmeTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        """The python3 of the PATH has no numpy, as many a version manager's."""
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        python = pathlib.Path(folder.name) / 'python3'
+        python.write_text('#!/bin/sh\nexec /usr/bin/python3 -S "$@"\n')
+        python.chmod(0o755)
+        os.environ['PATH'] = f'{folder.name}:{os.environ["PATH"]}'
+        cls.targets = built_targets()
+
     def make_root(self):
         """The tree's entries under a folder of its own, and the program where a build puts it."""
         folder = tempfile.TemporaryDirectory()
@@ -89,30 +109,82 @@ class ReadmeTest(unittest.TestCase):
         self.assertRegex(address, r'^http://127\.0\.0\.1:\d+/[0-9a-f]{32}/$', errors)
         self.assertEqual(process.returncode, 130, errors)
 
+    def make_first_build(self):
+        """A root whose build folder is as the first command leaves it: configured, with the program alone."""
+        root = self.make_root()
+        shutil.rmtree(root / 'build')
+        result = run(['cmake', '--preset', 'release', '-DNACRE_TESTS=OFF', '-DNACRE_BENCH=OFF'], root)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        shutil.copy(PROGRAM, root / 'build')
+        shutil.copy(BUILD / 'nacre_oiio.so', root / 'build')
+        return root
+
+    def build_installed(self, root):
+        """What `scripts/build release installed` adds to that."""
+        for pattern in 'libnacre.so*', 'docs/nacre*', 'python/nacre/_nacre.*.so':
+            for file in BUILD.glob(pattern):
+                shutil.copy(file, root / 'build' / file.relative_to(BUILD), follow_symlinks=False)
+
+    def check_command(self, words, code, root, done):
+        if words[0].startswith('scripts/'):
+            self.check_script(words)
+            if words == ['scripts/build', 'release', 'installed']:
+                self.build_installed(root)
+            return
+        self.assertIn(words[0], ('build/nacre', 'cp', 'cmake', 'out/check/build/check', IMPORTS))
+        if words[0] == IMPORTS and not CAN_IMPORT:
+            return
+        if words[1:2] == ['view']:
+            self.check_view(words, root)
+            return
+        # The same line elsewhere, and files that none of the later lines reads.
+        if tuple(words) in done and 'render' not in words:
+            return
+        done.add(tuple(words))
+        result = run(['env', *with_built_target(words, self.targets)], root)
+        self.assertEqual(result.returncode, code, result.stderr)
+        for flag, value in zip(words, words[1:]):
+            if flag == '-o':
+                self.assertTrue((root / value).exists(), value)
+
+    def check_blocks(self, path, root, done):
+        """Those of one README, in their order."""
+        for kind, text in BLOCK.findall(path.read_text()):
+            if kind == 'sh':
+                for words, code in commands(text):
+                    with self.subTest(path=path.relative_to(SOURCE).as_posix(), command=words):
+                        self.check_command(words, code, root, done)
+            elif path != SOURCE / 'README.md' or kind not in PROGRAMS:
+                continue
+            elif kind == 'cmake' or re.match(rf'\S+ {pathlib.Path(PROGRAMS[kind]).name}: ', text):
+                (root / PROGRAMS[kind]).parent.mkdir(parents=True, exist_ok=True)
+                (root / PROGRAMS[kind]).write_text(text)
+            elif kind == 'python' and CAN_IMPORT:  # without a name, as if it were typed
+                result = run(['env', IMPORTS, '/usr/bin/python3', '-'], root, input=text)
+                self.assertEqual(result.returncode, 0, result.stderr)
+
     def test_every_command_does_what_it_says(self):
         done = set()
-        targets = built_targets()
         for path in READMES:
-            root = self.make_root()
-            for words, code in commands(path):
-                with self.subTest(path=path.relative_to(SOURCE).as_posix(), command=words):
-                    if words[0].startswith('scripts/'):
-                        self.check_script(words)
-                        continue
-                    self.assertIn(words[0], ('build/nacre', 'cp'))
-                    if words[1] == 'view':
-                        self.check_view(words, root)
-                        continue
-                    # The same line elsewhere, and files that none of the later lines reads.
-                    if tuple(words) in done and 'render' not in words:
-                        continue
-                    done.add(tuple(words))
-                    result = run(with_built_target(words, targets), root)
-                    self.assertEqual(result.returncode, code, result.stderr)
-                    for flag, value in zip(words, words[1:]):
-                        if flag == '-o':
-                            self.assertTrue((root / value).exists(), value)
+            root = self.make_first_build() if path == SOURCE / 'README.md' else self.make_root()
+            self.check_blocks(path, root, done)
         self.assertGreater(len(done), 30)
+
+    def test_what_is_not_built_yet_says_what_builds_it(self):
+        root = self.make_first_build()
+        tried = [(['cmake', '--install', 'build', '--prefix', 'out/nacre'],
+                  r" *Nothing is installed: \S+ is not built yet: (cmake --build \S+ --target installed)")]
+        if PACKAGE:
+            tried.append((['env', IMPORTS, '/usr/bin/python3', '-c', 'import nacre'],
+                          r"ImportError: nacre's compiled module is not built in \S+: "
+                          r"(cmake --build \S+ --target nacre_python)"))
+        for words, says in tried:
+            result = run(words, root)
+            self.assertEqual(result.returncode, 1, result.stderr)
+            command, = re.findall(rf'^{says}$', result.stderr, re.M)
+            dry = run([*shlex.split(command), '--', '-n'], root)
+            self.assertEqual(dry.returncode, 0, dry.stdout)
+        self.assertFalse((root / 'out').exists())
 
     def test_no_command_hides_in_a_block_of_another_kind(self):
         for path in READMES:

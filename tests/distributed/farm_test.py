@@ -59,6 +59,11 @@ class FarmTest(unittest.TestCase):
         self.assertIn('tile 3/8: exit code -9', result.stderr)
         self.assertIn('tiles 8/8', result.stderr)
 
+    def test_a_program_that_is_not_built_is_told_in_one_line(self):
+        result = self.farm('--tiles', '8', nacre=str(self.out / 'nacre'))
+        self.assertEqual(result.returncode, 64)
+        self.assertRegex(result.stderr, r'^error: \S*/nacre is not there: scripts/build release nacre [^\n]*\n$')
+
     def test_names_are_printed_as_nacre_prints_them(self):
         """scripts/farm.py has a printable() of its own: a script is no place for the library."""
         loader = importlib.machinery.SourceFileLoader('farm', SOURCE + '/scripts/farm.py')

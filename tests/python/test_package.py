@@ -1,9 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """The package as a whole: what it shows, and what it says of it."""
 import inspect
+import os
+import pathlib
 import pydoc
+import re
+import shutil
 import subprocess
 import sys
+import sysconfig
 
 import pytest
 
@@ -28,6 +33,33 @@ def test_versions_and_targets():
     with pytest.raises(nacre.Error, match="cannot run"):
         nacre.set_target("mmx")
     assert '"$schema"' in nacre.scene_schema()
+
+
+def failed_import(folder, *options):
+    """The line that `import nacre` ends with, of the package in the folder."""
+    done = subprocess.run([sys.executable, *options, "-c", "import nacre"], check=False, text=True,
+                          capture_output=True, env={**os.environ, "PYTHONPATH": str(folder)})
+    assert done.returncode == 1 and "During handling" not in done.stderr, done.stderr
+    return done.stderr.splitlines()[-1]
+
+
+@pytest.mark.parametrize("module_name, says", [
+    (None, r"ImportError: nacre's compiled module is not built in .*/nacre: scripts/build, .*"),
+    ("_nacre.cpython-399-x86_64-linux-gnu.so",
+     r"ImportError: nacre's compiled module is for Python 3\.99, and this is 3\.\d+: run python3\.99, .*"),
+    (f"_nacre{sysconfig.get_config_var('EXT_SUFFIX')}",
+     r"ImportError: nacre's compiled module cannot be loaded, build it anew \(.*: file too short\): .*")])
+def test_a_module_that_is_not_there_is_told_in_one_line(tmp_path, module_name, says):
+    shutil.copytree(pathlib.Path(nacre.__file__).parent, tmp_path / "nacre",
+                    ignore=shutil.ignore_patterns("_nacre*.so"))
+    if module_name:
+        (tmp_path / "nacre" / module_name).touch()
+    assert re.fullmatch(says, failed_import(tmp_path))
+
+
+def test_a_python_without_numpy_is_told_in_one_line():
+    line = failed_import(pathlib.Path(nacre.__file__).parents[1], "-S")  # no packages of Debian's
+    assert re.fullmatch(r"ImportError: nacre needs numpy, which .* does not have: run /usr/bin/python3, .*", line)
 
 
 def test_it_prints_nothing():

@@ -7,7 +7,7 @@ import subprocess
 import sys
 import zipfile
 
-from conftest import SOURCE
+from conftest import SOURCE, module
 
 sys.path.insert(0, str(SOURCE / "src/python"))
 import build_wheel  # noqa: E402 pylint: disable=wrong-import-position
@@ -31,6 +31,21 @@ def test_a_wheel_is_whole(tmp_path):
     out = subprocess.run([sys.executable, "-c", code], env=environment, check=True, cwd=tmp_path,
                          capture_output=True, text=True).stdout.split()
     assert [pathlib.Path(line) for line in out] == [place / "nacre", place / "nacre/libnacre.so.0"]
+
+
+def test_pip_makes_the_same_wheel(tmp_path):
+    module("pip")
+    pip = [sys.executable, "-m", "pip", "wheel", "--quiet", "--no-build-isolation", "--no-deps",
+           "--wheel-dir", tmp_path, SOURCE / "src/python", "--config-settings"]
+    build = os.environ["NACRE_BUILD"]
+    subprocess.run([*pip, f"build-folder={build}"], check=True, env={**os.environ, "PIP_NO_INDEX": "1"})
+    made, = tmp_path.iterdir()
+    assert made.name == build_wheel.build_wheel(str(tmp_path / ".."), {"build-folder": build})
+    assert made.read_bytes() == (tmp_path / ".." / made.name).read_bytes()
+    # What is not built is told in one line, with the command.
+    done = subprocess.run([*pip, f"build-folder={tmp_path}"], check=False, capture_output=True, text=True)
+    assert done.returncode == 1 and "Traceback" not in done.stderr, done.stderr
+    assert "--target nacre_python" in done.stderr
 
 
 def test_the_readme_runs(tmp_path):

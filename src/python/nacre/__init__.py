@@ -31,7 +31,18 @@ import atexit as _atexit
 import os as _os
 from typing import List
 
-from . import _nacre
+from . import _missing
+try:
+    from . import _nacre
+except ImportError as _error:
+    raise ImportError(_missing.native(_error), name="nacre._nacre") from None
+try:
+    import numpy as _numpy
+except ModuleNotFoundError as _error:
+    if _error.name != "numpy":
+        raise
+    raise ImportError(_missing.numpy(), name="numpy") from None
+
 from ._arguments import text as _text
 from ._brdf import Brdf
 from ._check import Check, Verdict, check
