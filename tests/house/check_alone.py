@@ -3,7 +3,8 @@
 """Checks that every source and every header compiles alone, SIMD headers included: the syntax, no code.
 
 A header that a source includes first is compiled with that. Others are with the flags of a source beside
-them, SIMD headers for the baseline target.
+them, SIMD headers as in a kernel, once for every target: each target's part of Highway brings along other
+headers of the standard library.
 
 Usage: check_alone.py BUILD_FOLDER SOURCE_FOLDER. The build is configured with NACRE_UNITY=OFF; nothing need
 be built.
@@ -17,8 +18,13 @@ import re
 import shlex
 import subprocess
 import sys
+import tempfile
 
 FOLDERS = ("src", "tests", "bench")
+KERNEL = """#define HWY_TARGET_INCLUDE "{kernel}"
+#include "hwy/foreach_target.h"
+#include "{header}"
+"""
 FIRST_INCLUDE = re.compile(r'\s*#\s*include "([^"]+)"')
 
 
@@ -51,10 +57,17 @@ def flags_for(header, commands):
 
 def fault_of(file, words, build, root):
     """What the compiler says of a file, or ""."""
-    # A header as the file itself would be warned of for its #pragma once.
-    inputs = ["-include", file, os.devnull] if file.suffix == ".h" else [file]
-    result = subprocess.run([*words, "-fsyntax-only", "-x", "c++", *inputs],
-                            cwd=build, capture_output=True, text=True, check=False)
+    with tempfile.NamedTemporaryFile("w", suffix=".cc") as kernel:
+        if file.name.endswith("-inl.h"):
+            kernel.write(KERNEL.format(kernel=kernel.name, header=file))
+            kernel.flush()
+            inputs = [kernel.name]
+        elif file.suffix == ".h":  # as the file itself it would be warned of for its #pragma once
+            inputs = ["-include", file, os.devnull]
+        else:
+            inputs = [file]
+        result = subprocess.run([*words, "-fsyntax-only", "-x", "c++", *inputs],
+                                cwd=build, capture_output=True, text=True, check=False)
     return f"{file.relative_to(root)} does not compile alone:\n{result.stderr}" if result.returncode else ""
 
 
