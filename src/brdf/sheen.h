@@ -174,7 +174,8 @@ struct SheenScale {
 // channel of the sheen's colour. It is reciprocal, and a white surface reflects no more than all
 // light: the lobe m E(n.v), and what is below at most 1 - m E(n.v). Where m E exceeds 1, in either
 // direction, the extension leaves open what happens; here nothing is left for below, and the lobe
-// is divided by the larger m E, so that it gives back all light at most and stays reciprocal.
+// is divided by the larger m E, so that it gives back all light at most and stays reciprocal. With
+// E(n.v) for both albedos (SheenScaling::kConserving) a white surface reflects exactly all light.
 template <typename Real>
 SheenScale<Real> ScaleSheen(Real largest_channel, Real albedo_v, Real albedo_l) {
   const Real share = largest_channel * std::max(albedo_v, albedo_l);

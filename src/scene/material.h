@@ -76,6 +76,12 @@ enum class DiffuseCoupling : uint8_t {
   kNone,             // all of it
 };
 
+// What a sheen leaves to the layers below it, and so whether a white surface reflects all light.
+enum class SheenScaling : uint8_t {
+  kReciprocal,  // by the darker side, of viewer and light: loses up to 14 %
+  kConserving,  // by the viewer's side alone; not reciprocal
+};
+
 // How the diffuse base of a microfacet model reflects.
 enum class DiffuseForm : uint8_t { kLambert, kOrenNayar, kBurley };
 
@@ -116,6 +122,7 @@ struct MetallicRoughnessMaterial {
   // The fuzz of cloth (brdf/sheen.h), between the coat and the rest, as KHR_materials_sheen.
   Rgb sheen_color{0, 0, 0};    // each in [0, 1]; 0: none
   double sheen_roughness = 0;  // in [0, 1]; 0: none is seen
+  SheenScaling sheen_scaling = SheenScaling::kReciprocal;
   TextureId sheen_color_map{}, sheen_roughness_map{};
 };
 

@@ -129,6 +129,13 @@ constexpr std::string_view kCouplingMeaning =
     "lobe leaves, so that a white surface reflects exactly all light, at every metallic. "
     "one_minus_fresnel: 1 - F(v.h), as in many lessons; in metallic_roughness F is that of "
     "dielectric and metal mixed, which makes partial metals too dark. none: all of it.";
+constexpr std::string_view kSheenScalingMeaning =
+    "What the sheen leaves to the layers below. reciprocal: 1 - m E of viewer or light, whichever "
+    "is "
+    "less, as KHR_materials_sheen: light is lost, of a white surface up to 14 %. conserving: 1 - m "
+    "E "
+    "of the viewer, as OpenPBR and MaterialX layer by albedo: a white surface reflects all light, "
+    "but light and viewer cannot change places.";
 constexpr std::string_view kDiffuseMeaning =
     "Reflection model of the diffuse base. oren_nayar: EON (Portsmouth et al. 2025), which "
     "conserves energy. burley: Burley 2012, which does not.";
@@ -212,8 +219,8 @@ constexpr std::array kMetallicRoughnessParameters = {
                                                        kRoughnessMeaning),
     Number<&MetallicRoughnessMaterial::coat_ior>(
         "coat_ior", limits::kIor,
-        "Index of refraction of the coat, which gives F0 of Schlick's "
-        "curve."),
+        "Index of refraction of the coat, which gives F0 of Schlick's curve; below 1.4 less is "
+        "reflected at grazing angles, too. 1: no coat."),
     Color<&MetallicRoughnessMaterial::sheen_color>(
         "sheen_color", limits::kUnit,
         "Colour of the sheen, the fuzz of velvet, which is bright at grazing angles (Estevez and "
@@ -255,6 +262,7 @@ constexpr std::array<std::string_view, 4> kShadowings = {"height_correlated", "s
 constexpr std::array<std::string_view, 3> kCompensations = {"turquin", "kulla_conty", "none"};
 constexpr std::array<std::string_view, 3> kCouplings = {"albedo_scaled", "one_minus_fresnel",
                                                         "none"};
+constexpr std::array<std::string_view, 2> kSheenScalings = {"reciprocal", "conserving"};
 constexpr std::array<std::string_view, 3> kDiffuseForms = {"lambert", "oren_nayar", "burley"};
 constexpr std::array<std::string_view, 3> kConductorFresnels = {"exact", "f82_tint", "schlick"};
 constexpr std::array<std::string_view, 2> kDielectricFresnels = {"exact", "schlick"};
@@ -298,7 +306,10 @@ constexpr std::array kMetallicRoughnessChoices = {
                                                      kCompensationMeaning),
     Choice<&MetallicRoughnessMaterial::diffuse_coupling>("diffuse_coupling", kCouplings,
                                                          kCouplingMeaning),
-    Choice<&MetallicRoughnessMaterial::diffuse>("diffuse", kDiffuseForms, kDiffuseMeaning)};
+    Choice<&MetallicRoughnessMaterial::diffuse>("diffuse", kDiffuseForms, kDiffuseMeaning),
+    Choice<&MetallicRoughnessMaterial::sheen_scaling>("sheen_scaling", kSheenScalings,
+                                                      kSheenScalingMeaning),
+};
 constexpr std::array kConductorChoices = {
     kConductorPreset,
     Choice<&ConductorMaterial::shadowing>("shadowing", kShadowings, kShadowingMeaning),

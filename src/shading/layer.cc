@@ -9,9 +9,11 @@ namespace nacre {
 namespace {
 
 LayerReflection TermsOf(const SheenModel& sheen, const Angles<double>& a) {
-  const SheenScale<double> scale =
-      ScaleSheen(LargestChannel(sheen.color), CharlieAlbedo(sheen.charlie, a.n_dot_v),
-                 CharlieAlbedo(sheen.charlie, a.n_dot_l));
+  const double albedo_v = CharlieAlbedo(sheen.charlie, a.n_dot_v);
+  const double albedo_l = sheen.scaling == SheenScaling::kReciprocal
+                              ? CharlieAlbedo(sheen.charlie, a.n_dot_l)
+                              : albedo_v;
+  const SheenScale<double> scale = ScaleSheen(LargestChannel(sheen.color), albedo_v, albedo_l);
   const double lobe = CharlieLobe(sheen.charlie, a) * a.n_dot_l * scale.lobe;
   return {sheen.color * lobe, scale.below};
 }
@@ -30,9 +32,9 @@ double PdfOf(const SheenModel& sheen, double n_dot_l) {
   return CharliePdf(n_dot_l, sheen.charlie.roughness);
 }
 
-SheenModel ModelAtHit(const SheenModel&, const HitTextures& textures, size_t i) {
+SheenModel ModelAtHit(const SheenModel& sheen, const HitTextures& textures, size_t i) {
   return {ColorOfHit(textures, MappedNumber::kSheenColor, i),
-          MakeCharlie(NumbersOf(textures, MappedNumber::kSheenRoughness)[i])};
+          MakeCharlie(NumbersOf(textures, MappedNumber::kSheenRoughness)[i]), sheen.scaling};
 }
 
 bool ShowsSheen(const MetallicRoughnessMaterial& material) {
@@ -47,7 +49,8 @@ std::vector<LayerModel> MakeLayers(const Material& material) {
   const auto* const model = std::get_if<MetallicRoughnessMaterial>(&material.model);
   if (model == nullptr) return layers;
   if (ShowsSheen(*model)) {
-    layers.emplace_back(SheenModel{model->sheen_color, MakeCharlie(model->sheen_roughness)});
+    layers.emplace_back(
+        SheenModel{model->sheen_color, MakeCharlie(model->sheen_roughness), model->sheen_scaling});
   }
   return layers;
 }

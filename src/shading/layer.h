@@ -21,6 +21,7 @@ struct SheenModel {
   static constexpr std::string_view kName = "sheen";
   Rgb color{0, 0, 0};
   Charlie<double> charlie;
+  SheenScaling scaling = SheenScaling::kReciprocal;
 };
 
 using LayerModel = std::variant<SheenModel>;

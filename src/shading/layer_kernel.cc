@@ -60,9 +60,12 @@ class LayerOnHits<SheenModel> {
         maps_ == nullptr ? BroadcastCharlie(d, sheen_.charlie)
                          : MakeCharlie(d, NumberOfHits(0, maps_, MappedNumber::kSheenRoughness, i));
     const Vec3V<V> color = ColorOfHits(sheen_.color, maps_, MappedNumber::kSheenColor, i);
+    const V albedo_v = CharlieAlbedo(d, charlie, a.n_dot_v);
+    const V albedo_l = sheen_.scaling == SheenScaling::kReciprocal
+                           ? CharlieAlbedo(d, charlie, a.n_dot_l)
+                           : albedo_v;
     const SheenScaleV<V> scale =
-        ScaleSheen(d, hn::Max(hn::Max(color.x, color.y), color.z),
-                   CharlieAlbedo(d, charlie, a.n_dot_v), CharlieAlbedo(d, charlie, a.n_dot_l));
+        ScaleSheen(d, hn::Max(hn::Max(color.x, color.y), color.z), albedo_v, albedo_l);
     const V lobe = hn::Mul(hn::Mul(CharlieLobe(d, charlie, a), a.n_dot_l), scale.lobe);
     return {Scale(color, lobe), scale.below};
   }

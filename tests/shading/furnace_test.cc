@@ -271,5 +271,37 @@ TEST_CASE("the base below a perfect mirror gets what the mirror leaves") {
   }
 }
 
+// Sheen over a white surface: as glTF scales it light is lost, scaled by the viewer's side none is.
+// The bound is that of the white furnace above and of the fit of the sheen's albedo
+// (brdf/sheen.h, 1.6e-3).
+TEST_CASE("a white furnace stays white under a sheen that conserves") {
+  const FlushDenormals flush;
+  constexpr double kBound = 1e-3 + 1.6e-3;
+  double least = 1;
+  for (const double sheen_roughness : {0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0}) {
+    for (const double n_dot_v : {1e-4, 0.01, 0.1, 0.3, 0.6, 1.0}) {
+      const Vec3d to_view(std::sqrt(1 - n_dot_v * n_dot_v), 0, n_dot_v);
+      LitFurnace furnace(to_view, AlphaFromRoughness(0.5));
+      Material material = White(0, 0.5, Shadowing::kHeightCorrelated, Compensation::kTurquin);
+      auto& model = std::get<MetallicRoughnessMaterial>(material.model);
+      model.sheen_roughness = sheen_roughness;
+      for (const double color : {1.0, 0.4}) {
+        CAPTURE(sheen_roughness, n_dot_v, color);
+        model.sheen_color = Rgb(color);
+        model.sheen_scaling = SheenScaling::kConserving;
+        CHECK(std::abs(furnace.Reflected(material).y - 1) <= kBound);
+        model.sheen_scaling = SheenScaling::kReciprocal;
+        const double reciprocal = furnace.Reflected(material).y;
+        CHECK(reciprocal <= 1 + kBound);
+        least = std::min(least, reciprocal);
+      }
+    }
+  }
+  // What README.md and the parameter's description say of glTF's scaling.
+  CHECK(least > 0.86);
+  CHECK(least < 0.89);
+  WARN("glTF's scaling of sheen leaves " << least << " of a white furnace");
+}
+
 }  // namespace
 }  // namespace nacre

@@ -178,6 +178,29 @@ class ProtocolTest(unittest.TestCase):
         self.assertAlmostEqual(terms['n_dot_v'], cosine, places=5)
         self.assertAlmostEqual(terms['n_dot_l'], cosine, places=5)
         self.assertAlmostEqual(terms['n_dot_h'], 1, places=9)
+        # And what it leaves of the light below is seen through it from the same angle as without flakes.
+        self.set(page, '/materials/car paint/normal_map', {'texture': 'flakes', 'scale': 0})
+        smooth = explained()
+        self.assertGreater(math.dist(smooth['normal'], answer['normal']), 0.05)
+        over_smooth, = next(light for light in smooth['lights'] if light['name'] == 'sun')['covers']
+        for through, without_flakes in zip(coat['below'], over_smooth['below']):
+            self.assertAlmostEqual(through, without_flakes, places=6)
+
+    def test_an_explained_lobe_lies_opposite_the_viewer(self):
+        _, page = self.open(SOURCE / 'scenes/first_scene.json', *SIZE, '--spp', 1, '--set', '/materials/red/roughness=0.1')
+        page.until(is_done)
+        oblique = 0
+        for x, y in ((72, 40), (86, 40), (80, 50)):
+            page.send({'explain': x, 'y': y})
+            answer = page.until(lambda m: 'explained' in m)['explained']
+            lobe = answer['lobe']
+            if answer['material'] != 'red' or lobe['view_deg'] > -10:
+                continue
+            oblique += 1
+            peak = max(range(len(lobe['specular'])), key=lobe['specular'].__getitem__)
+            # The curve's own step is a degree; a lobe of roughness 0.1 peaks that near to the mirror direction.
+            self.assertAlmostEqual(lobe['first_deg'] + peak, -lobe['view_deg'], delta=1.5)
+        self.assertGreater(oblique, 0)
 
     def test_it_refines_while_nothing_moves(self):
         _, page = self.open(SCENE, '--size', '320x180', '--spp', 64)
