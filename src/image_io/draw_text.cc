@@ -7,8 +7,10 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <new>
 #include <utility>
 
+#include <fribidi.h>
 #include <ft2build.h>
 #include FT_FREETYPE_H
 
@@ -84,6 +86,29 @@ std::u32string Decode(const std::string& utf8) {
   }
   return text;
 }
+
+// The characters from left to right as they are seen: Hebrew and Arabic run from right to left,
+// numbers in them from left to right (Unicode's bidirectional algorithm), and Arabic letters have
+// the form that joins them to their neighbours.
+std::u32string VisualOrder(std::u32string text) {
+  constexpr char32_t kFirstFromRight = 0x590;  // no script before it is written so
+  if (std::all_of(text.begin(), text.end(), [](char32_t c) { return c < kFirstFromRight; })) {
+    return text;
+  }
+  const std::vector<FriBidiChar> logical(text.begin(), text.end());
+  std::vector<FriBidiChar> visual(logical.size() + 1);  // FriBidi ends it with a 0
+  FriBidiParType direction = FRIBIDI_PAR_ON;            // that of the first letter
+  if (fribidi_log2vis(logical.data(), static_cast<FriBidiStrIndex>(logical.size()), &direction,
+                      visual.data(), nullptr, nullptr, nullptr) == 0) {
+    throw std::bad_alloc();
+  }
+  visual.pop_back();
+  std::erase(visual, FRIBIDI_CHAR_FILL);  // where two letters have become one
+  return {visual.begin(), visual.end()};
+}
+
+// The characters that are drawn for a text.
+std::u32string CharactersOf(std::string_view text) { return VisualOrder(Decode(Printable(text))); }
 
 // Pixels [x0, x1) x [y0, y1) from the start of the baseline; y grows downwards.
 struct Box {
@@ -197,7 +222,7 @@ Offset AlignmentOffset(const TextItem& item, const Box& text, Font* font) {
 
 void DrawItem(const TextItem& item, std::span<uint8_t> rgb8, int width, int height, Font* font) {
   font->SetSize(item.size_px);
-  const std::u32string text = Decode(Printable(item.text));
+  const std::u32string text = CharactersOf(item.text);
   const int outline = item.outline ? std::max(1, item.size_px / 12) : 0;
   Strokes strokes = DrawStrokes(text, outline, font);
   if (strokes.box.empty()) return;
@@ -297,7 +322,7 @@ double TextWidth(std::string_view text, double size_px) {
 double DrawnWidth(std::string_view text, double size_px) {
   const int size = SizeDrawn(size_px);
   int width = 0;
-  for (const char32_t character : Decode(std::string(text))) {
+  for (const char32_t character : CharactersOf(text)) {
     if (character >= 127) {
       width += AdvanceBeyondAscii(character, size);
       continue;
