@@ -70,9 +70,13 @@ Axes ParseAxes(const GridArguments& arguments) {
                 "name another parameter");
   }
   std::vector<Json> bases = {axes.material};
+  std::string of = "--material";
   for (const SheetAxis* axis : {&axes.rows, &axes.columns}) {
-    if (axis->kind == Kind::kMaterial) bases = axis->values;
+    if (axis->kind != Kind::kMaterial) continue;
+    bases = axis->values;
+    of = axis == &axes.rows ? "--rows" : "--columns";
   }
+  CheckModels(of, bases);
   CheckSheetAxis("--rows", bases, &axes.rows);
   CheckSheetAxis("--columns", bases, &axes.columns);
   return axes;

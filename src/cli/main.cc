@@ -5,7 +5,6 @@
 #include <initializer_list>
 #include <memory>
 #include <new>
-#include <optional>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -25,7 +24,7 @@
 #include "cli/option_values.h"
 #include "cli/print.h"
 #include "cli/progress.h"
-#include "cli/unknown_option.h"
+#include "cli/usage_error.h"
 
 namespace {
 
@@ -144,13 +143,9 @@ int Run(int argc, char** argv) {
     nacre::FinishOutput();
     return exit_code;
   } catch (const CLI::ParseError& error) {
-    if (const std::optional<nacre::Error> unknown = nacre::UnknownArgument(app, error)) {
-      nacre::PrintError(std::string(unknown->what()) + "\n");
-      return static_cast<int>(unknown->code());
-    }
-    nacre::PrintError("error: {}\n  hint: see nacre --help, or nacre COMMAND --help\n",
-                      error.what());
-    return static_cast<int>(ExitCode::kUsage);
+    const nacre::Error usage = nacre::UsageError(app, error);
+    nacre::PrintError(std::string(usage.what()) + "\n");
+    return static_cast<int>(usage.code());
   } catch (const nacre::Error& error) {
     nacre::PrintError(std::string(error.what()) + "\n");
     return static_cast<int>(error.code());

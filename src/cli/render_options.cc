@@ -17,6 +17,7 @@
 #include "cli/help_text.h"
 #include "color/tone.h"
 #include "scene/limits.h"
+#include "scene_io/overrides.h"
 
 namespace nacre {
 namespace {
@@ -255,7 +256,8 @@ LoadOptions MakeLoadOptions(const RenderOptions& options) {
       throw Error(ExitCode::kUsage, "--set", "\"" + set + "\" is not /json/pointer=value",
                   "for example --set /image/spp=64");
     }
-    load.overrides.emplace_back(set.substr(0, equals), set.substr(equals + 1));
+    const std::string pointer = set.substr(0, equals);
+    load.overrides.emplace_back(pointer, JsonOfTyped(pointer, set.substr(equals + 1)));
   }
   const auto put = [&](const char* pointer, auto value) {
     load.overrides.emplace_back(pointer, std::to_string(value));

@@ -16,6 +16,7 @@
 
 #include "base/error.h"
 #include "base/excerpt.h"
+#include "scene_io/schema.h"
 
 namespace nacre {
 namespace {
@@ -59,13 +60,19 @@ std::optional<Json> LooseNumber(std::string_view text) {
   return Json(number);
 }
 
-Json ParseValue(const std::string& pointer, const std::string& text) {
-  if (std::optional<Json> value = TryParseJson(text)) return *std::move(value);
+[[noreturn]] void RefuseText(const std::string& pointer, const std::string& text,
+                             const std::string& wanted) {
   const std::optional<Json> number = LooseNumber(text);
   RefuseOverride(pointer, fmt::format("{} is not JSON", Excerpt(text)),
-                 number
-                     ? fmt::format("write {}", JsonText(*number))
-                     : fmt::format("a string needs quotes: '{}=\"{}\"'", pointer, Excerpt(text)));
+                 number ? fmt::format("write {}", JsonText(*number))
+                 : wanted.empty()
+                     ? fmt::format("a string needs quotes: '{}=\"{}\"'", pointer, Excerpt(text))
+                     : fmt::format("{} is wanted there", wanted));
+}
+
+Json ParseValue(const std::string& pointer, const std::string& text) {
+  if (std::optional<Json> value = TryParseJson(text)) return *std::move(value);
+  RefuseText(pointer, text, {});
 }
 
 // The parts of a scene whose entries have names, and the key that an entry cannot do without.
@@ -118,6 +125,29 @@ Json* Step(const std::string& pointer, const std::string& token, Json* parent) {
 }
 
 }  // namespace
+
+std::string JsonOfTyped(const std::string& pointer, const std::string& text) {
+  const std::optional<Json> value = TryParseJson(text);
+  if (value && (value->is_string() || value->is_structured() || value->is_null())) return text;
+  const std::vector<std::string> types = SchemaTypesAt(TokensOf(pointer));
+  const auto takes = [&](const char* type) {
+    return std::find(types.begin(), types.end(), type) != types.end();
+  };
+  const bool fits =
+      value && (value->is_boolean() ? takes("boolean") : takes("number") || takes("integer"));
+  const bool is_json = text.empty() || std::string_view("[{\"").find(text[0]) != std::string::npos;
+  if (takes("string") && !fits && !is_json) return JsonText(Json(text));
+  if (value) return text;
+  std::vector<std::string> wanted;
+  for (const std::string& type : types) {
+    wanted.push_back(type == "integer"   ? "a whole number"
+                     : type == "boolean" ? "true or false"
+                     : type == "array"   ? "a list in brackets"
+                     : type == "object"  ? "an object in braces"
+                                         : "a " + type);
+  }
+  RefuseText(pointer, text, fmt::format("{}", fmt::join(wanted, " or ")));
+}
 
 void ApplyOverride(const std::string& pointer, const std::string& text, Json* root) {
   ReplaceValue(pointer, text, root);

@@ -17,6 +17,11 @@ namespace nacre {
 // missing are made; places in arrays must exist. Throws Error (kUsage) if that cannot be done.
 void ApplyOverride(const std::string& pointer, const std::string& text, Json* root);
 
+// JSON for a value as people type it behind a pointer: JSON itself, or where the schema of scenes
+// wants a string, a word without quotes, which may look like a number if nothing else is wanted.
+// `null` stays null. Throws Error (kUsage), which tells what is wanted there, for what is neither.
+std::string JsonOfTyped(const std::string& pointer, const std::string& text);
+
 // The value where `pointer` points as JSON text; nothing if there is none. Throws Error (kUsage)
 // for what is no pointer.
 std::optional<std::string> ValueAt(const std::string& pointer, const Json& root);

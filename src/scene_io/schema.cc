@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // scene_io/schema.cc: SceneSchema() of load_scene.h: what the table of material parameters says of
-// the material models, as JSON Schema, put into the rest of it.
+// the material models, as JSON Schema, put into the rest of it; and what it says of a place.
+#include "scene_io/schema.h"
+
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -114,7 +118,58 @@ std::string MakeSchema() {
   return schema;
 }
 
+// Adds the schema itself, what it refers to, and its alternatives.
+void AddAlternatives(const nlohmann::json& root, const nlohmann::json& schema,
+                     std::vector<const nlohmann::json*>* all) {
+  all->push_back(&schema);
+  if (const auto reference = schema.find("$ref"); reference != schema.end()) {
+    const auto pointer = reference->get<std::string>().substr(1);  // after the #
+    AddAlternatives(root, root.at(nlohmann::json::json_pointer(pointer)), all);
+  }
+  for (const char* const key : {"anyOf", "oneOf"}) {
+    if (!schema.contains(key)) continue;
+    for (const nlohmann::json& one : schema.at(key)) AddAlternatives(root, one, all);
+  }
+}
+
+// The schema of a member or an element, or null.
+const nlohmann::json* Step(const nlohmann::json& schema, const std::string& token) {
+  const auto properties = schema.find("properties");
+  if (properties != schema.end() && properties->contains(token)) return &properties->at(token);
+  for (const char* const key : {"additionalProperties", "items"}) {
+    if (schema.contains(key) && schema.at(key).is_object()) return &schema.at(key);
+  }
+  return nullptr;
+}
+
+std::string TypeOfValue(const nlohmann::json& value) {
+  return value.is_string() ? "string" : value.is_boolean() ? "boolean" : "number";
+}
+
 }  // namespace
+
+std::vector<std::string> SchemaTypesAt(const std::vector<std::string>& tokens) {
+  static const nlohmann::json root = nlohmann::json::parse(SceneSchema());
+  std::vector<const nlohmann::json*> schemas;
+  AddAlternatives(root, root, &schemas);
+  for (const std::string& token : tokens) {
+    std::vector<const nlohmann::json*> next;
+    for (const nlohmann::json* schema : schemas) {
+      if (const nlohmann::json* const step = Step(*schema, token)) {
+        AddAlternatives(root, *step, &next);
+      }
+    }
+    schemas = std::move(next);
+  }
+  std::set<std::string> types;
+  for (const nlohmann::json* schema : schemas) {
+    if (schema->contains("type")) types.insert(schema->at("type").get<std::string>());
+    if (schema->contains("const")) types.insert(TypeOfValue(schema->at("const")));
+    if (!schema->contains("enum")) continue;
+    for (const nlohmann::json& value : schema->at("enum")) types.insert(TypeOfValue(value));
+  }
+  return {types.begin(), types.end()};
+}
 
 std::string_view SceneSchema() {
   static const std::string schema = MakeSchema();

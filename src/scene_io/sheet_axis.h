@@ -33,6 +33,10 @@ struct SheetAxis {
 // The kind is known to CheckSheetAxis only, but for materials.
 SheetAxis ParseSheetAxis(const std::string& option, const std::string& text);
 
+// Throws Error (kBadInput), of `option`, for a material, an object as in scene files, of a model
+// that there is not.
+void CheckModels(const std::string& option, const std::vector<Json>& materials);
+
 // Finds out what the axis varies in each of the materials, objects as in scene files. Throws Error
 // (kBadInput) if one has no such parameter, or a value is none of its values.
 void CheckSheetAxis(const std::string& option, const std::vector<Json>& materials, SheetAxis* axis);

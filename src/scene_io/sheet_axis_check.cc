@@ -86,10 +86,14 @@ SheetAxis::Kind CheckAgainst(const std::string& option, const MaterialModel& mod
 
 }  // namespace
 
+void CheckModels(const std::string& option, const std::vector<Json>& materials) {
+  for (const Json& material : materials) ModelOfJson(option, material);
+}
+
 void CheckSheetAxis(const std::string& option, const std::vector<Json>& materials,
                     SheetAxis* axis) {
   if (axis->kind == SheetAxis::Kind::kMaterial) {
-    for (const Json& material : axis->values) ModelOfJson(option, material);
+    CheckModels(option, axis->values);
     return;
   }
   for (const Json& material : materials) {

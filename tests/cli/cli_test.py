@@ -852,7 +852,7 @@ class CliTest(unittest.TestCase):
         out = ['-o', self.out / 'a.png']
         self.check_fails(64, 'did you mean "fresnel"', 'plot', 'fresnell', *out)
         self.check_fails(64, '.svg, .png and .csv', 'plot', 'fresnel', '-o', self.out / 'a.pdf')
-        self.check_fails(64, '--output is required', 'plot', 'fresnel')
+        self.check_fails(64, '--output: is required', 'plot', 'fresnel')
         self.check_fails(64, 'is not a material', 'plot', 'brdf', '--material', '{"model"', *out)
         self.check_fails(65, 'did you mean "phong"', 'plot', 'brdf', '--material', 'phon', *out)
         self.check_fails(65, 'did you mean "floor"', 'plot', 'brdf', '--scene', FIRST_SCENE,

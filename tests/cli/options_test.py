@@ -144,6 +144,117 @@ class OptionsTest(unittest.TestCase):
                          '--stats', '-')
         self.check_works('plot', 'brdf', '--title=--log', '-o', self.out / 'a.csv')
 
+    # What CLI11 finds is told in nacre's own words: where, what, and a hint.
+    def test_messages_are_of_one_form(self):
+        image = SOURCE / 'tests/references/textbook/phong_vs_pbr.exr'
+        out = ['-o', self.out / 'a.exr']
+        scene = ['render', FIRST_SCENE, *out]
+        for message, arguments in (
+                ('--spp: is given 2 times\n  hint: give it once\n', [*scene, '--spp', '1', '--spp', '1']),
+                ('--tonemap: is given 3 times\n  hint: give it once\n',
+                 [*scene, '--tonemap=aces', '--tonemap=aces', '--tonemap', 'agx']),
+                ('--max-abs: is given 2 times', ['compare', image, image, '--max-abs', '1', '--max-abs', '2']),
+                ('--depth: "16" is none of its values\n  hint: one of: half, float\n',
+                 [*scene, '--depth', '16']),
+                ('--progress: "off" is none of its values\n  hint: one of: auto, bar, json, none\n',
+                 [*scene, '--progress', 'off']),
+                ('--tonemap: "nuetral" is none of its values\n  hint: did you mean "neutral"?\n',
+                 [*scene, '--tonemap', 'nuetral']),
+                ('--metrics: "hdr_flop" is none of its values\n  hint: did you mean "hdr_flip"?\n',
+                 ['compare', image, image, '--metrics', 'flip,hdr_flop']),
+                ('--seed: "x" is not a number\n', [*scene, '--seed', 'x']),
+                ('--spp: x is not a whole number from 1 to 65536\n  hint: ', [*scene, '--spp', 'x']),
+                ('--quiet: takes no value\n  hint: write --quiet alone\n', [*scene, '--quiet=maybe']),
+                ('--output: is required\n  hint: ', ['render', FIRST_SCENE]),
+                ('SCENE: is required\n  hint: ', ['render', *out]),
+                ('REFERENCE: is required\n  hint: ', ['compare', image]),
+                ('unexpected argument "b.json"\n  hint: ', [*scene, 'b.json']),
+                ('unknown option --loud\n  hint: ', [*scene, '--loud']),
+                ('--material: "fong" is no model\n', ['grid', *out, '--material', 'fong']),
+                ('--columns: "fong" is no model\n', ['grid', *out, '--columns', 'material=phong,fong']),
+                ('--rows: "fong" is no model\n', ['grid', *out, '--rows', 'material=phong,fong'])):
+            with self.subTest(arguments=arguments):
+                result = run(*arguments)
+                self.assertIn(result.returncode, (64, 65))
+                self.assertIn(f'error: {message}', result.stderr)
+                self.assertEqual(result.stderr.count('\n'), 2)
+                for word in 'required but', 'Could not', 'At Most', 'not in {', 'expected:':
+                    self.assertNotIn(word, result.stderr)
+        self.assertEqual(list(self.out.iterdir()), [])
+
+    # What people type who come from Blender, Cycles, Mitsuba, pbrt, POV-Ray, appleseed and
+    # OpenImageIO's tools.
+    def test_other_programs_options_are_known(self):
+        for word, ours in (('--outfile', '-o'), ('--render-output', '-o'), ('+Oa.png', '-o'),
+                           ('--resolution', '--size'), ('-r', '--size'), ('--scale', '--size'),
+                           ('--resize', '--size'), ('+W640', '--size'), ('+H480', '--size'),
+                           ('--nthreads', '--threads'), ('--num-threads', '--threads'), ('-t', '--threads'),
+                           ('--aov', '--layers'), ('-d', '--depth'), ('-q', '--quiet'), ('-v', '--explain'),
+                           ('--verbose', '--explain'), ('--device', '--target'), ('--define', '--set'),
+                           ('--override', '--set'), ('--pixelbounds', '--region'), ('--passes', '--spp'),
+                           ('+A0.1', '--spp'), ('--gamma', '--tonemap')):
+            with self.subTest(word=word):
+                self.check_usage(f'did you mean {ours}?', 'render', FIRST_SCENE, '-o', self.out / 'a.png', word)
+        for word, hint in (('--frame', 'a scene is one picture'), ('-f', 'a scene is one picture'),
+                           ('--format', 'the name behind -o'), ('-F', 'the name behind -o'),
+                           ('--gpu', 'renders on the processor'), ('--integrator', 'without further bounces'),
+                           ('--max-depth', 'without further bounces'), ('-i', 'without an option'),
+                           ('--camera', '/camera/position'), ('--denoise', '--max-error'),
+                           ('-b', 'opens no window')):
+            with self.subTest(word=word):
+                self.check_usage(f'error: unknown option {word}\n', 'render', FIRST_SCENE, '-o',
+                                 self.out / 'a.png', word)
+                self.check_usage(hint, 'render', FIRST_SCENE, '-o', self.out / 'a.png', word, '4')
+        image = SOURCE / 'tests/references/textbook/phong_vs_pbr.exr'
+        self.check_usage('did you mean --max-abs?', 'compare', image, image, '--fail', '0.1')
+        self.check_usage('did you mean --fraction?', 'compare', image, image, '--failpercent', '1')
+
+    def test_set_takes_words_where_strings_are_wanted(self):
+        scene = self.out / 'scene.json'
+        text = json.loads(pathlib.Path(FIRST_SCENE).read_text())
+        text['materials']['7'] = {'model': 'lambert', 'albedo': 0.1}
+        text['textures'] = {'1e3': {'file': '12'}}
+        scene.write_text(json.dumps(text))
+        (self.out / '12').write_bytes(b'P6\n1 1\n255\nabc')
+        picture = self.out / 'a.exr'
+
+        def bits(*sets):
+            options = [word for value in sets for word in ('--set', value)]
+            result = run('render', scene, '-o', picture, *SMALL, '--reproducible', *options)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            return picture.read_bytes()[-1000:]  # the samples: the header has the options
+
+        for word, quoted in (('/shapes/0/material=floor', '/shapes/0/material="floor"'),
+                             ('/shapes/0/material=7', '/shapes/0/material="7"'),
+                             ('/camera/type=perspective', '/camera/type="perspective"'),
+                             ('/materials/red/shadowing=separable', '/materials/red/shadowing="separable"'),
+                             ('/materials/red/base_color_map=1e3', '/materials/red/base_color_map="1e3"'),
+                             ('/textures/1e3/file=12', '/textures/1e3/file="12"'),
+                             ('/image/filter/type=box', '/image/filter/type="box"'),
+                             ('/lights/key/attenuation=none', '/lights/key/attenuation="none"')):
+            with self.subTest(word=word):
+                self.assertEqual(bits(word), bits(quoted))
+        bits('/materials/red/base_color_map=null', '/materials/red/roughness=1')
+        picture.unlink()
+
+        def refused(message, value, code=64):
+            result = run('render', scene, '-o', picture, *SMALL, '--set', value)
+            self.assertEqual(result.returncode, code, result.stderr)
+            self.assertIn(message, result.stderr)
+            self.assertFalse(picture.exists())
+
+        refused('/image/spp: many is not JSON\n  hint: a whole number is wanted there\n', '/image/spp=many')
+        refused('/materials/red/roughness: rough is not JSON\n  hint: a number is wanted there\n',
+                '/materials/red/roughness=rough')
+        refused('a list in brackets or a number is wanted there', '/materials/red/base_color=red')
+        refused('a list in brackets is wanted there', '/camera/position=front')
+        refused('true or false is wanted there', '/image/shadows=off')
+        refused('write 0.5', '/materials/red/roughness=.5')
+        refused('a string needs quotes', '/nothing/here=word')
+        refused('did you mean "orthographic"?', '/camera/type=ortographic', 65)
+        refused('is not JSON', '/shapes/0/material="floor')
+        refused('/shapes/0/material', '/shapes/0/material=gold', 65)
+
     def test_a_heat_scale_goes_up(self):
         image = SOURCE / 'tests/references/textbook/phong_vs_pbr.exr'
         for low, high in (['1', '0.1'], ['0.1', '0.1'], ['2', None], [None, '1e-7']):
