@@ -15,6 +15,9 @@ namespace nacre {
 // no triangle is too small (an absolute threshold would lose small meshes).
 Vec3d FaceNormal(const Mesh& mesh, size_t triangle);
 
+// The unit vector of a sum of face normals; (0, 1, 0) if they cancel out.
+Vec3d UnitOrUp(const Vec3d& sum);
+
 // How much each face around a vertex counts for its normal.
 enum class NormalWeighting : uint8_t {
   kAngle,    // by its angle there: does not depend on how the surface is cut into triangles

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/polygon.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -27,20 +28,48 @@ std::vector<Vec2d> Flatten(std::span<const Vec3d> corners) {
 // Twice the signed area of a triangle: positive when a, b, c turn left.
 double Turn(const Vec2d& a, const Vec2d& b, const Vec2d& c) { return (b - a).cross(c - a); }
 
-// True if the corner at `i` of what remains is convex and its triangle holds no other corner.
-bool IsEar(const std::vector<Vec2d>& flat, const std::vector<uint32_t>& remaining, size_t i) {
-  const size_t n = remaining.size();
-  const Vec2d& a = flat[remaining[(i + n - 1) % n]];
-  const Vec2d& b = flat[remaining[i]];
-  const Vec2d& c = flat[remaining[(i + 1) % n]];
-  if (!(Turn(a, b, c) > 0)) return false;
-  for (const uint32_t other : remaining) {
-    const Vec2d& p = flat[other];
-    if (p == a || p == b || p == c) continue;  // also corners that touch
-    if (Turn(a, b, p) >= 0 && Turn(b, c, p) >= 0 && Turn(c, a, p) >= 0) return false;
+// Finds ears of what remains of a polygon. For each corner it is remembered which other one keeps
+// it from being an ear: as long as that is there, and the corner's neighbours are the same, it is
+// none, and those that were found outside need not be looked at again. n corners take n^2 steps at
+// most.
+class EarFinder {
+ public:
+  explicit EarFinder(std::vector<Vec2d> flat)
+      : flat_(std::move(flat)), remaining_(flat_.size()), next_other_(flat_.size(), 0) {
+    std::iota(remaining_.begin(), remaining_.end(), 0u);
   }
-  return true;
-}
+  size_t size() const { return remaining_.size(); }
+  // The number of the corner at `i` of those that remain, which go around.
+  uint32_t Corner(size_t i) const { return remaining_[i % size()]; }
+
+  // True if the corner at `i` of what remains is convex and its triangle holds no other corner.
+  bool IsEar(size_t i) {
+    const Vec2d& a = flat_[Corner(i + size() - 1)];
+    const Vec2d& b = flat_[Corner(i)];
+    const Vec2d& c = flat_[Corner(i + 1)];
+    if (!(Turn(a, b, c) > 0)) return false;
+    uint32_t& other = next_other_[Corner(i)];
+    for (auto at = std::lower_bound(remaining_.begin(), remaining_.end(), other);
+         at != remaining_.end(); ++at) {
+      other = *at;
+      const Vec2d& p = flat_[other];
+      // Most are beyond the edge that the ear would leave.
+      if (!(Turn(c, a, p) >= 0 && Turn(a, b, p) >= 0 && Turn(b, c, p) >= 0)) continue;
+      if (p != a && p != b && p != c) return false;  // corners that touch are no others
+    }
+    return true;
+  }
+
+  void Remove(size_t i) {
+    next_other_[Corner(i + size() - 1)] = next_other_[Corner(i + 1)] = 0;
+    remaining_.erase(remaining_.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+
+ private:
+  std::vector<Vec2d> flat_;
+  std::vector<uint32_t> remaining_;   // in rising order
+  std::vector<uint32_t> next_other_;  // by corner: the first that has not been found outside
+};
 
 }  // namespace
 
@@ -64,18 +93,15 @@ void Triangulate(std::span<const Vec3d> corners, std::vector<uint32_t>* triangle
       return;
     }
   }
-  const std::vector<Vec2d> flat = Flatten(corners);
-  std::vector<uint32_t> remaining(corners.size());
-  std::iota(remaining.begin(), remaining.end(), 0u);
-  while (remaining.size() >= 3) {
+  EarFinder ears(Flatten(corners));
+  while (ears.size() >= 3) {
     // From 1 on, so that a convex polygon becomes a fan around its first corner.
     size_t ear = 1;
-    while (ear < remaining.size() && !IsEar(flat, remaining, ear)) ++ear;
-    if (ear == remaining.size()) ear = IsEar(flat, remaining, 0) ? 0 : 1;
-    const size_t n = remaining.size();
+    while (ear < ears.size() && !ears.IsEar(ear)) ++ear;
+    if (ear == ears.size()) ear = ears.IsEar(0) ? 0 : 1;
     triangles->insert(triangles->end(),
-                      {remaining[(ear + n - 1) % n], remaining[ear], remaining[(ear + 1) % n]});
-    remaining.erase(remaining.begin() + static_cast<std::ptrdiff_t>(ear));
+                      {ears.Corner(ear + ears.size() - 1), ears.Corner(ear), ears.Corner(ear + 1)});
+    ears.Remove(ear);
   }
 }
 

@@ -80,11 +80,6 @@ void AddContributions(const Mesh& mesh, NormalWeighting weighting, int threads, 
   }
 }
 
-Vec3d UnitOrUp(const Vec3d& sum) {
-  const Vec3d normal = sum.normalized();
-  return normal == Vec3d(0, 0, 0) ? Vec3d(0, 1, 0) : normal;
-}
-
 // Corners in groups that share a normal: each corner leads to another one of its group, the last
 // one to itself.
 class Groups {
@@ -181,6 +176,11 @@ std::vector<size_t> SplitPositions(Groups* groups, Mesh* mesh) {
 }
 
 }  // namespace
+
+Vec3d UnitOrUp(const Vec3d& sum) {
+  const Vec3d normal = sum.normalized();
+  return normal == Vec3d(0, 0, 0) ? Vec3d(0, 1, 0) : normal;
+}
 
 void ComputeNormals(NormalWeighting weighting, double crease_angle_deg, Mesh* mesh, int threads) {
   mesh->tangents.clear();

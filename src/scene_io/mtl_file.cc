@@ -66,11 +66,9 @@ constexpr std::array kImagesNotShown = {
 constexpr std::array<std::string_view, 7> kSilent = {
     "kt", "tf", "km", "sharpness", "anisor", "map_aat", "interpolatemode"};
 
-std::string LowerCase(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return lower;
-}
+// What is followed by one number.
+constexpr std::array<std::string_view, 10> kNumbers = {"ns", "ni", "d",  "tr", "illum",
+                                                       "pr", "pm", "ps", "pc", "pcr"};
 
 class MtlFileReader {
  public:
@@ -102,13 +100,14 @@ class MtlFileReader {
                "leave out those that no face uses");
       }
       materials_.emplace_back().name = Trimmed(line);
+      has_opacity_ = false;
       return;
     }
     const auto is_keyword = [&](const auto& known) { return known.name == keyword; };
     const auto number = std::find_if(kNumbersNotShown.begin(), kNumbersNotShown.end(), is_keyword);
     const auto image = std::find_if(kImagesNotShown.begin(), kImagesNotShown.end(), is_keyword);
     if (number != kNumbersNotShown.end()) {
-      if (Number(keyword, line) != 0) warn_(std::string(number->warning));
+      if (Number(keyword, line).value_or(0) != 0) warn_(std::string(number->warning));
     } else if (image != kImagesNotShown.end()) {
       warn_(std::string(image->warning));
     } else if (materials_.empty()) {
@@ -133,42 +132,55 @@ class MtlFileReader {
       material->*image.member = Image(line);
       return true;
     }
-    if (keyword == "ns") {
-      material->ns = Clamped(keyword, Number(keyword, line), limits::kExponent);
-    } else if (keyword == "ni") {
-      material->ni = Number(keyword, line);
-    } else if (keyword == "d") {
-      std::string_view rest = line;
-      if (NextWord(&rest) == "-halo") line = rest;
-      material->opacity = Number(keyword, line);
-    } else if (keyword == "tr") {
-      material->opacity = 1 - Number(keyword, line);
-    } else if (keyword == "illum") {
-      material->illum = static_cast<int>(std::clamp(Number(keyword, line), 0.0, 10.0));
-    } else if (keyword == "pr") {
-      material->pr = Clamped(keyword, Number(keyword, line), limits::kUnit);
-    } else if (keyword == "pm") {
-      material->pm = Clamped(keyword, Number(keyword, line), limits::kUnit);
-    } else if (keyword == "ps") {
-      material->ps = Clamped(keyword, Number(keyword, line), limits::kUnit);
-    } else if (keyword == "pc") {
-      material->pc = Clamped(keyword, Number(keyword, line), limits::kUnit);
-    } else if (keyword == "pcr") {
-      material->pcr = Clamped(keyword, Number(keyword, line), limits::kUnit);
-    } else {
-      return false;
+    if (std::find(kNumbers.begin(), kNumbers.end(), keyword) == kNumbers.end()) return false;
+    std::string_view rest = line;
+    if (keyword == "d" && NextWord(&rest) == "-halo") line = rest;
+    if (const std::optional<double> number = Number(keyword, line)) {
+      SetNumber(keyword, *number, material);
     }
     return true;
   }
 
-  double NumberOf(std::string_view word, std::string_view keyword, std::string_view count) const {
-    const std::optional<double> number = ParseNumber(word);
-    if (number) return *number;
-    Refuse(fmt::format("\"{}\" is not a finite number", Excerpt(word)),
-           fmt::format("\"{}\" is followed by {}", keyword, count));
+  void SetNumber(const std::string& keyword, double number, MtlMaterial* material) {
+    if (keyword == "ns") {
+      material->ns = Clamped(keyword, number, limits::kExponent);
+    } else if (keyword == "ni") {
+      material->ni = number;
+    } else if (keyword == "d") {
+      material->opacity = number;
+      has_opacity_ = true;
+    } else if (keyword == "tr") {
+      // For some programs this is the opacity; their files have a d as well.
+      if (!has_opacity_) material->opacity = 1 - number;
+    } else if (keyword == "illum") {
+      material->illum = static_cast<int>(std::clamp(number, 0.0, 10.0));
+    } else {
+      const double value = Clamped(keyword, number, limits::kUnit);
+      if (keyword == "pr") material->pr = value;
+      if (keyword == "pm") material->pm = value;
+      if (keyword == "ps") material->ps = value;
+      if (keyword == "pc") material->pc = value;
+      if (keyword == "pcr") material->pcr = value;
+    }
   }
 
-  double Number(std::string_view keyword, std::string_view line) const {
+  // Nothing, and one warning, where no number is, or NaN or infinity.
+  std::optional<double> NumberOf(std::string_view word, std::string_view keyword,
+                                 std::string_view count) {
+    const std::optional<double> number = ParseNumber(word);
+    if (number) return number;
+    if (!word.empty() && !word.starts_with('#') && !IsNoNumber(word)) {
+      Refuse(fmt::format("\"{}\" is not a finite number", Excerpt(word)),
+             fmt::format("\"{}\" is followed by {}", keyword, count));
+    }
+    if (!std::exchange(warned_of_no_number_, true)) {
+      warn_(fmt::format("numbers that are none are left out, the first is {} in {}:{}", keyword,
+                        file_, number_));
+    }
+    return std::nullopt;
+  }
+
+  std::optional<double> Number(std::string_view keyword, std::string_view line) {
     return NumberOf(NextWord(&line), keyword, "one");
   }
 
@@ -192,12 +204,15 @@ class MtlFileReader {
       }
       return;
     }
-    Rgb color(NumberOf(first, key.name, "three"));
+    std::array<std::optional<double>, 3> numbers;
+    numbers.fill(NumberOf(first, key.name, "three"));
     const std::string_view second = NextWord(&line);
     if (!second.empty() && !second.starts_with('#')) {
-      color.y = NumberOf(second, key.name, "three");
-      color.z = NumberOf(NextWord(&line), key.name, "three");
+      numbers[1] = NumberOf(second, key.name, "three");
+      numbers[2] = NumberOf(NextWord(&line), key.name, "three");
     }
+    if (!numbers[0] || !numbers[1] || !numbers[2]) return;
+    const Rgb color(*numbers[0], *numbers[1], *numbers[2]);
     for (int c = 0; c < 3; ++c) (*out)[c] = Clamped(key.name, color[c], key.range);
   }
 
@@ -229,7 +244,7 @@ class MtlFileReader {
                                    line.find(" -clamp "), line.size()});
     std::string_view options = line.substr(later);
     ReadOptions(&options, &image);
-    image.file = Trimmed(line.substr(0, later));
+    image.file = WithoutComment(Trimmed(line.substr(0, later)));
     image.place = fmt::format("{}:{}", file_, number_);
     return image;
   }
@@ -266,7 +281,7 @@ class MtlFileReader {
           warn_("the channel of an image (-imfchan) is left out: its first one is read");
         }
       } else if (option == "-blendu" || option == "-blendv" || option == "-cc" ||
-                 option == "-type") {
+                 option == "-type" || option == "-colorspace") {
         NextWord(&rest);
       } else {
         return;  // it is the name
@@ -278,8 +293,10 @@ class MtlFileReader {
   const std::string file_;
   const size_t max_materials_;
   const std::function<void(const std::string&)>& warn_;
-  size_t number_ = 0;  // of the line that is read
+  size_t number_ = 0;         // of the line that is read
+  bool has_opacity_ = false;  // of the material that is read: d
   bool warned_of_unknown_ = false, warned_of_range_ = false, warned_of_form_ = false;
+  bool warned_of_no_number_ = false;
   std::vector<MtlMaterial> materials_;
 };
 

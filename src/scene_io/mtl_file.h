@@ -24,10 +24,10 @@ struct MtlImage {
 
 // Numbers have the letters that the format gives them.
 struct MtlMaterial {
-  std::string name;
+  std::string name;  // all that follows "newmtl", a comment included
   Rgb ka{0, 0, 0}, kd{0, 0, 0}, ks{0, 0, 0}, ke{0, 0, 0};
   double ns = 1;                 // exponent
-  double opacity = 1;            // d, or 1 - Tr
+  double opacity = 1;            // d, or else 1 - Tr
   double ni = 1;                 // index of refraction
   int illum = 2;                 // 0: the colour; 1: no highlight; 2: all; above: what is not shown
   std::optional<double> pr, pm;  // roughness and metallic
@@ -39,8 +39,8 @@ struct MtlMaterial {
 
 // Numbers are in the ranges of nacre's materials (scene/limits.h): those of the file that are not
 // are clamped. Calls warn, several times perhaps, for that, for what is not read and for what is
-// left out. Throws Error (kBadInput) with the file and the line for numbers that are none or not
-// finite, and for more than `max_materials`.
+// left out, missing numbers, NaN and infinities among it. Throws Error (kBadInput) with the file
+// and the line for words in the place of numbers, and for more than `max_materials`.
 std::vector<MtlMaterial> ReadMtlFile(const std::filesystem::path& path, size_t max_materials,
                                      const std::function<void(const std::string&)>& warn);
 

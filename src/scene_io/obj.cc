@@ -2,7 +2,9 @@
 #include "scene_io/obj.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,12 +18,6 @@
 
 namespace nacre {
 namespace {
-
-// Whether every corner has a normal, or a uv.
-bool AllHave(const ObjFile& obj, int32_t ObjCorner::*index) {
-  return std::all_of(obj.corners.begin(), obj.corners.end(),
-                     [&](const ObjCorner& corner) { return corner.*index >= 0; });
-}
 
 // What makes a vertex of its own.
 struct VertexKey {
@@ -39,11 +35,18 @@ struct HashKey {
   }
 };
 
-// What of the file all of its meshes have.
+// What of the file its meshes have: normals if all corners do, uvs if one does.
 struct ObjContents {
-  explicit ObjContents(const ObjFile& obj)
-      : normals(AllHave(obj, &ObjCorner::normal)), uvs(AllHave(obj, &ObjCorner::uv)) {}
-  bool normals, uvs;
+  explicit ObjContents(const ObjFile& obj) {
+    ForEachFace(obj, obj.corners.data(),
+                [&](uint32_t, uint32_t, const ObjCorner* corners, size_t count) {
+                  for (size_t i = 0; i < count; ++i) {
+                    normals &= corners[i].normal >= 0;
+                    uvs |= corners[i].uv >= 0;
+                  }
+                });
+  }
+  bool normals = true, uvs = false;
 };
 
 // Which vertex has a key: numbers of vertices in a table whose places are at least twice as many,
@@ -93,9 +96,10 @@ class MeshBuilder {
   }
 
   Mesh Take() {
-    if (with_normals_) MendNormals(&mesh_);  // some exporters write normals of length 0
+    if (!has_uv_) mesh_.uvs.clear();
     return std::move(mesh_);
   }
+  bool has_all_uvs() const { return !misses_uv_ || !has_uv_; }
 
  private:
   uint32_t Vertex(const ObjCorner& corner) {
@@ -108,41 +112,119 @@ class MeshBuilder {
     if (with_normals_) {
       mesh_.normals.push_back(obj_.normals[static_cast<size_t>(key.normal)].normalized());
     }
-    if (with_uvs_) mesh_.uvs.push_back(obj_.uvs[static_cast<size_t>(key.uv)]);
+    if (with_uvs_) {
+      (key.uv < 0 ? misses_uv_ : has_uv_) = true;
+      mesh_.uvs.push_back(key.uv < 0 ? Vec2d(0, 0) : obj_.uvs[static_cast<size_t>(key.uv)]);
+    }
     return vertex;
   }
 
   const ObjFile& obj_;
   bool with_normals_, with_uvs_;
+  bool has_uv_ = false, misses_uv_ = false;  // of the mesh: some vertices do
   VertexTable vertices_;
   std::vector<Vec3d> face_;      // of one face: its corners,
   std::vector<uint32_t> local_;  // and its triangles as indices into them
   Mesh mesh_;
 };
 
-// Calls use(material, corners, count) for each face; the material is a place in
-// obj.material_names, or kNoMaterial.
-constexpr uint32_t kNoMaterial = 0xffffffffu;
-template <class Use>
-void ForEachFace(const ObjFile& obj, const Use& use) {
-  const ObjCorner* corners = obj.corners.data();
-  auto next = obj.uses.begin();
-  uint32_t material = kNoMaterial;
-  for (size_t face = 0; face < obj.corner_counts.size(); ++face) {
-    if (next != obj.uses.end() && next->first_face == face) material = (next++)->name;
-    use(material, corners, obj.corner_counts[face]);
-    corners += obj.corner_counts[face];
+// The polygon's angle at corner `i`, more than half a turn if it is concave there; `normal` is the
+// polygon's.
+double AngleAt(const std::vector<Vec3d>& face, size_t i, const Vec3d& normal) {
+  const Vec3d to_next = face[(i + 1) % face.size()] - face[i];
+  const Vec3d to_last = face[(i + face.size() - 1) % face.size()] - face[i];
+  const double angle = std::atan2(to_next.cross(to_last).dot(normal), to_next.dot(to_last));
+  return angle < 0 ? angle + 2 * std::numbers::pi : angle;
+}
+
+// Gives corners without a normal those of the file's smoothing groups: at a position, the average
+// of the faces of one group, weighted by their angles; without a group, the face's own.
+void AddNormalsOfGroups(ObjFile* obj) {
+  const auto first = static_cast<int32_t>(obj->normals.size());
+  VertexTable numbers;      // of positions in groups, and of faces without one
+  std::vector<Vec3d> sums;  // by number
+  std::vector<Vec3d> face;
+  uint32_t face_number = 0;
+  ForEachFace(*obj, obj->corners.data(),
+              [&](uint32_t, uint32_t group, ObjCorner* corners, size_t count) {
+                face.clear();
+                for (size_t i = 0; i < count; ++i) {
+                  face.push_back(obj->positions[corners[i].position]);
+                }
+                const Vec3d normal = NewellNormal(face).normalized();
+                const bool is_flat = group == ObjFile::kSmoothingOff;
+                for (size_t i = 0; i < count; ++i) {
+                  const VertexKey key{is_flat ? face_number : corners[i].position,
+                                      static_cast<int32_t>(group), 0};
+                  const auto [number, is_new] = numbers.Find(key);
+                  if (is_new) sums.emplace_back(0, 0, 0);
+                  sums[number] += is_flat ? normal : normal * AngleAt(face, i, normal);
+                  if (corners[i].normal < 0) {
+                    corners[i].normal = first + static_cast<int32_t>(number);
+                  }
+                }
+                ++face_number;
+              });
+  for (const Vec3d& sum : sums) obj->normals.push_back(UnitOrUp(sum));
+}
+
+// The same where the file has no groups: averages of all faces, parted at creases.
+void AddNormalsOfCreases(double crease_angle_deg, int threads, ObjFile* obj) {
+  const auto first = static_cast<int32_t>(obj->normals.size());
+  Mesh mesh;
+  mesh.positions = obj->positions;
+  std::vector<ObjCorner*> owners;  // of the mesh's corners
+  std::vector<Vec3d> face;
+  std::vector<uint32_t> local;
+  ForEachFace(*obj, obj->corners.data(), [&](uint32_t, uint32_t, ObjCorner* corners, size_t count) {
+    face.clear();
+    local.clear();
+    for (size_t i = 0; i < count; ++i) face.push_back(obj->positions[corners[i].position]);
+    Triangulate(face, &local);
+    for (const uint32_t i : local) {
+      mesh.triangles.push_back(corners[i].position);
+      owners.push_back(&corners[i]);
+    }
+  });
+  ComputeNormals(NormalWeighting::kAngle, crease_angle_deg, &mesh, threads);
+  for (size_t i = 0; i < owners.size(); ++i) {
+    if (owners[i]->normal < 0) {
+      owners[i]->normal = first + static_cast<int32_t>(mesh.triangles[i]);
+    }
+  }
+  obj->normals.insert(obj->normals.end(), mesh.normals.begin(), mesh.normals.end());
+}
+
+// Gives all corners normals if the file has some, or smoothing groups. Normals of length 0, which
+// some exporters write, are none.
+void CompleteNormals(double crease_angle_deg, int threads, ObjFile* obj) {
+  size_t missing = 0;
+  for (ObjCorner& corner : obj->corners) {
+    if (corner.normal >= 0 && obj->normals[static_cast<size_t>(corner.normal)] == Vec3d(0, 0, 0)) {
+      corner.normal = -1;
+    }
+    if (corner.normal < 0) ++missing;
+  }
+  if (missing > 0 && !obj->smoothing.empty()) {
+    AddNormalsOfGroups(obj);
+  } else if (missing > 0 && missing < obj->corners.size()) {
+    AddNormalsOfCreases(crease_angle_deg, threads, obj);
   }
 }
 
 }  // namespace
 
-Mesh ReadObj(const std::filesystem::path& path, int threads) {
-  const ObjFile obj = ReadObjFile(path, threads, {});
-  MeshBuilder builder(obj, ObjContents(obj));
-  ForEachFace(obj, [&](uint32_t, const ObjCorner* corners, size_t count) {
-    builder.AddFace(corners, count);
+Mesh ReadObj(const std::filesystem::path& path, const ObjReading& reading) {
+  const std::string file = path.string();
+  ObjFile obj = ReadObjFile(path, reading.threads, [&](const std::string& text) {
+    if (reading.on_warning) reading.on_warning(file + ": " + text);
   });
+  if (reading.complete_normals) CompleteNormals(180, reading.threads, &obj);
+  MeshBuilder builder(obj, ObjContents(obj));
+  ForEachFace(obj, obj.corners.data(),
+              [&](uint32_t, uint32_t, const ObjCorner* corners, size_t count) {
+                builder.AddFace(corners, count);
+              });
   Mesh mesh = builder.Take();
   mesh.name = path.stem().string();
   mesh.colors.clear();  // its material is the scene's
@@ -154,16 +236,21 @@ Scene ReadObjScene(const std::filesystem::path& path, const LoadOptions& options
   const auto warn = [&](const std::string& text) {
     if (options.on_warning) options.on_warning(file + ": " + text);
   };
-  const ObjFile obj = ReadObjFile(path, options.threads, warn);
+  ObjFile obj = ReadObjFile(path, options.threads, warn);
+  CompleteNormals(kModelCreaseAngleDeg, options.threads, &obj);
   Scene scene;
   const std::vector<MaterialId> materials = AddObjMaterials(path, obj, options, &scene);
   const ObjContents contents(obj);
   std::map<uint32_t, MeshBuilder> builders;  // by material
-  ForEachFace(obj, [&](uint32_t name, const ObjCorner* corners, size_t count) {
-    const MaterialId material = name == kNoMaterial ? materials.back() : materials[name];
-    builders.try_emplace(material.index, obj, contents).first->second.AddFace(corners, count);
-  });
+  ForEachFace(
+      obj, obj.corners.data(),
+      [&](uint32_t name, uint32_t, const ObjCorner* corners, size_t count) {
+        const MaterialId material = name == kNoMaterial ? materials.back() : materials[name];
+        builders.try_emplace(material.index, obj, contents).first->second.AddFace(corners, count);
+      });
+  bool has_all_uvs = true;
   for (auto& [material, builder] : builders) {
+    has_all_uvs &= builder.has_all_uvs();
     Mesh& mesh = scene.meshes.emplace_back(builder.Take());
     mesh.name = path.stem().string();
     mesh.material = {material};
@@ -174,6 +261,9 @@ Scene ReadObjScene(const std::filesystem::path& path, const LoadOptions& options
   DropMeshesWithoutArea(&scene);
   if (scene.meshes.empty()) throw Error(ExitCode::kBadInput, file, "has no face with an area");
   SplitColoredMaterials(&scene);
+  if (!has_all_uvs && !scene.textures.empty()) {
+    warn("corners without texture coordinates have (0, 0)");
+  }
   if (CompleteCoordinates(&scene)) {
     warn("a mesh has images but no uvs: it shows one texel of each");
   }

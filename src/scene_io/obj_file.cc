@@ -6,6 +6,7 @@
 #include <atomic>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <unordered_map>
@@ -27,12 +28,12 @@ namespace nacre {
 namespace {
 
 constexpr uint64_t kMaxObjBytes = uint64_t{4} << 30;
-constexpr size_t kMaxObjCorners = 255;
+constexpr size_t kMaxObjCorners = 65535;
 
 // Statements that say nothing about what is shown here.
-constexpr std::array<std::string_view, 15> kIgnored = {
-    "g",        "o",        "s", "mg", "usemap",     "maplib",    "lod", "bevel",
-    "c_interp", "d_interp", "t", "vw", "shadow_obj", "trace_obj", "vp"};
+constexpr std::array<std::string_view, 14> kIgnored = {
+    "g",        "o",        "mg", "usemap", "maplib",     "lod",       "bevel",
+    "c_interp", "d_interp", "t",  "vw",     "shadow_obj", "trace_obj", "vp"};
 constexpr std::array<std::string_view, 18> kFreeForm = {
     "curv", "curv2", "surf", "cstype", "deg", "bmat",  "step",  "parm", "trim",
     "hole", "scrv",  "sp",   "end",    "con", "ctech", "stech", "bsp",  "bzp"};
@@ -72,6 +73,25 @@ ObjCounts CountElements(std::string_view text) {
   return counts;
 }
 
+// Texts, each with a number: the order in which they came.
+class NumberedNames {
+ public:
+  // The number of a name, and whether it is new.
+  std::pair<uint32_t, bool> Add(const std::string& name) {
+    const auto [known, is_new] = numbers_.try_emplace(name, static_cast<uint32_t>(names_.size()));
+    if (is_new) names_.push_back(name);
+    return {known->second, is_new};
+  }
+  const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  std::unordered_map<std::string, uint32_t> numbers_;
+  std::vector<std::string> names_;
+};
+
+// The name of the group that "s off" and "s 0" mean.
+constexpr char kOff[] = "off";
+
 // A piece of the text, which begins and ends with whole statements, and what is found in it. Pieces
 // are read several at a time; what depends on those before it is found when they are joined.
 struct ObjPiece {
@@ -80,18 +100,17 @@ struct ObjPiece {
 
   std::vector<Vec3f> colors;  // as ObjFile::colors, but not decoded
   float largest_color = 0;
-  std::vector<unsigned char> corner_counts;
+  std::vector<uint16_t> corner_counts;
   std::vector<ObjCorner> corners;
   uint64_t triangles = 0;
-  std::vector<ObjFile::Use> uses;  // faces and names counted from this piece's first; all of them
-  std::vector<std::string> material_names;
-  std::vector<std::string> libraries;
-  std::vector<std::string> warnings;  // each once
-  size_t unknown_warning = kNone;     // the place of the one about unknown statements
+  std::vector<ObjFile::Use> uses, smoothing;  // with faces and names of this piece alone
+  NumberedNames materials, groups, libraries;
+  struct Warning {
+    std::string kind, example;  // of a kind, the first alone is told
+  };
+  std::vector<Warning> warnings;
   std::optional<Error> error;  // of its first statement that is wrong; what follows is not read
   std::optional<Error> index_error;  // of the first face with an index beyond all elements
-
-  static constexpr size_t kNone = static_cast<size_t>(-1);
 };
 
 // Long enough that what is done once a piece does not count.
@@ -150,32 +169,45 @@ class PieceReader {
     throw ErrorHere(std::move(what), std::move(hint));
   }
 
-  void WarnOnce(const std::string& text) {
-    if (warned_.insert(text).second) piece_.warnings.push_back(text);
+  void WarnOnce(const std::string& kind, std::string example = {}) {
+    if (warned_.insert(kind).second) piece_.warnings.push_back({kind, std::move(example)});
+  }
+
+  // With the line that is read.
+  void WarnOfFirst(const std::string& kind) {
+    WarnOnce(kind, fmt::format(", the first in line {}", number_));
   }
 
   void ReadStatement(std::string_view line) {
     const std::string_view written = NextWord(&line);
     if (written.empty() || written.starts_with('#')) return;
-    keyword_ = written.substr(0, 16);
-    for (char& c : keyword_) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    keyword_ = LowerCase(written.substr(0, 16));
     if (keyword_ == "v") {
       ReadPosition(line);
     } else if (keyword_ == "vn") {
       std::array<double, 3> n{};
       ReadNumbers(line, 3, n);
-      obj_.normals[normals_++] = Vec3d(n[0], n[1], n[2]);
+      const bool is_number = std::none_of(n.begin(), n.end(), [](double c) { return c != c; });
+      if (!is_number) WarnOfFirst("normals that are no numbers are taken for none");
+      obj_.normals[normals_++] = is_number ? Vec3d(n[0], n[1], n[2]) : Vec3d(0, 0, 0);
     } else if (keyword_ == "vt") {
       std::array<double, 2> uv{};
       ReadNumbers(line, 1, uv);
+      for (double& c : uv) {
+        if (!std::isnan(c)) continue;
+        WarnOfFirst("texture coordinates that are no numbers are taken for 0");
+        c = 0;
+      }
       obj_.uvs[uvs_++] = Vec2d(uv[0], uv[1]);
     } else if (keyword_ == "f" || keyword_ == "fo") {
       ReadFace(line);
     } else if (keyword_ == "usemtl") {
-      UseMaterial(std::string(Trimmed(line)));
+      const uint32_t name = piece_.materials.Add(std::string(Trimmed(line))).first;
+      piece_.uses.push_back({piece_.corner_counts.size(), name});
     } else if (keyword_ == "mtllib") {
-      const auto [name, is_new] = libraries_.emplace(Trimmed(line));
-      if (is_new) piece_.libraries.push_back(*name);
+      piece_.libraries.Add(std::string(Trimmed(line)));
+    } else if (keyword_ == "s") {
+      ReadSmoothing(NextWord(&line));
     } else if (keyword_ == "l") {
       WarnOnce("lines are not shown");
     } else if (keyword_ == "p") {
@@ -184,20 +216,30 @@ class PieceReader {
       WarnOnce("other files and commands are not called");
     } else if (IsOneOf(kFreeForm, keyword_)) {
       WarnOnce("free-form curves and surfaces are not shown");
-    } else if (!IsOneOf(kIgnored, keyword_) && piece_.unknown_warning == ObjPiece::kNone) {
-      piece_.unknown_warning = piece_.warnings.size();
-      piece_.warnings.push_back(fmt::format(
-          "statements that are not known are left out, the first is \"{}\"", Excerpt(written)));
+    } else if (!IsOneOf(kIgnored, keyword_)) {
+      WarnOnce("statements that are not known are left out",
+               fmt::format(", the first is \"{}\"", Excerpt(written)));
     }
   }
 
-  // The first numbers of `line`, of which `fewest` must be there. Returns how many there are.
+  // A group's number, which may be any word: what some programs write behind an "s" of its own is
+  // a group, too.
+  void ReadSmoothing(std::string_view word) {
+    const bool is_zero = !word.empty() && word.find_first_not_of('0') == std::string_view::npos;
+    std::string name = LowerCase(word.starts_with('#') ? std::string_view() : word);
+    if (is_zero || name == "none" || name == "null") name = kOff;
+    piece_.smoothing.push_back({piece_.corner_counts.size(), piece_.groups.Add(name).first});
+  }
+
+  // The first numbers of `line`, of which `fewest` must be there: NaN for what stands for none.
+  // Returns how many there are.
   template <size_t N>
   size_t ReadNumbers(std::string_view line, size_t fewest, std::array<double, N>& numbers) const {
     for (size_t i = 0; i < N; ++i) {
       const std::string_view word = NextWord(&line);
       if (i >= fewest && (word.empty() || word.starts_with('#'))) return i;
-      const std::optional<double> number = ParseNumber(word);
+      std::optional<double> number = ParseNumber(word);
+      if (!number && IsNoNumber(word)) number = std::numeric_limits<double>::quiet_NaN();
       if (!number) {
         constexpr std::array<std::string_view, 4> kNames = {"no", "one", "two", "three"};
         Refuse(fmt::format("\"{}\" is not a finite number", Excerpt(word)),
@@ -212,7 +254,12 @@ class PieceReader {
   void ReadPosition(std::string_view line) {
     std::array<double, 6> numbers{};
     const size_t count = ReadNumbers(line, 3, numbers);
-    obj_.positions[positions_++] = Vec3d(numbers[0], numbers[1], numbers[2]);
+    Vec3d& position = obj_.positions[positions_++];
+    position = Vec3d(numbers[0], numbers[1], numbers[2]);
+    if (std::isnan(position.x + position.y + position.z)) {
+      WarnOfFirst("faces with a position that is no number are left out, and such positions");
+      position.x = std::numeric_limits<double>::quiet_NaN();
+    }
     if (count < 6) {
       if (!piece_.colors.empty()) piece_.colors.emplace_back(1);
       return;
@@ -244,62 +291,67 @@ class PieceReader {
   }
 
   // The zero-based element that an index refers to: positive indices count from the first element,
-  // negative ones backwards from the latest; 0 gives -1, none. Elements may be defined after the
-  // face, so those beyond all of the file's are refused only where all else is right.
-  int64_t PlaceOf(int64_t index, size_t so_far, std::string_view what) const {
+  // negative ones backwards from the latest. Below 0: there is none. Elements may be defined after
+  // the face, so that positive indices may lie beyond `so_far`.
+  static int64_t PlaceOf(int64_t index, size_t so_far) {
     if (index > 0) return std::min<int64_t>(index - 1, 0x7fffffff);
-    const auto count = static_cast<int64_t>(so_far);
-    if (index < -count) {
-      Refuse(fmt::format("a face has {} {}", what, index),
-             fmt::format("there are {} before it", count));
-    }
-    return index == 0 ? -1 : count + index;
+    return index == 0 ? -1 : std::max<int64_t>(index, -0x7fffffff) + static_cast<int64_t>(so_far);
   }
 
-  void CheckPlace(int64_t place, size_t count, std::string_view what) {
-    if (place < static_cast<int64_t>(count) || piece_.index_error) return;
-    piece_.index_error = ErrorHere(fmt::format("a face has {} {}", what, place + 1),
-                                   fmt::format("there are {}", count));
+  uint32_t PositionAt(int64_t index) {
+    if (index == 0) Refuse("a face has position 0", "indices are counted from 1");
+    const int64_t place = PlaceOf(index, positions_);
+    if (place < 0) {
+      Refuse(fmt::format("a face has position {}", index),
+             fmt::format("there are {} before it", positions_));
+    }
+    // Those beyond all of the file's are refused only where all else is right.
+    if (place >= static_cast<int64_t>(obj_.positions.size()) && !piece_.index_error) {
+      piece_.index_error = ErrorHere(fmt::format("a face has position {}", place + 1),
+                                     fmt::format("there are {}", obj_.positions.size()));
+    }
+    return static_cast<uint32_t>(place);
+  }
+
+  // Of normals or texture coordinates: -1 for one that the file does not have.
+  int32_t PlaceOrNone(int64_t index, size_t so_far, size_t count, const std::string& what) {
+    const int64_t place = PlaceOf(index, so_far);
+    if (place >= 0 && place < static_cast<int64_t>(count)) return static_cast<int32_t>(place);
+    if (index != 0) WarnOfFirst(what + " that the file does not have are taken for none");
+    return -1;
   }
 
   void ReadFace(std::string_view line) {
-    size_t count = 0;
+    const size_t first = piece_.corners.size();
     for (std::string_view word = NextWord(&line); !word.empty() && !word.starts_with('#');
          word = NextWord(&line)) {
-      if (++count > kMaxObjCorners) {
+      if (piece_.corners.size() - first == kMaxObjCorners) {
         Refuse(fmt::format("a face has more than {} corners", kMaxObjCorners),
                "cut it into triangles before");
       }
-      const int64_t position = PlaceOf(NextIndex(&word), positions_, "position");
-      if (position < 0) Refuse("a face has position 0", "indices are counted from 1");
+      const uint32_t position = PositionAt(NextIndex(&word));
       const bool has_uv = !word.empty() && word.front() != '/';  // 1//3 has none, nor has 1//
-      const int64_t uv_index = NextIndex(&word);
+      const int64_t uv = NextIndex(&word);
       const bool has_normal = !word.empty();
-      const int64_t normal_index = NextIndex(&word);
-      if (has_normal && normal_index == 0) {
+      const int64_t normal = NextIndex(&word);
+      if (has_normal && normal == 0) {
         WarnOnce("normals of index 0 are taken for none: indices are counted from 1");
       }
-      if (has_uv && uv_index == 0) {
+      if (has_uv && uv == 0) {
         WarnOnce("texture coordinates of index 0 are taken for none: indices are counted from 1");
       }
-      const int64_t uv = PlaceOf(uv_index, uvs_, "uv");
-      const int64_t normal = PlaceOf(normal_index, normals_, "normal");
-      CheckPlace(position, obj_.positions.size(), "position");
-      CheckPlace(normal, obj_.normals.size(), "normal");
-      CheckPlace(uv, obj_.uvs.size(), "uv");
-      piece_.corners.push_back({static_cast<uint32_t>(position), static_cast<int32_t>(uv),
-                                static_cast<int32_t>(normal)});
+      piece_.corners.push_back({position,
+                                PlaceOrNone(uv, uvs_, obj_.uvs.size(), "texture coordinates"),
+                                PlaceOrNone(normal, normals_, obj_.normals.size(), "normals")});
     }
-    if (count < 3) Refuse("a face has fewer than three corners");
+    const size_t count = piece_.corners.size() - first;
+    if (count < 3) {
+      WarnOfFirst("faces of fewer than three corners are left out");
+      piece_.corners.resize(first);
+      return;
+    }
     piece_.triangles += count - 2;
-    piece_.corner_counts.push_back(static_cast<unsigned char>(count));
-  }
-
-  void UseMaterial(std::string name) {
-    const auto next = static_cast<uint32_t>(piece_.material_names.size());
-    const auto [known, is_new] = materials_.try_emplace(std::move(name), next);
-    if (is_new) piece_.material_names.push_back(known->first);
-    piece_.uses.push_back({piece_.corner_counts.size(), known->second});
+    piece_.corner_counts.push_back(static_cast<uint16_t>(count));
   }
 
   const std::string& file_;
@@ -309,8 +361,7 @@ class PieceReader {
   size_t positions_, normals_, uvs_;  // of the file, read so far
   size_t number_ = 0;                 // of the line that is read,
   std::string keyword_;               // and its first word, in lower case
-  std::unordered_map<std::string, uint32_t> materials_;
-  std::unordered_set<std::string> warned_, libraries_;
+  std::unordered_set<std::string> warned_;
 };
 
 // Reads all pieces, up to the first one with an error.
@@ -346,7 +397,9 @@ class PieceJoiner {
  public:
   PieceJoiner(const std::string& file, const std::function<void(const std::string&)>& warn,
               uint64_t budget, ObjFile* obj)
-      : file_(file), warn_(warn), budget_(budget), obj_(*obj) {}
+      : file_(file), warn_(warn), budget_(budget), obj_(*obj) {
+    groups_.Add(kOff);  // the first: kSmoothingOff
+  }
 
   // Frees what it has taken.
   void Join(std::vector<ObjPiece> pieces) {
@@ -381,29 +434,28 @@ class PieceJoiner {
  private:
   void Warn(const ObjPiece& piece) {
     if (!warn_) return;
-    for (size_t i = 0; i < piece.warnings.size(); ++i) {
-      const std::string& text = piece.warnings[i];
-      const bool unknown = i == piece.unknown_warning;
-      if (unknown && std::exchange(warned_of_unknown_, true)) continue;
-      if (warned_.insert(text).second) warn_(text);
+    for (const auto& [kind, example] : piece.warnings) {
+      if (warned_.insert(kind).second) warn_(kind + example);
     }
   }
 
   void AddNames(const ObjPiece& piece) {
-    for (const std::string& library : piece.libraries) {
-      if (known_libraries_.insert(library).second) obj_.libraries.push_back(library);
+    for (const std::string& library : piece.libraries.names()) {
+      if (libraries_.Add(library).second) obj_.libraries.push_back(library);
     }
-    std::vector<uint32_t> names;  // the file's numbers of the piece's
-    for (const std::string& name : piece.material_names) {
-      const auto next = static_cast<uint32_t>(obj_.material_names.size());
-      const auto [known, is_new] = materials_.try_emplace(name, next);
-      if (is_new) obj_.material_names.push_back(name);
-      names.push_back(known->second);
-    }
-    for (const ObjFile::Use& use : piece.uses) {
+    AddUses(piece.uses, piece.materials, &materials_, &obj_.uses);
+    AddUses(piece.smoothing, piece.groups, &groups_, &obj_.smoothing);
+    obj_.material_names = materials_.names();
+  }
+
+  void AddUses(const std::vector<ObjFile::Use>& of_piece, const NumberedNames& names,
+               NumberedNames* all_names, std::vector<ObjFile::Use>* uses) const {
+    std::vector<uint32_t> numbers;  // the file's, of the piece's
+    for (const std::string& name : names.names()) numbers.push_back(all_names->Add(name).first);
+    for (const ObjFile::Use& use : of_piece) {
       const size_t first_face = obj_.corner_counts.size() + use.first_face;
-      if (!obj_.uses.empty() && obj_.uses.back().first_face == first_face) obj_.uses.pop_back();
-      obj_.uses.push_back({first_face, names[use.name]});
+      if (!uses->empty() && uses->back().first_face == first_face) uses->pop_back();
+      uses->push_back({first_face, numbers[use.name]});
     }
   }
 
@@ -427,9 +479,8 @@ class PieceJoiner {
   const std::function<void(const std::string&)>& warn_;
   SceneBudget budget_;
   ObjFile& obj_;
-  bool warned_of_unknown_ = false;
-  std::unordered_map<std::string, uint32_t> materials_;
-  std::unordered_set<std::string> warned_, known_libraries_;
+  NumberedNames materials_, groups_, libraries_;
+  std::unordered_set<std::string> warned_;
 };
 
 }  // namespace

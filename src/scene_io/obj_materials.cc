@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -69,6 +70,12 @@ class ObjMaterials {
 
   std::vector<MaterialId> Add(const ObjFile& obj) {
     for (const std::string& line : obj.libraries) ReadLibraries(line);
+    if (libraries_.empty() && !obj.material_names.empty()) ReadNamesake();
+    for (const std::string& name : missing_libraries_) {
+      Warn(fmt::format("{} left out: there is no file \"{}\"",
+                       libraries_.empty() ? "its materials are" : "a material library is",
+                       Excerpt(name)));
+    }
     DecodeAhead();
     for (size_t i = 0; i < sources_.size(); ++i) AddMaterial(i);
     const MaterialId none{static_cast<uint32_t>(scene_.materials.size())};
@@ -84,9 +91,9 @@ class ObjMaterials {
     }
     std::vector<MaterialId> ids;
     for (const std::string& name : obj.material_names) {
-      const auto found = by_name_.find(name);
-      if (found == by_name_.end()) WarnOfName(name);
-      ids.push_back(found == by_name_.end() ? none : found->second);
+      const std::optional<MaterialId> known = MaterialNamed(name);
+      if (!known && !name.empty()) WarnOfName(name);
+      ids.push_back(known.value_or(none));
     }
     if (unknown_names_ > kMaxNames) {
       Warn(fmt::format("and {} more materials that no library has", unknown_names_ - kMaxNames));
@@ -105,8 +112,20 @@ class ObjMaterials {
       options_.on_warning(file_ + ": " + text);
   }
 
+  // The material of this name, or of what is before a comment in it.
+  std::optional<MaterialId> MaterialNamed(const std::string& name) const {
+    const std::string before(WithoutHashWords(name));
+    for (const auto& [names, wanted] :
+         {std::pair(&by_name_, &name), {&by_name_, &before}, {&by_name_before_, &before}}) {
+      const auto found = names->find(*wanted);
+      if (found != names->end()) return found->second;
+    }
+    return std::nullopt;
+  }
+
   void WarnOfName(const std::string& name) {
-    if (library_is_missing_ || ++unknown_names_ > kMaxNames) return;  // that has been reported
+    if (!missing_libraries_.empty() || ++unknown_names_ > kMaxNames)
+      return;  // that has been reported
     Warn(fmt::format("no material library has \"{}\": its faces are grey", Excerpt(name)));
   }
 
@@ -116,61 +135,92 @@ class ObjMaterials {
     });
   }
 
-  // The file that a name means, with Windows' backslashes, too, or nothing if there is none. Throws
-  // Error (kBadInput) for one outside the folder.
+  // The file that a name means, or nothing if there is none. Names may have Windows' backslashes,
+  // or one before each blank, or a comment behind them, and folders of the machine that the model
+  // was made on; they may be relative to the model's folder or to a library's. Throws Error
+  // (kBadInput) for one outside the model's folder.
   std::optional<std::filesystem::path> Find(const std::string& name) const {
-    std::string with_slashes = name;
+    std::string with_slashes = name, unescaped = name;
     std::replace(with_slashes.begin(), with_slashes.end(), '\\', '/');
-    std::vector<std::string> candidates = {name};
-    if (with_slashes != name) {
-      // An absolute path, or one of another folder's, of the machine that the model was made on.
-      candidates = {with_slashes, with_slashes.substr(with_slashes.rfind('/') + 1), name};
+    for (size_t at = 0; (at = unescaped.find("\\ ", at)) != std::string::npos; ++at) {
+      unescaped.erase(at, 1);
     }
+    std::vector<std::string> candidates = {name, with_slashes, unescaped,
+                                           std::string(WithoutHashWords(name))};
+    for (const std::filesystem::path& folder : library_folders_) {
+      candidates.push_back((folder / with_slashes).string());
+    }
+    candidates.push_back(with_slashes.substr(with_slashes.rfind('/') + 1));
+    std::optional<Error> outside;
     for (size_t i = 0; i < candidates.size(); ++i) {
+      if (candidates[i].empty() || (i > 0 && candidates[i] == name)) continue;
       try {
         return ResolveReference(folder_, candidates[i], {options_.allow_paths, options_.on_file});
       } catch (const Error& error) {
         const Fault& fault = error.faults().front();
-        const bool is_last = i + 1 == candidates.size();
-        if (!is_last || fault.what.starts_with("there is no file")) continue;
-        throw Error(ExitCode::kBadInput, file_, fault.what, fault.hint);
+        if (i == 0 && fault.what.ends_with(kIsOutside)) {
+          outside = Error(ExitCode::kBadInput, file_, fault.what, fault.hint);
+        }
       }
     }
+    if (outside) throw Error(*outside);
     return std::nullopt;
   }
 
-  // What follows "mtllib": one name, with blanks in it perhaps, or several.
-  void ReadLibraries(const std::string& line) {
-    std::vector<std::filesystem::path> paths;
-    std::string missing;
-    std::optional<std::filesystem::path> whole;
-    const bool has_blanks = line.find_first_of(" \t") != std::string::npos;
+  // The same for a name that may be several: it is no mistake then if all of it is none.
+  std::optional<std::filesystem::path> FindWhole(const std::string& name) const {
     try {
-      whole = Find(line);
+      return Find(name);
     } catch (const Error&) {
-      if (!has_blanks) throw;
+      if (name.find_first_of(" \t") == std::string::npos) throw;
+      return std::nullopt;
     }
-    if (whole) paths.push_back(*whole);
-    std::string_view rest = has_blanks && !whole ? std::string_view(line) : std::string_view();
+  }
+
+  // What follows "mtllib": one name, with blanks in it perhaps, or several, which end with ".mtl"
+  // then or are words.
+  void ReadLibraries(const std::string& line) {
+    if (const auto whole = FindWhole(line)) return ReadLibrary(*whole);
+    std::string_view rest = WithoutHashWords(line);
+    while (!Trimmed(rest).empty()) {
+      const std::string_view before = rest;
+      std::string_view word = NextWord(&rest);
+      while (!LowerCase(word).ends_with(".mtl") && !Trimmed(rest).empty()) word = NextWord(&rest);
+      ReadLibraryOrWords(std::string(Trimmed(before.substr(0, before.size() - rest.size()))));
+    }
+    if (line.empty()) missing_libraries_.push_back(line);
+  }
+
+  void ReadLibraryOrWords(const std::string& name) {
+    if (const auto whole = FindWhole(name)) return ReadLibrary(*whole);
+    bool is_found = false;
+    std::string_view rest = name;
     for (auto word = NextWord(&rest); !word.empty(); word = NextWord(&rest)) {
-      if (auto path = Find(std::string(Trimmed(word)))) {
-        paths.push_back(std::move(*path));
-      } else if (missing.empty()) {
-        missing = word;
-      }
+      const std::string text(Trimmed(word));
+      const auto path = text == name ? std::nullopt : Find(text);
+      if (!path) continue;
+      is_found = true;
+      ReadLibrary(*path);
     }
-    if (paths.empty()) missing = line;
-    if (!missing.empty() || paths.empty()) {
-      library_is_missing_ = true;
-      Warn(fmt::format("its materials are left out: there is no file \"{}\"", Excerpt(missing)));
-    }
-    for (const std::filesystem::path& path : paths) {
-      if (!libraries_.insert(path.string()).second) continue;
-      texels_.AddFile(path);
-      for (MtlMaterial& material : ReadMtlFile(path, kMaxModelMaterials - sources_.size(),
-                                               [&](const std::string& text) { Warn(text); })) {
-        sources_.push_back(std::move(material));
-      }
+    if (!is_found) missing_libraries_.push_back(name);
+  }
+
+  // Other readers look there, too, if nothing else is found.
+  void ReadNamesake() {
+    const std::string name = std::filesystem::path(file_).stem().string() + ".mtl";
+    const auto path = Find(name);
+    if (!path) return;
+    ReadLibrary(*path);
+    Warn(fmt::format("its materials are read from \"{}\", which it does not name", Excerpt(name)));
+  }
+
+  void ReadLibrary(const std::filesystem::path& path) {
+    if (!libraries_.insert(path.string()).second) return;
+    library_folders_.insert(path.parent_path());
+    texels_.AddFile(path);
+    for (MtlMaterial& material : ReadMtlFile(path, kMaxModelMaterials - sources_.size(),
+                                             [&](const std::string& text) { Warn(text); })) {
+      sources_.push_back(std::move(material));
     }
   }
 
@@ -202,8 +252,9 @@ class ObjMaterials {
     const MtlMaterial& source = sources_[index];
     const MaterialId id{static_cast<uint32_t>(scene_.materials.size())};
     by_name_.try_emplace(source.name, id);  // the first of several
+    by_name_before_.try_emplace(std::string(WithoutHashWords(source.name)), id);
     Material material = MakeMaterial(source);
-    material.name = names_.Take(source.name, "#", index);
+    material.name = names_.Take(std::string(WithoutComment(source.name)), "#", index);
     scene_.materials.push_back(std::move(material));
   }
 
@@ -420,9 +471,11 @@ class ObjMaterials {
   const LoadOptions& options_;
   Scene& scene_;
   std::vector<MtlMaterial> sources_;
-  bool library_is_missing_ = false;
+  std::vector<std::string> missing_libraries_;
+  std::set<std::filesystem::path> library_folders_;
   size_t unknown_names_ = 0;
-  std::unordered_map<std::string, MaterialId> by_name_;
+  // By the library's names, and by what is before a comment in them.
+  std::unordered_map<std::string, MaterialId> by_name_, by_name_before_;
   UniqueNames names_;
   std::unordered_set<std::string> warned_, libraries_;
   TexelBudget texels_{0};

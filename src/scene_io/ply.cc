@@ -36,6 +36,8 @@ struct PlyData {
   bool has_face_colors = false, has_face_uvs = false;
   std::vector<double> radii, materials;
   std::vector<uint32_t> triangles;
+  static constexpr uint64_t kNone = ~uint64_t{0};
+  uint64_t first_without_area = kNone;  // the first face of fewer than three corners
 };
 
 class PlyReader {
@@ -73,6 +75,9 @@ class PlyReader {
       }
     }
     CutPolygons();
+    if (data_.triangles.empty() && data_.first_without_area != PlyData::kNone) {
+      Refuse("has no face of three corners or more");
+    }
     return std::move(data_);
   }
 
@@ -199,7 +204,7 @@ class PlyReader {
     if (indices == PlyElement::kNone) Refuse("its faces have no list \"vertex_indices\"");
     data_.has_face_colors = FindFirst(element, kColorNames)[0] != PlyElement::kNone;
     data_.has_face_uvs = element.Find("texcoord") != PlyElement::kNone;
-    constexpr size_t kMaxCorners = 255;
+    constexpr size_t kMaxCorners = 65535;
     for (uint64_t i = 0; i < element.count; ++i) {
       for (size_t k = 0; k < element.properties.size(); ++k) {
         const PlyProperty& property = element.properties[k];
@@ -208,12 +213,17 @@ class PlyReader {
           continue;
         }
         const size_t count = numbers_.NextLength(property);
-        if (count < 3 || count > kMaxCorners) {
+        if (count > kMaxCorners) {
           RefuseNumber(fmt::format("face {} has {} corners", faces_, count),
-                       fmt::format("from 3 to {}", kMaxCorners));
+                       fmt::format("at most {}", kMaxCorners));
+        }
+        if (count < 3) {
+          for (size_t c = 0; c < count; ++c) NextIndex(property);
+          if (data_.first_without_area == PlyData::kNone) data_.first_without_area = faces_;
+          continue;
         }
         SpendTriangles(count - 2, file_, &budget_, kTooManyForItsSize);
-        corner_counts_.push_back(static_cast<unsigned char>(count));
+        corner_counts_.push_back(static_cast<uint16_t>(count));
         for (size_t c = 0; c < count; ++c) corners_.push_back(NextIndex(property));
       }
       ++faces_;
@@ -260,7 +270,7 @@ class PlyReader {
     std::vector<Vec3d> corners;
     std::vector<uint32_t> local;
     const uint32_t* face = corners_.data();
-    for (const unsigned char count : corner_counts_) {
+    for (const uint16_t count : corner_counts_) {
       corners.clear();
       local.clear();
       for (size_t i = 0; i < count; ++i) corners.push_back(data_.positions[face[i]]);
@@ -278,9 +288,16 @@ class PlyReader {
   PlyData data_;
   uint64_t vertex_count_ = 0;
   uint64_t faces_ = 0;
-  std::vector<unsigned char> corner_counts_;  // of each face,
-  std::vector<uint32_t> corners_;             // and their vertices
+  std::vector<uint16_t> corner_counts_;  // of each face,
+  std::vector<uint32_t> corners_;        // and their vertices
 };
+
+void WarnOfFaces(const PlyData& data, const std::filesystem::path& path,
+                 const std::function<void(const std::string&)>& on_warning) {
+  if (data.first_without_area == PlyData::kNone || !on_warning) return;
+  on_warning(fmt::format("{}: faces of fewer than three corners are left out, the first is face {}",
+                         path.string(), data.first_without_area));
+}
 
 Mesh TakeMesh(const std::filesystem::path& path, PlyData* data) {
   Mesh mesh;
@@ -368,8 +385,10 @@ void AddCloud(const PlyData& data, const std::string& file, const LoadOptions& o
 
 }  // namespace
 
-Mesh ReadPly(const std::filesystem::path& path) {
+Mesh ReadPly(const std::filesystem::path& path,
+             const std::function<void(const std::string&)>& on_warning) {
   PlyData data = PlyReader(path).Read();
+  WarnOfFaces(data, path, on_warning);
   if (data.triangles.empty()) throw Error(ExitCode::kBadInput, path.string(), "has no faces");
   return TakeMesh(path, &data);
 }
@@ -384,6 +403,7 @@ PlyPoints ReadPlyPoints(const std::filesystem::path& path) {
 
 Scene ReadPlyScene(const std::filesystem::path& path, const LoadOptions& options) {
   PlyData data = PlyReader(path).Read();
+  WarnOfFaces(data, path, options.on_warning);
   Scene scene;
   if (data.triangles.empty()) {
     AddCloud(data, path.string(), options, &scene);

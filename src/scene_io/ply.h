@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "scene/scene.h"
@@ -12,11 +14,12 @@ namespace nacre {
 
 // The elements "vertex" (x, y, z; nx, ny, nz; u, v or s, t) and "face" (vertex_indices) or
 // "tristrips" of a PLY file as one mesh, named after the file, polygons cut into triangles. Normals
-// are the file's, or none.
+// are the file's, or none. Faces of fewer than three corners are left out, with a warning.
 // Throws Error (kBadInput) with the file for what is malformed, for positions that are not finite
-// or out of range, indices out of range, faces of fewer than 3 or more than 255 corners, and files
-// without faces.
-Mesh ReadPly(const std::filesystem::path& path);
+// or out of range, indices out of range, faces of more than 65 535 corners, and files without
+// faces.
+Mesh ReadPly(const std::filesystem::path& path,
+             const std::function<void(const std::string&)>& on_warning = {});
 
 // The mesh as a scene of its own, where faces without normals get averages, parted where they meet
 // at more than kModelCreaseAngleDeg. A file without faces is a cloud of spheres, with the vertices'

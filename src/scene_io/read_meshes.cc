@@ -111,9 +111,10 @@ void DisplaceMesh(const JsonValue& value, Displacement displacement, const Scene
   Displace(scene, displacement, mesh);
 }
 
-// The mesh in the file that `value` names, in its place; or faults and nothing.
+// The mesh in the file that `value` names, in its place; or faults and nothing. Smoothing groups
+// are the file's own normals: other ones that are asked for take their place.
 std::optional<Mesh> ReadMeshFile(const JsonValue& value, const Transform& transform,
-                                 const SceneContext& context) {
+                                 const NormalSettings& normals, const SceneContext& context) {
   std::string file;
   if (!ReadText(value, &file)) return std::nullopt;
   try {
@@ -123,7 +124,12 @@ std::optional<Mesh> ReadMeshFile(const JsonValue& value, const Transform& transf
       throw Error(ExitCode::kBadInput, {}, "a glTF file is a scene of its own",
                   "render it alone, or save its mesh as OBJ or PLY");
     }
-    Mesh mesh = HasExtension(file, ".ply") ? ReadPly(path) : ReadObj(path, context.threads);
+    Mesh mesh = HasExtension(file, ".ply")
+                    ? ReadPly(path, context.on_warning)
+                    : ReadObj(path, {.threads = context.threads,
+                                     .complete_normals = normals.from_file && !normals.none &&
+                                                         !normals.crease_angle_deg,
+                                     .on_warning = context.on_warning});
     context.budget->Spend(mesh.triangles.size() / 3);
     ApplyTransform(transform, &mesh);
     return mesh;
@@ -137,7 +143,7 @@ std::optional<Mesh> ReadMeshFile(const JsonValue& value, const Transform& transf
 void LoadMesh(const JsonValue& value, const Transform& transform, const NormalSettings& normals,
               const std::optional<Displacement>& displacement, const Mesh& settings,
               SceneContext* context) {
-  std::optional<Mesh> mesh = ReadMeshFile(value, transform, *context);
+  std::optional<Mesh> mesh = ReadMeshFile(value, transform, normals, *context);
   if (!mesh) return;
   mesh->material = settings.material;
   mesh->interpolation = settings.interpolation;
@@ -281,7 +287,7 @@ std::shared_ptr<const Mesh> ReadLightMesh(JsonObject* light, const SceneContext&
     }
   }
   const auto read = [&] {
-    return file != nullptr        ? ReadMeshFile(value("file", file), transform, context)
+    return file != nullptr        ? ReadMeshFile(value("file", file), transform, {}, context)
            : icosphere != nullptr ? ReadFaces<Icosphere>(value("icosphere", icosphere), context)
                                   : ReadFaces<UvSphere>(value("uv_sphere", uv_sphere), context);
   };

@@ -160,8 +160,7 @@ std::filesystem::path ResolveReference(const std::filesystem::path& folder, cons
   const bool is_trusted =
       std::find(rules.trusted.begin(), rules.trusted.end(), path) != rules.trusted.end();
   if (!rules.allow_paths && !is_trusted && !IsBelow(path, base)) {
-    throw Error(ExitCode::kBadInput, {},
-                fmt::format("\"{}\" is outside the scene's folder", Excerpt(name)),
+    throw Error(ExitCode::kBadInput, {}, fmt::format("\"{}\"{}", Excerpt(name), kIsOutside),
                 "move it there, or allow it with --allow-paths");
   }
   if (rules.on_file) rules.on_file(path);

@@ -33,6 +33,9 @@ struct ReferenceRules {
   std::vector<std::filesystem::path> trusted{};  // files that may lie anywhere; without links
 };
 
+// What ResolveReference says of a file outside the folder, behind its name.
+inline constexpr std::string_view kIsOutside = " is outside the scene's folder";
+
 // The file that a scene in `folder` refers to as `name`. Throws Error (kBadInput, without a place)
 // unless it is a regular file and, links followed, lies below the folder or paths are allowed: a
 // scene from elsewhere should not read other files of its user.

@@ -25,6 +25,20 @@ bool IsTooSmall(std::string_view word) {
   return first != std::string_view::npos && word[first] == '.';
 }
 
+// The text before the first word that begins with # and for which is_comment(word); trimmed. All of
+// it if nothing would be left.
+template <class IsComment>
+std::string_view TextBefore(std::string_view name, const IsComment& is_comment) {
+  std::string_view rest = name;
+  for (std::string_view word = NextWord(&rest); !word.empty(); word = NextWord(&rest)) {
+    if (!word.starts_with('#') || !is_comment(word)) continue;
+    const std::string_view before =
+        Trimmed(name.substr(0, static_cast<size_t>(word.data() - name.data())));
+    return before.empty() ? name : before;
+  }
+  return name;
+}
+
 // Whether it has a comment, which ends with its line, a backslash at its end or not.
 bool HasComment(std::string_view line) {
   for (size_t i = line.find('#'); i < line.size(); i = line.find('#', i + 1)) {
@@ -109,6 +123,29 @@ std::optional<double> ParseNumber(std::string_view word) {
   if (error == std::errc::result_out_of_range && IsTooSmall(word)) return 0.0;
   if (error != std::errc() || !std::isfinite(number)) return std::nullopt;
   return number;
+}
+
+bool IsNoNumber(std::string_view word) {
+  if (word.starts_with('+') || word.starts_with('-')) word.remove_prefix(1);
+  const std::string lower = LowerCase(word.substr(0, 8));
+  return lower.starts_with("nan") || lower.starts_with("inf") || lower.starts_with("1.#");
+}
+
+std::string LowerCase(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return lower;
+}
+
+std::string_view WithoutComment(std::string_view name) {
+  return TextBefore(name, [](std::string_view word) { return word == "#"; });
+}
+
+std::string_view WithoutHashWords(std::string_view name) {
+  // "Material #25" is never called "Material".
+  return TextBefore(name, [](std::string_view word) {
+    return word.size() == 1 || word[1] < '0' || word[1] > '9';
+  });
 }
 
 }  // namespace nacre

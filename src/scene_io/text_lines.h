@@ -48,4 +48,17 @@ std::string_view Trimmed(std::string_view text);
 // finite.
 std::optional<double> ParseNumber(std::string_view word);
 
+// Whether it is what a program writes for a number that is none or infinite: nan, -nan(ind), inf,
+// 1.#QNAN, -1.#IND00.
+bool IsNoNumber(std::string_view word);
+
+// In lower case: its ASCII letters.
+std::string LowerCase(std::string_view text);
+
+// Names may hold blanks and the sign #, and a comment may follow them. A # between blanks begins
+// one; where the sign and a word are one, that word may belong to the name ("Material #25"): what
+// is before it is tried only where there is nothing of the whole name.
+std::string_view WithoutComment(std::string_view name);
+std::string_view WithoutHashWords(std::string_view name);
+
 }  // namespace nacre

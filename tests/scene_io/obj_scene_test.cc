@@ -364,8 +364,7 @@ TEST_CASE("what is left out of an OBJ file is told once") {
 
 TEST_CASE("what is wrong with a material library is said") {
   CHECK(Contains(MessageOf(kCorner, "newmtl red\nKd 1 x 0\n"), "a.mtl:2: \"x\" is not a finite"));
-  CHECK(Contains(MessageOf(kCorner, "newmtl red\nPr nan\n"), "a.mtl:2: \"nan\" is not a finite"));
-  CHECK(Contains(MessageOf(kCorner, "newmtl red\nNs inf\n"), "a.mtl:2: \"inf\" is not a finite"));
+  CHECK(Contains(MessageOf(kCorner, "newmtl red\nPr 0,5\n"), "a.mtl:2: \"0,5\" is not a finite"));
   CHECK(Contains(MessageOf("mtllib ../b.mtl\n" + kCorner, kMtl), "\"../b.mtl\" is outside"));
   CHECK(Contains(MessageOf("v 0 0 0\nf 1 1 1\n", kMtl), "has no face with an area"));
 }
@@ -389,6 +388,126 @@ TEST_CASE("numbers out of range are clamped, with one warning that names the fir
   CHECK(blue.metallic == 0);
   CHECK(scene.materials.at(2).emission == Rgb(1e30));
   CHECK(Load(kOneRed, "newmtl red\nKd 0 1 0.5\nNs 1e9\n").warnings.empty());
+}
+
+TEST_CASE("numbers that are none are left out, with one warning that names the first") {
+  const auto [scene, warnings] = Load(
+      kOneRed, "newmtl red\nKd .5 .5 .5\nKs .25\nNs 1.#QNAN\nKd nan 0 0\nKs 0 -inf 1\nd\nPr # x\n");
+  REQUIRE(warnings.size() == 1);
+  CHECK(Contains(warnings[0], "numbers that are none are left out, the first is ns in "));
+  CHECK(Contains(warnings[0], "a.mtl:4"));
+  const auto& red = std::get<PhongMaterial>(scene.materials.at(0).model);
+  CHECK(red.kd == Rgb(0.5));
+  CHECK(red.ks == Rgb(0.25));
+  CHECK(red.shininess == 1);
+}
+
+TEST_CASE("opacity is d, or what Tr leaves where there is no d") {
+  const auto is_told = [](const std::string& mtl) {
+    return !Load(kOneRed, "newmtl red\n" + mtl).warnings.empty();
+  };
+  CHECK(is_told("d 0.5\n"));
+  CHECK(is_told("Tr 0.5\n"));
+  CHECK(is_told("Tr 0\nd 0.5\n"));
+  CHECK_FALSE(is_told("d 1\nTr 1\n"));
+  CHECK_FALSE(is_told("Tr 1\nd 1\n"));
+}
+
+TEST_CASE("comments behind names are none of them, and names may have the sign") {
+  // The material of the only face: its name and its red.
+  const auto shown = [](const std::string& use, const std::string& mtl) {
+    const auto [scene, warnings] = Load(
+        "mtllib a.mtl # of the set\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl " + use + "\nf 1 2 3\n", mtl);
+    for (const std::string& warning : warnings) UNSCOPED_INFO(warning);
+    CHECK(warnings.empty());
+    const Material& material = scene.materials.at(scene.meshes.at(0).material.index);
+    const auto* phong = std::get_if<PhongMaterial>(&material.model);
+    return std::make_pair(material.name, phong == nullptr ? -1 : phong->kd.x);
+  };
+  using Shown = std::pair<std::string, double>;
+  for (const char* const use : {"Red", "Red # front", "Red #", "Red #front", "Red\t# a # b"}) {
+    INFO(use);
+    CHECK(shown(use, "newmtl Blue\nnewmtl Red # the front\nKd 1 0 0 # red\n") == Shown("Red", 1));
+    CHECK(shown(use, "newmtl Blue\nnewmtl Red\nKd 1 0 0\n") == Shown("Red", 1));
+  }
+  CHECK(shown("Red", "newmtl Red #front\nKd 1\n") == Shown("Red #front", 1));
+  const std::string numbered = "newmtl Material #25\nKd .25\nnewmtl Material #26\nKd .5\n";
+  CHECK(shown("Material #26", numbered) == Shown("Material #26", 0.5));
+  CHECK(shown("Material #25 # x", numbered).second == 0.25);
+  CHECK(shown("a # b", "newmtl a\nKd .25\nnewmtl a # b\nKd .5\n").second == 0.5);
+  CHECK(shown("", "newmtl x\n").first == "default");
+  const auto [scene, warnings] =
+      Load("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl Material #3\nf 1 2 3\n",
+           "newmtl Material #2\n");
+  REQUIRE(warnings.size() == 1);
+  CHECK(Contains(warnings[0], "no material library has \"Material #3\""));
+}
+
+TEST_CASE("several libraries are found, however their names are written, and missing ones told") {
+  const std::string faces = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n";
+  const ModelFolder folder;
+  const std::string red = "newmtl red\nKd 1 0 0\n";
+  const auto warnings_of = [&](const std::string& libraries, bool is_red) {
+    CAPTURE(libraries);
+    std::vector<std::string> warnings;
+    LoadOptions options;
+    options.on_warning = [&](const std::string& text) { warnings.push_back(text); };
+    const Scene scene = LoadScene(folder.Write("model.obj", libraries + faces), options);
+    const Material& material = scene.materials.at(scene.meshes.at(0).material.index);
+    const auto* phong = std::get_if<PhongMaterial>(&material.model);
+    CHECK((phong != nullptr && phong->kd == Rgb(1, 0, 0)) == is_red);
+    std::string all;
+    for (const std::string& warning : warnings) all += warning.substr(warning.find(": ")) + "|";
+    return all;
+  };
+  folder.Write("red.mtl", red);
+  folder.Write("my red.mtl", red);
+  folder.Write("other.mtl", "newmtl blue\n");
+  for (const char* const line :
+       {"red.mtl", "other.mtl red.mtl", "red.mtl other.mtl", "my red.mtl", "other.mtl my red.mtl",
+        "my red.mtl other.mtl", "\"my red.mtl\" # x", "my\\ red.mtl", "red.mtl #x",
+        "RED\\..\\red.mtl", "other.mtl\nmtllib red.mtl", "C:\\art\\my red.mtl",
+        "/home/a/red.mtl"}) {
+    CHECK(warnings_of("mtllib " + std::string(line) + "\n", true).empty());
+  }
+  const std::string left_out = ": a material library is left out: there is no file ";
+  CHECK(warnings_of("mtllib missing.mtl red.mtl\n", true) == left_out + "\"missing.mtl\"|");
+  CHECK(warnings_of("mtllib no.mtl\nmtllib red.mtl no such.mtl\n", true) ==
+        left_out + "\"no.mtl\"|" + left_out + "\"no such.mtl\"|");
+  CHECK(warnings_of("mtllib no.mtl\n", false) ==
+        ": its materials are left out: there is no file \"no.mtl\"|");
+  // What is called as the model is.
+  folder.Write("model.mtl", red);
+  const std::string namesake =
+      ": its materials are read from \"model.mtl\", which it does not name|";
+  CHECK(warnings_of("", true) == namesake);
+  CHECK(warnings_of("mtllib no.mtl\n", true) == namesake + left_out + "\"no.mtl\"|");
+  CHECK(warnings_of("mtllib red.mtl\n", true).empty());
+}
+
+TEST_CASE("images are found beside their library, too") {
+  const ModelFolder folder;
+  std::filesystem::create_directories(folder.path / "sub/maps");
+  folder.Write("sub/maps/tex.ppm", "P6\n1 1\n255\nabc");
+  folder.Write("sub/a.mtl", "newmtl red\nmap_Kd maps\\tex.ppm # wood\n");
+  const Scene scene = LoadScene(folder.Write(
+      "m.obj", "mtllib sub/a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl red\nf 1/1 2/1 3/1\n"));
+  CHECK(scene.textures.size() == 1);
+}
+
+TEST_CASE("averages of smoothing groups go over the borders of materials") {
+  const Scene scene =
+      Load(
+          "v -1 0 0\nv 0 0 1\nv 0 1 1\nv 1 0 0\ns 1\nusemtl a\nf 1 2 3\nusemtl b\nf 2 4 3\n"
+          "mtllib a.mtl\n",
+          "newmtl a\nnewmtl b\n")
+          .scene;
+  REQUIRE(scene.meshes.size() == 2);
+  for (const Mesh& mesh : scene.meshes) {
+    for (size_t i = 0; i < mesh.positions.size(); ++i) {
+      if (mesh.positions[i].x == 0) CHECK(std::abs(mesh.normals.at(i).x) < 1e-15);
+    }
+  }
 }
 
 TEST_CASE("colours as spectra or XYZ are left out, with one warning") {

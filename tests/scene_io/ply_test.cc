@@ -259,7 +259,7 @@ TEST_CASE("what is wrong with a PLY file is said") {
       Refused("ply\rformat ascii 1.0\relement vertex 1\rproperty float x\rproperty float y\r"
               "property float z\rend_header\r0 0\r1e99\r",
               "ply:9: vertex 0 is at"));
-  CHECK(Refused(kVertices + kFaces + kPoints + "2 0 1\n", "face 0 has 2 corners"));
+  CHECK(Refused(kVertices + kFaces + kPoints + "2 0 1\n", "has no face of three corners or more"));
   CHECK(Refused(kVertices + kFaces + kPoints + "200 0 1\n", "a list of 200 is more than"));
   CHECK(Refused(kVertices + kFaces + kPoints + "4 0 1 2\n", "ends too early"));
   CHECK(Refused(kVertices + kFaces + kPoints + "300 0 1 2\n", "300 is not a number of its type"));
@@ -271,6 +271,26 @@ TEST_CASE("what is wrong with a PLY file is said") {
       Refused(kVertices + kFaces + "0 0 0\n1 1e30 0\n1 1 0\n0 1 0\n4 0 1 2 3\n", "vertex 1 is at"));
   CHECK(Refused(kVertices + kFaces + "0 0 0\n0 0 0\n0 0 0\n0 0 0\n4 0 1 2 3\n",
                 "has no face with an area"));
+}
+
+TEST_CASE("faces of fewer than three corners are left out, those of many are cut") {
+  const std::string faces = "element face 4\nproperty list ushort int vertex_indices\nend_header\n";
+  std::vector<std::string> warnings;
+  const Scene scene =
+      LoadPly(kVertices + faces + kPoints + "3 0 1 2\n2 0 1\n0\n3 0 2 3\n", &warnings);
+  CHECK(scene.meshes.at(0).triangles.size() == 6);
+  REQUIRE(warnings.size() == 1);
+  CHECK(
+      Contains(warnings[0], "faces of fewer than three corners are left out, the first is face 1"));
+  std::string disc =
+      "ply\nformat ascii 1.0\nelement vertex 300\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list ushort int vertex_indices\nend_header\n";
+  std::string face = "300";
+  for (int i = 0; i < 300; ++i) {
+    disc += fmt::format("{} {} 0\n", std::cos(i * 0.02), std::sin(i * 0.02));
+    face += fmt::format(" {}", i);
+  }
+  CHECK(LoadPly(disc + face + "\n").meshes.at(0).triangles.size() == 3 * 298);
 }
 
 TEST_CASE("spoilt PLY files never do worse than be refused") {
