@@ -11,8 +11,8 @@ namespace nacre {
 namespace {
 
 // What Schlick's curve reaches at grazing incidence: 1, as in KHR_materials_clearcoat, but no more
-// than gives it the average of Fresnel's equations, which is F0 + (F90 - F0) / 21 of Schlick's. From
-// an index of 1.34 down to 1 it falls to 0: a coat of the index of air is not seen.
+// than gives it the average of Fresnel's equations, which is F0 + (F90 - F0) / 21 of Schlick's.
+// From an index of 1.34 down to 1 it falls to 0: a coat of the index of air is not seen.
 double GrazingReflectance(double ior, double f0) {
   if (ior >= 1.5) return 1;  // Schlick's average is below, and from 5 on above whatever F90 is
   return std::min(f0 + 21 * (AverageDielectric(ior) - f0), 1.0);
