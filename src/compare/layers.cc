@@ -63,6 +63,9 @@ ImagePair PairImages(const Image& got, const Image& reference, const CompareOpti
   RequireLayers(reference, options);
   RequireChannels(got, options.got_name, reference, options.reference_name, options);
   RequireChannels(reference, options.reference_name, got, options.got_name, options);
+  if (reference.channels.empty()) {
+    throw Error(ExitCode::kCannotCompare, options.reference_name, "has no channels");
+  }
   ImagePair pair;
   pair.window = Intersect(got.data, reference.data);
   if (pair.window.empty()) {

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 import nacre
-from nacre._check import _furnace, _sampler
-from models import WHITE_METAL, ggx, lambert, phong
+from nacre._check import _ENERGY, _furnace, _sampler
+from models import WHITE_METAL, dot, ggx, lambert, phong
 
 
 def verdicts(found):
-    return {name for name, verdict in found.verdicts.items() if not verdict.ok}
+    return {name for name, verdict in found.verdicts.items() if verdict.ok is not True}
 
 
 def clamped(f):
@@ -131,30 +131,157 @@ def test_narrow_samplers_are_right(roughness, alone):
         return gold.evaluate(n, v, l) / (n * l).sum(axis=1, keepdims=True)
     mine = gold if alone else nacre.Brdf(evaluate, sample=gold.sample, pdf=gold.pdf)
     cosines = np.cos(np.radians([0.5, 70, 80, 85, 88]))
-    furnace, settled = _furnace(mine, cosines)
-    assert settled.all() and np.abs(furnace - gold.albedo(cosines)).max() < 2.5e-4  # _ENERGY / 4
-    found = _sampler(mine, cosines, furnace, settled)
-    assert found.ok and "narrow" not in found.text
+    furnace = _furnace(mine, cosines)
+    for integral, albedo in zip(furnace, gold.albedo(cosines)):
+        assert integral.at_most_one() and integral.spread <= _ENERGY / 4
+        assert np.abs(integral.value - albedo).max() < _ENERGY / 4
+    assert _sampler(mine, cosines, furnace).ok
 
     def too_large(n, v, l):
         return 1.02 * gold.pdf(n, v, l)
     wrong = nacre.Brdf(evaluate, sample=gold.sample, pdf=too_large)
-    found = _sampler(wrong, cosines, furnace, settled)
-    assert not found.ok and "pdf is 1.0200 in all" in found.text
+    found = _sampler(wrong, cosines, furnace)
+    assert found.ok is False and "pdf is 1.0200 in all" in found.text
 
 
-def test_what_is_too_narrow_is_not_judged():
-    def needle(n, v, l):  # of some 1e-9 sr about the mirror direction: no rule meets it
-        mirrored = 2 * (n * v).sum(axis=1, keepdims=True) * n - v
-        distance = ((l - mirrored)**2).sum(axis=1)
-        return 3e8 / np.pi * (distance < 1e-8 / 3)
+def needle(n, v, l):
+    """Of 1e-12 sr about the mirror direction: rules meet it or do not."""
+    mirrored = 2 * dot(n, v)[:, None] * n - v
+    return (3e12 / np.pi * (((l - mirrored)**2).sum(axis=1) < 1e-12 / 3))[:, None]
+
+
+def test_what_is_too_narrow_is_unknown():
     own = nacre.Brdf("lambert")
-    cosines = np.cos(np.radians([30, 60]))
-    narrow = nacre.Brdf(lambda n, v, l: needle(n, v, l)[:, None], sample=own.sample, pdf=needle)
-    furnace, settled = _furnace(narrow, cosines)
-    assert not settled.any()
-    found = _sampler(narrow, cosines, furnace, settled)
-    assert found.ok and "too narrow to tell at 30, 60 degrees" in found.text
+    narrow = nacre.Brdf(needle, sample=own.sample, pdf=lambda n, v, l: needle(n, v, l)[:, 0])
+    found = nacre.check(narrow, size=16, quiet=True)
+    assert not found and found.verdicts["energy"].ok is None and found.verdicts["sampler"].ok is None
+    assert "cannot be told at 0, " in found.verdicts["energy"].text
+    assert "unknown  energy" in str(found) and "unknown: energy, sampler" in repr(found)
+
+
+def bright(n, v, l):
+    """GGX whose shadowing terms are factors where they are divisors: the integral has no end."""
+    half = (v + l) / np.linalg.norm(v + l, axis=1, keepdims=True)
+    d = 0.0256 / (np.pi * (dot(n, half)**2 * (0.0256 - 1) + 1)**2)
+    g = [1 + np.sqrt(1 + 0.0256 * (1 / dot(n, x)**2 - 1)) for x in (v, l)]
+    return (d * g[0] * g[1] / (4 * dot(n, v) * dot(n, l)))[:, None]
+
+
+@pytest.mark.parametrize("model, ok, text", [
+    (bright, False, "it has no end"),
+    (lambda n, v, l: 0.01 * bright(n, v, l), None, "denser rules do not agree"),  # albedos of 0.04
+    (lambda n, v, l: (1 / dot(n, l)**3)[:, None], False, "it has no end"),  # albedos of 1e6 and more
+    (lambda n, v, l: (1e-3 / dot(n, l)**2)[:, None], None, "denser rules do not agree"),
+    (lambda n, v, l: np.full((len(n), 1), 1e308), False, "reflects up to inf"),
+    (lambert(1.0011), False, "reflects up to 1.0011"), (lambert(1), True, "reflects up to 1.0000"),
+    (ggx(1e-4), True, "reflects up to 1.0000"),  # which one rule alone makes 1.02
+    (lambda n, v, l: 0.2 + 0.1 * (dot(n, l) > 0.5)[:, None], True, "reflects up to 0.8")])  # edges
+def test_integrals_that_do_not_settle_are_no_success(model, ok, text):
+    found = nacre.check(model, size=16, quiet=True)
+    assert found.verdicts["energy"].ok is ok and text in found.verdicts["energy"].text
+    assert bool(found) is (ok is True and all(verdict.ok for verdict in found.verdicts.values()))
+
+
+def only_where(condition, value):
+    """A grey Lambert but for some directions."""
+    return lambda n, v, l: np.where(condition(n, v, l), value, 0.1)[:, None]
+
+
+@pytest.mark.parametrize("model, where", [
+    (only_where(lambda n, v, l: dot(v, l) > 1 - 1e-15, np.nan), "phi 0 "),  # light and viewer are one
+    (only_where(lambda n, v, l: dot(2 * dot(n, v)[:, None] * n - v, l) > 1 - 1e-15, np.inf), "[inf]"),
+    (only_where(lambda n, v, l: dot(n, v) == 1, -np.inf), "viewer 0,"),  # seen straight from above
+    (only_where(lambda n, v, l: dot(n, l) < 1e-4, np.nan), "light 90,"),  # at the horizon
+    (only_where(lambda n, v, l: n[:, 2] < 0.9, np.nan), "normal [0."),  # of other normals alone
+    (lambda n, v, l: np.array([0.1, np.nan, 0.1]) * np.ones((len(n), 1)), "[0.1, nan, 0.1] at light 0.5")])
+def test_what_is_not_finite_is_a_failure_with_a_page(model, where, capsys):
+    found = nacre.check(model, size=16)
+    verdict = found.verdicts["finite"]
+    assert not found and verdict.ok is False and where in verdict.text and "to_light [" in verdict.text
+    assert "FAIL     finite" in capsys.readouterr().out
+    assert np.isfinite(found.values).all() and found.verdicts["energy"].ok  # the rest is judged
+
+
+def test_where_nothing_is_finite_nothing_is_known():
+    found = nacre.check(lambda n, v, l: np.full((len(n), 3), np.nan), size=16, quiet=True)
+    assert found.verdicts.pop("finite").ok is False
+    assert {verdict.ok for verdict in found.verdicts.values()} == {None}
+
+
+@pytest.mark.parametrize("model, name", [
+    (only_where(lambda n, v, l: (dot(n, l) < 0.02) & (dot(n, v) > 0.99), -1e-9), "positive"),  # off the grid
+    (lambda n, v, l: np.full((len(n), 1), -1), "positive"),  # of integers
+    (lambda n, v, l: (0.1 + 1e-3 * dot(n, l))[:, None], "reciprocal"),
+    (lambda n, v, l: (0.1 + 1e-3 * l[:, 1])[:, None], "isotropic"),
+    (lambda n, v, l: np.array([0.1, 0.1, 0.1 + 0.4]) * np.ones((len(n), 1)), "energy")])  # blue alone
+def test_each_property_can_fail(model, name):
+    found = nacre.check(model, size=16, quiet=True)
+    assert found.verdicts[name].ok is False and not found
+
+
+def test_the_albedo_that_a_function_tells_is_its_integral():
+    def says(albedo):
+        return nacre.check(nacre.Brdf(lambert(1.5), albedo=lambda c: np.full((len(c), 3), albedo)), size=16,
+                           quiet=True)
+    wrong = says(0.5)  # it makes light, whatever it says
+    assert verdicts(wrong) == {"energy", "albedo"} and "0.5000" in wrong.verdicts["albedo"].text
+    assert verdicts(says(1.5)) == {"energy"}
+    assert "returned" in says(np.nan).verdicts["albedo"].text
+
+
+LAMBERT = nacre.Brdf("lambert")
+
+
+def uniform(n, v, u):
+    """All of the hemisphere about the normal alike."""
+    z, phi = u[:, :1], 2 * np.pi * u[:, 1:]
+    side = np.cross(n, np.where(np.abs(n[:, :1]) < 0.6, [1.0, 0, 0], [0.0, 1, 0]))
+    side /= np.linalg.norm(side, axis=1, keepdims=True)
+    return z * n + np.sqrt(1 - z * z) * (np.cos(phi) * side + np.sin(phi) * np.cross(n, side))
+
+
+def hemisphere_pdf(n, v, l):
+    return np.full(len(n), 1 / (2 * np.pi))
+
+
+@pytest.mark.parametrize("model, sample, pdf, text", [
+    (lambert(0.5), uniform, hemisphere_pdf, None),
+    (lambert(0.5), LAMBERT.sample, LAMBERT.pdf, None),
+    # f / pdf is the same for all samples: their mean is right, wherever they are.
+    (lambert(0.5), uniform, LAMBERT.pdf, "more or less steep"),
+    (lambert(0.5), LAMBERT.sample, hemisphere_pdf, "samples mean"),
+    (lambert(0.5), uniform, lambda n, v, l: 2 * hemisphere_pdf(n, v, l), "its pdf is 2.0000 in all"),
+    (lambert(0.5), uniform, lambda n, v, l: 0.5 * hemisphere_pdf(n, v, l), "more or fewer are above"),
+    (lambert(0.5), uniform, lambda n, v, l: dot(n, l) - 0.1, "below 0"),
+    (lambert(0.5), uniform, lambda n, v, l: np.where(dot(n, l) > 0.5, np.nan, 0.1), "nan"),
+    (lambert(0.5), uniform, lambda n, v, l: np.full((len(n), 1), 0.1), "returned the shape"),
+    (lambert(0.5), uniform, lambda n, v, l: hemisphere_pdf(n, v, l) * (dot(n, l) > 0.1), "samples have pdf 0"),
+    (lambert(0.5), lambda n, v, u: -uniform(n, v, u), hemisphere_pdf, "more or fewer are above"),
+    (lambert(0.5), lambda n, v, u: 1.1 * uniform(n, v, u), hemisphere_pdf, "has length 1.1"),
+    (lambert(0.5), lambda n, v, u: np.nan * n, hemisphere_pdf, "has length nan"),
+    (lambert(0.5), lambda n, v, u: 1j * n, hemisphere_pdf, "complex128")])
+def test_samplers_and_pdfs_that_do_not_fit_are_told(model, sample, pdf, text):
+    found = nacre.check(nacre.Brdf(model, sample=sample, pdf=pdf), size=16, quiet=True)
+    verdict = found.verdicts["sampler"]
+    assert verdict.ok is (text is None) and (text is None or text in verdict.text), verdict
+
+
+@pytest.mark.parametrize("reference, text", [
+    (only_where(lambda n, v, l: dot(n, l) < 0.1, np.nan), "the reference is not finite"),
+    (lambert(-0.1 * np.pi), "differs by"),  # relative to a magnitude, not a negative number
+    (lambert(0), "differs by inf")])
+def test_references_that_are_wrong_agree_with_nothing(reference, text):
+    for model in lambert(0.1 * np.pi), lambert(-0.3):
+        found = nacre.check(model, against=reference, size=16, quiet=True)
+        assert found.verdicts["agrees"].ok is False and text in found.verdicts["agrees"].text
+
+
+@pytest.mark.parametrize("returned", [
+    lambda n: np.ones((len(n), 3), complex), lambda n: np.ones((len(n), 2)), lambda n: np.ones(3),
+    lambda n: "white", lambda n: np.ma.masked_array(np.ones((len(n), 3)), mask=True)])
+def test_what_is_no_brdf_at_all_is_an_error(returned):
+    with pytest.raises(nacre.Error, match="the BRDF <lambda>: returned"):
+        nacre.check(lambda n, v, l: returned(n), size=16, quiet=True)
 
 
 def test_what_makes_light_is_named():
@@ -176,8 +303,8 @@ def test_functions_are_compared():
 
 
 def test_errors_come_out():
-    with pytest.raises(nacre.Error, match="returned"):
-        nacre.check(lambda n, v, l: np.full((len(n), 3), np.nan))
+    with pytest.raises(ZeroDivisionError):
+        nacre.check(lambda n, v, l: 1 / 0)
     with pytest.raises(TypeError, match="parameters"):
         nacre.check(lambert(0.5), roughness=1)
     with pytest.raises(nacre.Error, match="did you mean"):

@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Is my BRDF right? Its reciprocity, energy, sampler and cost, and its difference from another."""
 import dataclasses
+import threading
 import time
 from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 
 from ._arguments import real, whole
-from ._brdf import Brdf, Function, _hemisphere
+from ._brdf import Brdf, Function, _hemisphere, _Own
+from ._errors import Error
 from ._image import Array, Comparison, Image, Picture, difference
 from ._scene import Scene
 
@@ -17,26 +19,27 @@ _PHI = (0.0, 30.0, 60.0, 90.0, 120.0, 150.0, 165.0, 175.0, 180.0)
 # Reciprocity and isotropy hold to the rounding of a formula that is not written for precision: float32
 # makes 1e-5 of it in a lobe of alpha 0.16. Somebody's mistake is larger.
 _ROUNDING = 1e-4
-# What `Brdf.albedo` of a function is right to, and a margin for what other quadratures call 1.
+# What integrals are right to that have settled, and a margin for what other quadratures call 1.
 _ENERGY = 1e-3
-# The same of the integral of a pdf.
-_CHANCE = 1e-3
 # Of a mean of samples: chance reaches that far once in 1e9 times.
 _SIGMAS = 6
 # A numpy function takes some 100 ns for a sample; a Python loop over the samples, thousands.
 _SLOW = 2e-6
 
 
+_WORDS = {True: "ok", False: "FAIL", None: "unknown"}
+
+
 class Verdict(NamedTuple):
     """Whether a property holds, and how it was found, in words."""
 
-    ok: bool
+    ok: Optional[bool]  #: None: that cannot be told
     text: str
 
 
 @dataclasses.dataclass(repr=False, eq=False)
 class Check:
-    """What `check` has found. True where all verdicts are; str(check) is its page.
+    """What `check` has found. True where all verdicts are, and none is unknown; str(check) is its page.
 
     theta_light, theta_view, phi: the angles of the grid, in degrees; phi 180 is the mirror's side.
     values, reference: the BRDF without n.l, of shape (theta_light, theta_view, phi, 3).
@@ -67,19 +70,19 @@ class Check:
     hints: List[str]
 
     def __bool__(self) -> bool:
-        return all(verdict.ok for verdict in self.verdicts.values())
+        return all(verdict.ok is True for verdict in self.verdicts.values())
 
     def __str__(self) -> str:
         lines = [f"{self.name}" + (f", against {self.against}" if self.against else "")]
         for name, verdict in self.verdicts.items():
-            lines.append(f"  {'ok  ' if verdict.ok else 'FAIL'}  {name:12} {verdict.text}")
+            lines.append(f"  {_WORDS[verdict.ok]:7}  {name:10} {verdict.text}")
         lines += [f"  hint: {hint}" for hint in self.hints]
         lines += ["", "  furnace: what is seen of light of radiance 1 from everywhere, by the viewer's angle",
-                  "    degrees  " + "".join(f"{np.degrees(np.arccos(c)):8.1f}" for c in self.cosines),
-                  "    albedo   " + "".join(f"{a:8.3g}" for a in self.furnace.max(axis=1))]
+                  "    degrees  " + "".join(f"{np.degrees(np.arccos(c)):9.1f}" for c in self.cosines),
+                  "    albedo   " + "".join(f"{a:9.3g}" for a in self.furnace.max(axis=1))]
         if self.furnace_reference is not None:
             lines.append("    against  " + "".join(
-                f"{a:8.3g}" for a in self.furnace_reference.max(axis=1)))
+                f"{a:9.3g}" for a in self.furnace_reference.max(axis=1)))
         if self.error is not None:
             lines += ["", "  relative error, the largest over phi; light down, viewer across, degrees",
                       "           " + "".join(f"{t:9.3g}" for t in self.theta_view)]
@@ -93,8 +96,10 @@ class Check:
         return "\n".join(lines)
 
     def __repr__(self) -> str:
-        wrong = [name for name, verdict in self.verdicts.items() if not verdict.ok]
-        return f"<nacre.Check of {self.name}: {'FAIL: ' + ', '.join(wrong) if wrong else 'ok'}>"
+        found = "; ".join(f"{word}: {', '.join(names)}" for word, names in (
+            (word, [name for name, verdict in self.verdicts.items() if verdict.ok is ok])
+            for ok, word in _WORDS.items() if ok is not True) if names)
+        return f"<nacre.Check of {self.name}: {found or 'ok'}>"
 
     def picture(self) -> Picture:
         """The ball with the model, with the reference, and where their radiance differs."""
@@ -129,6 +134,74 @@ def _relative(a: Array, b: Array) -> Array:
     return np.abs(a - b) / np.maximum(scale, least if least > 0 else 1)
 
 
+def _angles(normal: Array, to_view: Array, to_light: Array) -> str:
+    """Three unit vectors in words."""
+    light, view = (float(np.degrees(np.arccos(np.clip(normal @ v, -1, 1)))) for v in (to_light, to_view))
+    along, across = to_view - (normal @ to_view) * normal, to_light - (normal @ to_light) * normal
+    phi = float(np.degrees(np.arctan2(np.linalg.norm(np.cross(along, across)), along @ across)))
+    return (f"light {light:.4g}, viewer {view:.4g}, phi {phi:.4g} degrees (normal {normal.round(6).tolist()}, "
+            f"to_view {to_view.round(6).tolist()}, to_light {to_light.round(6).tolist()})")
+
+
+class _Watched:
+    """A user's function, of whose values all that is asked for is watched: what is not finite is taken
+    for 0, so that the rest can be judged."""
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        self.function = function
+        self.asked = self.not_finite = 0
+        self.least, self.first = np.inf, ""
+        self.lock = threading.Lock()  # renders call it from threads of theirs
+
+    def __call__(self, normal: Array, to_view: Array, to_light: Array) -> Any:
+        kept = normal.copy(), to_view.copy(), to_light.copy()  # functions may write to theirs
+        returned = self.function(normal, to_view, to_light)
+        if isinstance(returned, np.ma.MaskedArray) or getattr(returned, "dtype", None) is None or \
+                returned.dtype.kind not in "fiu" or returned.ndim != 2 or len(returned) != len(normal):
+            return returned  # whoever asked for it refuses it, or can take it
+        values = np.asarray(returned, np.float64)
+        finite = np.isfinite(values)
+        with self.lock:
+            self.asked += len(values)
+            self.least = min(self.least, float(values.min(initial=np.inf, where=finite)))
+            if not finite.all():
+                rows = ~finite.all(axis=1)
+                i = int(np.argmax(rows))
+                self.first = self.first or f"{values[i].tolist()} at {_angles(*(v[i] for v in kept))}"
+                self.not_finite += int(rows.sum())
+        return np.where(finite, values, 0)
+
+    def verdict(self) -> Verdict:
+        if self.not_finite == 0:
+            return Verdict(True, f"at all of {self.asked} pairs of directions")
+        return Verdict(False, f"{self.not_finite} of {self.asked} values are not: the first is {self.first}; "
+                       "below, they count as 0")
+
+
+def _watched(brdf: Brdf) -> Tuple[Brdf, Optional[_Watched]]:
+    """The same model, and what watches it; nothing for nacre's own."""
+    if brdf._evaluate is None:
+        return brdf, None
+    watch = _Watched(brdf._evaluate.function)
+    other = Brdf(watch)
+    other.name = brdf.name
+    other._evaluate = _Own(watch, brdf._evaluate.what, brdf._evaluate.columns)
+    other._sample, other._pdf, other._albedo = brdf._sample, brdf._pdf, brdf._albedo
+    return other, watch
+
+
+def _special_pairs() -> Tuple[Array, Array]:
+    """Viewers and lights where formulas divide 0 by 0: along the normal, along one another, mirrored,
+    and at the horizon."""
+    theta = np.array([0.0, 1e-4, 30, 60, 89.99, 89.999999])
+    view = _direction(theta, np.array(0.0))
+    mirrored = view * [-1, -1, 1]
+    up = np.broadcast_to(_UP, view.shape)
+    across = _direction(theta, np.array(90.0))
+    return (np.concatenate([view, view, view, up, view]),
+            np.concatenate([view, mirrored, up, view, across]))
+
+
 def _ball(brdf: Brdf, size: int) -> Image:
     model: Union[Brdf, Function] = brdf
     if not brdf.is_own and brdf._material is None:  # of a scene
@@ -152,78 +225,169 @@ def _worst(grid: Array, light: Array, view: Array, phi: Array) -> str:
     return f"light {light[i]:g}, viewer {view[j]:g}, phi {phi[k]:g} degrees"
 
 
-def _integral(of: Callable[[Array, Array], Array], cosine: float,
-              tolerance: float) -> Tuple[Array, bool]:
-    """int of(view, light) dl, by denser and denser rules; and whether the last two agree to a
-    quarter of the tolerance. If not, the lobe is too narrow for them."""
-    last: Optional[Array] = None
-    for fine in (1, 2, 3):
-        view, light, weights = _hemisphere(float(cosine), fine)
-        total: Array = np.einsum("ijk,ij->k", of(view, light), weights)
-        if last is not None and np.abs(total - last).max() <= tolerance / 4:
-            return total, True
-        last = total
-    return total, False
+class _Integral(NamedTuple):
+    """int of(view, light) dl by rules of which each is twice as dense as the one before: two that agree,
+    or three."""
+
+    value: Array  #: of the densest
+    spread: float  #: how far the last two are apart
+    most: Tuple[float, ...]  #: of each rule, the largest component
+
+    @property
+    def grows(self) -> bool:
+        """Whether a denser rule gives more again and again, as of an integral that has no end."""
+        if len(self.most) < 3 or not np.isfinite(self.most).all():
+            return False
+        first, second = np.diff(self.most)
+        return bool(first > 0 and second > max(first / 2, _ENERGY / 4))
+
+    def at_most_one(self) -> Optional[bool]:
+        """None: these rules do not tell."""
+        least, last = min(self.most), self.most[-1]
+        if not np.isfinite(self.most).all():
+            return False
+        if self.spread <= _ENERGY / 4:
+            return last <= 1 + _ENERGY
+        if least > 1 + _ENERGY and (self.grows or self.spread <= (last - 1) / 4):
+            return False
+        return True if not self.grows and last + 4 * self.spread <= 1 + _ENERGY else None
+
+    def __str__(self) -> str:
+        return ", ".join(f"{value:.4g}" for value in self.most)
 
 
-def _furnace(brdf: Brdf, cosines: Array) -> Tuple[Array, Array]:
-    """The albedo, of shape (count, 3), and where it is certain. That of a function is integrated,
-    by more than one rule where something hangs on it."""
-    furnace, settled = brdf.albedo(cosines), np.full(len(cosines), True)
-    if brdf.is_own and brdf._albedo is None:
-        for i in range(len(cosines)):
-            if brdf._sample is not None or furnace[i].max() > 1 + _ENERGY:
-                furnace[i], settled[i] = _integral(lambda v, l: brdf.evaluate(_UP, v, l), cosines[i],
-                                                   _ENERGY)
-    return furnace, settled
+def _integral(of: Callable[[Array, Array], Array], cosine: float) -> _Integral:
+    totals: List[Array] = []
+    spread = np.inf
+    with np.errstate(over="ignore", invalid="ignore"):
+        for fine in (1, 2, 4):
+            view, light, weights = _hemisphere(float(cosine), fine)
+            totals.append(np.einsum("ijk,ij->k", of(view, light), weights))
+            if len(totals) > 1:
+                spread = float(np.abs(totals[-1] - totals[-2]).max())
+            if spread <= _ENERGY / 4:
+                break
+    return _Integral(totals[-1], spread, tuple(float(total.max()) for total in totals))
 
 
-def _untold(cosines: Array, tellable: Array) -> str:
-    """What a verdict adds where lobes are too narrow for the quadrature."""
-    if tellable.all():
-        return ""
-    angles = ", ".join(f"{angle:.0f}" for angle in np.degrees(np.arccos(cosines[~tellable])))
-    return f"; too narrow to tell at {angles} degrees"
+def _furnace(brdf: Brdf, cosines: Array) -> List[_Integral]:
+    """The albedos. Those of a function are integrated, whatever it says itself."""
+    if brdf.is_own:
+        return [_integral(lambda v, l: brdf.evaluate(_UP, v, l), cosine) for cosine in cosines]
+    return [_Integral(albedo, 0.0, (float(albedo.max()),)) for albedo in brdf.albedo(cosines)]
 
 
-def _unbiased(brdf: Brdf, up: Array, view: Array, points: Array, albedo: float) -> Tuple[float, str]:
+def _degrees(cosines: Array) -> str:
+    return ", ".join(f"{angle:.0f}" for angle in np.degrees(np.arccos(cosines))) + " degrees"
+
+
+def _no_more_than_one(text: str, cosines: Array, integrals: List[_Integral]) -> Verdict:
+    """The verdict of integrals that may not be above 1. `text` has a place for the largest."""
+    found = [integral.at_most_one() for integral in integrals]
+    if False in found:
+        worst = max((n for n, ok in enumerate(found) if ok is False), key=lambda n: integrals[n].most[-1])
+        text = f"{text.format(f'{integrals[worst].most[-1]:.4f}')}, at {_degrees(cosines[[worst]])}"
+        if integrals[worst].grows:
+            text += f"; denser rules give more and more, {integrals[worst]}: it has no end"
+        return Verdict(False, text)
+    if None in found:
+        unknown = np.array([ok is None for ok in found])
+        return Verdict(None, f"cannot be told at {_degrees(cosines[unknown])}: denser rules do not agree, but give "
+                       f"{integrals[int(np.argmax(unknown))]} at the first of these")
+    return Verdict(True, text.format(f"{max(integral.most[-1] for integral in integrals):.4f}"))
+
+
+def _own_albedo(brdf: Brdf, cosines: Array, furnace: List[_Integral]) -> Verdict:
+    """Whether what a function says of its albedo is its integral."""
+    try:
+        told = brdf.albedo(cosines)
+    except Error as error:
+        return Verdict(False, error.faults[0].what)
+    off = np.array([np.abs(albedo - integral.value).max() - 4 * integral.spread
+                    for albedo, integral in zip(told, furnace)])
+    i = int(np.argmax(off))
+    return Verdict(bool(off.max() <= _ENERGY), f"it says {told[i].max():.4f} at {_degrees(cosines[[i]])}"
+                   f", its integral is {furnace[i].value.max():.4f}")
+
+
+def _unbiased(brdf: Brdf, up: Array, view: Array, points: Array, integral: _Integral) -> Tuple[float, str]:
     """How many standard errors the mean of f n.l / pdf over the model's own samples is off its albedo."""
     light = brdf.sample(up, view, points)
     f = brdf.evaluate(up, view, light).max(axis=-1)
     pdf = brdf.pdf(up, view, light)
     if ((f > 0) & ~(pdf > 0)).any():
         return np.inf, "samples have pdf 0"
+    albedo = integral.most[-1]
     weight = np.where(pdf > 0, f / np.where(pdf > 0, pdf, 1), 0)
     error = abs(weight.mean() - albedo)
-    sigmas = error / (weight.std() / len(points)**0.5 + 1e-3 * albedo + 1e-12)
+    known = max(1e-3 * abs(albedo), integral.spread) + 1e-12
+    sigmas = error / (weight.std() / len(points)**0.5 + known)
     return float(sigmas), f"samples mean {weight.mean():.4f}, the albedo is {albedo:.4f}"
 
 
-def _sampler(brdf: Brdf, cosines: Array, furnace: Array, settled: Array) -> Verdict:
-    """Whether samples are unbiased, also where the normal is no axis, and the pdf is one."""
+# By what samples may differ from their pdf; see _moments.
+_MOMENTS = ("more or fewer are above the surface", "they are more or less steep",
+            "they are more or less on the viewer's side", "they are more or less to the sides",
+            "they are nearer to the mirror direction, or farther")
+
+
+def _moments(light: Array, mirror: Array) -> Array:
+    """Numbers from -1 to 1 by which distributions of directions over +z differ, of shape (..., 5)."""
+    z = light[..., 2]
+    moments: Array = (z[..., None] > 0) * np.stack(
+        [np.ones_like(z), z, light[..., 0], light[..., 1]**2, (light @ mirror)**8], axis=-1)
+    return moments
+
+
+def _sampler(brdf: Brdf, cosines: Array, furnace: List[_Integral]) -> Verdict:
+    """Whether samples are unbiased, also where the normal is no axis, and distributed as the pdf says,
+    which is nowhere below 0 and not above 1 in all."""
     rng = np.random.default_rng(7)
-    worst, found, turned_only, any_upright = 0.0, "unbiased", False, False
-    tellable = settled.copy()
-    for i, (cosine, albedo) in enumerate(zip(cosines, furnace.max(axis=1))):
-        at = f"at {np.degrees(np.arccos(cosine)):.0f} degrees "
-        view, around, weights = _hemisphere(float(cosine))
-        chance = float((brdf.pdf(_UP, view, around) * weights).sum())
-        if chance > 1 + _CHANCE:  # or the lobe is narrow for that rule
-            total, tellable[i] = _integral(lambda v, l: brdf.pdf(_UP, v, l)[..., None], cosine, _CHANCE)
-            chance = float(total[0])
-        if tellable[i] and chance > 1 + _CHANCE:
-            return Verdict(False, f"{at}its pdf is {chance:.4f} in all, more than 1")
-        if not settled[i]:
+    worst, found, least = 0.0, "unbiased, and where the pdf says", 0.0
+    turned_only, any_upright = False, False
+    chances: List[_Integral] = []
+    tellable = []
+    for cosine, integral in zip(cosines, furnace):
+        view = _hemisphere(float(cosine))[0]
+        mirror = view * [-1, -1, 1]
+
+        def pdf_of_moments(v: Array, l: Array) -> Array:
+            nonlocal least
+            pdf = brdf.pdf(_UP, v, l)
+            least = min(least, float(pdf.min()))
+            moments: Array = pdf[..., None] * _moments(l, mirror)
+            return moments
+        told = _integral(pdf_of_moments, float(cosine))
+        chances.append(told)
+        tellable.append(all(i.at_most_one() is not None and not i.grows for i in (integral, told)))
+        if not tellable[-1]:
             continue
-        upright, text = _unbiased(brdf, _UP, view, rng.random((8192, 2)), albedo)
-        turned, of_turned = _unbiased(brdf, _turned(_UP), _turned(view), rng.random((8192, 2)), albedo)
-        if max(upright, turned) > worst:
-            worst, found = max(upright, turned), at + (text if upright >= turned else of_turned)
-        turned_only |= turned >= _SIGMAS > upright
-        any_upright |= upright >= _SIGMAS
-    if turned_only and not any_upright:
-        found += ": only where the normal is not +z"
-    return Verdict(worst < _SIGMAS, found + _untold(cosines, tellable))
+        upright, text = _unbiased(brdf, _UP, view, rng.random((8192, 2)), integral)
+        turned, of_turned = _unbiased(brdf, _turned(_UP), _turned(view), rng.random((8192, 2)), integral)
+        got = _moments(brdf.sample(_UP, view, rng.random((8192, 2))), mirror)
+        off = np.abs(got.mean(axis=0) - told.value) / (
+            got.std(axis=0) / len(got)**0.5 + max(1e-3, told.spread))
+        placed = float(off.max())
+        most, what = max((upright, text), (turned, of_turned),
+                         (placed, f"samples are not where the pdf says: {_MOMENTS[int(np.argmax(off))]}"),
+                         key=lambda pair: pair[0])
+        if most >= max(worst, _SIGMAS):
+            found = f"at {_degrees(np.array([cosine]))} {what}"
+        worst = max(worst, most)
+        turned_only |= turned >= _SIGMAS > max(upright, placed)
+        any_upright |= max(upright, placed) >= _SIGMAS
+    if least < 0:
+        return Verdict(False, f"its pdf is {least:.4g} somewhere, below 0")
+    chance = _no_more_than_one("its pdf is {} in all, more than 1", cosines, chances)
+    if chance.ok is False:
+        return chance
+    if worst >= _SIGMAS:
+        only = ": only where the normal is not +z" if turned_only and not any_upright else ""
+        return Verdict(False, found + only)
+    if not all(tellable):
+        return Verdict(None, f"cannot be told at {_degrees(cosines[~np.array(tellable)])}: denser rules do not agree "
+                       "about the albedo or the pdf")
+    return Verdict(True, found)
 
 
 def _cost(brdf: Brdf) -> float:
@@ -297,7 +461,7 @@ def _energy_hint(furnace: Array, cosines: Array) -> str:
 def _hints(found: Check, known: List[str]) -> List[str]:
     """What may be wrong, of what is not right, and what is known of that."""
     hints = list(known)
-    wrong = {name for name, verdict in found.verdicts.items() if not verdict.ok}
+    wrong = {name for name, verdict in found.verdicts.items() if verdict.ok is False}
     if "reciprocal" in wrong:
         alone = found.values / np.cos(np.radians(found.theta_light))[:, None, None, None]
         if _relative(alone, alone.swapaxes(0, 1)).max() < _ROUNDING:
@@ -329,11 +493,15 @@ def check(model: Union[Function, Brdf], against: Union[str, Function, Brdf, None
     quiet: prints nothing.
 
     Verdicts: `finite`, `positive`; `reciprocal`: f(l, v) = f(v, l); `isotropic`: turning light,
-    viewer and normal changes nothing; `energy`: no albedo is above 1; `sampler`, of models with one:
-    the mean of f n.l / pdf over its samples is the albedo, also where the normal is no axis, and its
-    pdf is not above 1 in all; `agrees`, with `against`: within the tolerance at all angles. Where a
-    lobe is too narrow for the integrals of `energy` and `sampler`, the verdict says so, and does not
-    fail for it. An error of the function itself comes out of it.
+    viewer and normal changes nothing; `energy`: no albedo is above 1; `albedo`, of models that tell
+    theirs: it is the integral; `sampler`, of models with one: the mean of f n.l / pdf over its samples
+    is the albedo, also where the normal is no axis, samples are where the pdf says, and that is not
+    above 1 in all; `agrees`, with `against`: within the tolerance at all angles.
+
+    `energy` and `sampler` integrate by three rules. Where these do not agree, because a lobe is too
+    narrow for them or the integral has no end, the verdict is a failure if each of them is above 1, and
+    otherwise unknown; bool(found) is then False as well. What is not finite is named by `finite`, and
+    counts as 0 in the rest. An error of the function itself comes out of it.
     """
     brdf = model if isinstance(model, Brdf) else Brdf(model)
     other = (against if against is None or isinstance(against, Brdf) else
@@ -353,44 +521,60 @@ def check(model: Union[Function, Brdf], against: Union[str, Function, Brdf, None
         result: Array = of.evaluate(_UP, view, light) / cos_light
         return result
 
+    model_itself = brdf
+    brdf, watch = _watched(brdf)
+    of_other = None
+    if other is not None:
+        other, of_other = _watched(other)
     values = values_of(brdf)
-    verdicts = {"finite": Verdict(True, "at all angles")}
-    least = float(values.min())
-    verdicts["positive"] = Verdict(least >= 0, f"the least value is {least:.4g}")
+    brdf.evaluate(_UP, *_special_pairs())
+    brdf.evaluate(_turned(_UP), *(_turned(v) for v in _special_pairs()))
     swapped = brdf.evaluate(_UP, light, view) / cos_view
+    turned = brdf.evaluate(_turned(_UP), _turned(view), _turned(light)) / cos_light
+    cosines = np.cos(np.radians(np.array([0.5, 15, 30, 45, 60, 70, 80, 85, 88])))
+    furnace = _furnace(brdf, cosines)
+    image = _ball(brdf, size)
+    # Of all values that were asked for so far.
+    verdicts = {"finite": Verdict(True, "at all angles") if watch is None else watch.verdict()}
+    least = float(values.min()) if watch is None else watch.least
+    verdicts["positive"] = Verdict(least >= 0, f"the least value is {least:.4g}")
     asymmetry = _relative(values, swapped).max(axis=-1)
     verdicts["reciprocal"] = Verdict(
         bool(asymmetry.max() < _ROUNDING), f"f(l, v) and f(v, l) differ by {asymmetry.max():.1e} at "
         f"most, at {_worst(asymmetry, theta, theta, phi)}")
-    turned = brdf.evaluate(_turned(_UP), _turned(view), _turned(light)) / cos_light
     turning = _relative(values, turned).max(axis=-1)
     verdicts["isotropic"] = Verdict(
         bool(turning.max() < _ROUNDING),
         f"turned with its surface it differs by {turning.max():.1e} at most")
-    cosines = np.cos(np.radians(np.array([0.5, 15, 30, 45, 60, 70, 80, 85, 88])))
-    furnace, settled = _furnace(brdf, cosines)
-    most = float(furnace[settled].max(initial=0))
-    verdicts["energy"] = Verdict(most <= 1 + _ENERGY, f"reflects up to {most:.4f} of the light" +
-                                 _untold(cosines, settled))
+    verdicts["energy"] = _no_more_than_one("reflects up to {} of the light", cosines, furnace)
+    if watch is not None and watch.least == np.inf:
+        for name in "positive", "reciprocal", "isotropic", "energy":
+            verdicts[name] = Verdict(None, "no value is finite")
+    if brdf._albedo is not None:
+        verdicts["albedo"] = _own_albedo(brdf, cosines, furnace)
     if brdf._sample is not None:
-        verdicts["sampler"] = _sampler(brdf, cosines, furnace, settled)
+        try:
+            verdicts["sampler"] = _sampler(brdf, cosines, furnace)
+        except Error as refused:  # for what it returns
+            verdicts["sampler"] = Verdict(False, refused.faults[0].what)
     reference = error = furnace_reference = image_reference = comparison = None
-    image = _ball(brdf, size)
     if other is not None:
         reference = values_of(other)
-        error = (np.abs(values - reference) /
-                 np.where(reference > 0, reference, np.inf)).max(axis=-1)
-        error = np.where((reference <= 0).any(axis=-1) & (values > 0).any(axis=-1), np.inf, error)
+        off = np.abs(values - reference)
+        error = np.divide(off, np.abs(reference), out=np.where(off > 0, np.inf, 0.0),
+                          where=reference != 0).max(axis=-1)
         furnace_reference = other.albedo(cosines)
+        image_reference = _ball(other, size)
+        comparison = image.compare(image_reference, layers=["beauty"])
         verdicts["agrees"] = Verdict(
             bool(error.max() <= tolerance),
             f"differs by {error.max():.1e} at most, at {_worst(error, theta, theta, phi)}; half of "
             f"the angles by less than {np.median(error):.1e}")
-        image_reference = _ball(other, size)
-        comparison = image.compare(image_reference, layers=["beauty"])
+        if of_other is not None and of_other.not_finite:
+            verdicts["agrees"] = Verdict(False, f"the reference is not finite: {of_other.verdict().text}")
     found = Check(brdf.name, "" if other is None else other.name, theta, theta, phi, values, reference,
-                  error, cosines, furnace, furnace_reference, image, image_reference, comparison,
-                  verdicts, _cost(brdf), [])
+                  error, cosines, np.array([integral.value for integral in furnace]), furnace_reference, image, image_reference, comparison,
+                  verdicts, _cost(model_itself), [])
     known = (_other_roughness(values, against, parameters, tolerance, values_of)
              if isinstance(against, str) and not verdicts["agrees"].ok else [])
     found.hints = _hints(found, known)
