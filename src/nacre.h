@@ -177,12 +177,16 @@ class NACRE_API Scene {
   ~Scene();
 
   // Sets the value at a JSON pointer: Set("/materials/red/roughness", 0.2), Set("/image/spp", 64).
-  // Missing objects on the way are created.
+  // Missing objects on the way are created; for what is no pointer or no JSON, an element of a list
+  // or a material, light or texture that is not there, it throws Error, and nothing changes.
   void Set(const std::string& pointer, const Value& value);
   // The value at a JSON pointer, as the file and what was set since say it; none where neither
   // says anything and a default holds. "" is the whole scene, without what AddSphere and AddMesh
-  // have added. Of a model (glTF, OBJ, PLY) only what was set.
+  // have added. Of a model (glTF, OBJ, PLY) only what was set. Takes as long as what it returns is
+  // large, however much was set.
   std::optional<Value> Get(const std::string& pointer) const;
+  // Whether that is something else than null.
+  bool Has(const std::string& pointer) const;
   // The same for whole objects. One of the same name is replaced.
   void SetCamera(const Parameters& camera);
   void SetBackground(const Rgb& radiance);
@@ -201,6 +205,12 @@ class NACRE_API Scene {
 
   // Throws Error with everything that is wrong.
   void Check() const;
+
+  // The scene as bytes, of which FromBytes makes it again, in another process as well. Files that
+  // it names are not part of them. Throws Error for a scene that has a UserBrdf.
+  std::vector<uint8_t> ToBytes() const;
+  // Of bytes that ToBytes of the same version has made, and nobody has changed.
+  static Scene FromBytes(const std::vector<uint8_t>& bytes);
 
   size_t sphere_count() const;
   size_t mesh_count() const;
@@ -328,8 +338,7 @@ NACRE_API Image Render(const Scene& scene, const RenderSettings& settings = {},
 // A scene that is rendered again and again while it changes. What a change does not touch is not
 // read or made again: files, trees, tables of lights. Pictures have the bits that Render would give
 // them. One call at a time; Cancel alone may come from any thread. Files are read when the session
-// is made, and again only where a change touches what they are named in: after a texture or a model
-// has changed on disk, make a new one.
+// is made, and again by Reload, or where a change touches what they are named in.
 class NACRE_API Session {
  public:
   // Of a copy of the scene. Throws Error as Scene::Check does.
@@ -341,8 +350,15 @@ class NACRE_API Session {
   // As Scene::Set, but checked at once: throws Error with what is wrong, and the scene is then the
   // one before.
   void Set(const std::string& pointer, const Value& value);
-  // As Scene::Get.
+  // As Scene::Get and Scene::Has.
   std::optional<Value> Get(const std::string& pointer) const;
+  bool Has(const std::string& pointer) const;
+
+  // Reads the files again that have changed on disk of those that the scene names: textures,
+  // models, skies. Returns whether there were any. Values stay what they are; those of the scene's
+  // own file are read by Scene::FromFile alone. Throws Error where a file is wrong now: the scene
+  // is then the one before, and the next Reload tries again.
+  bool Reload();
 
   // Throws Error as Render does, and Cancelled.
   Image Render(const RenderSettings& settings = {}, RenderStats* stats = nullptr);

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // api/image.cc: images of the public API: to and from the library's own, and read from files.
+#include <cstdint>
+#include <limits>
+
 #include "api/border.h"
 #include "image_io/image_file.h"
 
@@ -34,6 +37,12 @@ Image ToPublic(nacre::Image&& image) {
 }
 
 void CheckImage(const Image& image) {
+  for (const Window& window : {image.frame, image.data}) {
+    const auto side = [](int from, int to) { return int64_t{to} - from; };
+    constexpr int64_t kLongest = std::numeric_limits<int>::max();
+    if (side(window.x0, window.x1) <= kLongest && side(window.y0, window.y1) <= kLongest) continue;
+    throw nacre::Error(ExitCode::kUsage, "image", "a window of it is larger than any image");
+  }
   const nacre::Window data = ToOwn(image.data);
   if (data.empty()) throw nacre::Error(ExitCode::kUsage, "image", "has no pixels");
   for (const Channel& channel : image.channels) {

@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // api/scene.cc: scenes of the public API.
 #include <algorithm>
+#include <filesystem>
+#include <utility>
 
 #include "api/scene_impl.h"
-#include "scene/fault_list.h"
 #include "scene_io/load_scene.h"
-#include "scene_io/text_file.h"
 
 namespace nacre::v0 {
-namespace {
-
-// What scene files may be long.
-constexpr uint64_t kMaxBytes = uint64_t{1} << 30;
-
-}  // namespace
 
 Scene::Scene() : impl_(std::make_unique<Impl>()) {}
 Scene::Scene(const Scene& other) : impl_(std::make_unique<Impl>(*other.impl_)) {}
@@ -28,41 +22,49 @@ Scene::~Scene() = default;
 Scene Scene::FromFile(const std::string& path) {
   return AtBorder([&] {
     Scene scene;
-    Impl::Source& source = scene.impl_->source;
+    Impl::Source source;
     source.allow_paths = false;
+    FaultList faults;
     if (IsModelFile(path)) {
-      source.model_path = path;
+      source.document = DocumentOfModel(path);
     } else {
-      source.text = ReadTextFile(path, kMaxBytes);
-      source.file = path;
-      source.folder = std::filesystem::path(path).parent_path();
+      RefuseOtherModels(path);
+      const std::string text = ReadSceneText(path);
+      source.document =
+          ParseDocument({text, path, std::filesystem::path(path).parent_path()}, &faults);
     }
-    scene.Check();
+    scene.impl_ = std::make_unique<Impl>(std::move(source), &faults);
     return scene;
   });
 }
 
 Scene Scene::FromJson(const std::string& text, const std::string& folder) {
-  Scene scene;
-  Impl::Source& source = scene.impl_->source;
-  source.allow_paths = false;
-  source.text = text;
-  source.folder = folder;
-  scene.Check();
-  return scene;
+  return AtBorder([&] {
+    Scene scene;
+    Impl::Source source;
+    source.allow_paths = false;
+    FaultList faults;
+    source.document = ParseDocument({text, "scene", folder}, &faults);
+    scene.impl_ = std::make_unique<Impl>(std::move(source), &faults);
+    return scene;
+  });
 }
 
 void Scene::Set(const std::string& pointer, const Value& value) {
-  impl_->source.overrides.emplace_back(pointer, value.json());
+  AtBorder([&] { PutValue(pointer, value.json(), &impl_->source.document); });
   impl_->Change();
 }
 
 std::optional<Value> Scene::Get(const std::string& pointer) const {
   return AtBorder([&]() -> std::optional<Value> {
-    std::optional<std::string> text = impl_->ValueAt(pointer);
-    if (!text) return std::nullopt;
-    return Value::Json(*std::move(text));
+    const std::optional<Json> value = ValueIn(impl_->source.document.tree, pointer);
+    if (!value) return std::nullopt;
+    return Value::Json(JsonText(*value));
   });
+}
+
+bool Scene::Has(const std::string& pointer) const {
+  return AtBorder([&] { return HasValueIn(impl_->source.document.tree, pointer); });
 }
 
 void Scene::SetCamera(const Parameters& camera) { Set("/camera", camera); }
@@ -74,8 +76,8 @@ void Scene::AddTexture(const std::string& name, const Parameters& texture) {
 }
 
 void Scene::AddMaterial(const std::string& name, const Parameters& material) {
-  impl_->source.user_brdfs.erase(name);
   Set("/materials/" + PointerToken(name), material);
+  impl_->source.user_brdfs.erase(name);
 }
 
 void Scene::AddMaterial(const std::string& name, const UserBrdf& brdf, const Parameters& rest) {
@@ -94,7 +96,7 @@ void Scene::AddLight(const std::string& name, const Parameters& light) {
 }
 
 void Scene::AddShape(const Parameters& shape) {
-  impl_->source.shapes.push_back(Value(shape).json());
+  AtBorder([&] { PutShape(Value(shape).json(), &impl_->source.document); });
   impl_->Change();
 }
 

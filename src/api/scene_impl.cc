@@ -1,40 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "api/scene_impl.h"
 
-#include <algorithm>
 #include <functional>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
 
 #include "scene/fault_list.h"
 #include "scene/validate.h"
-#include "scene_io/json_text.h"
 #include "scene_io/load_scene.h"
-#include "scene_io/model_scene.h"
-#include "scene_io/overrides.h"
-#include "scene_io/read_scene.h"
 
 namespace nacre::v0 {
 namespace {
 
-// The text of a scene file with shapes added to those that it has. Leaves a text that is no scene
-// to its reader.
-std::string WithShapes(const Scene::Impl::Source& source) {
-  FaultList faults;
-  Json root = ParseJson(source.text, source.file, &faults);
-  if (!root.is_object()) return source.text;
-  Json& shapes = root["shapes"];
-  if (shapes.is_null()) shapes = Json::array();
-  if (!shapes.is_array()) return source.text;
-  ThrowFaults(faults, source.file);
-  for (const std::string& shape : source.shapes) {
-    shapes.push_back(ParseJson(shape, "AddShape", &faults));
-    ThrowFaults(faults, "AddShape");
-  }
-  return JsonText(root);
-}
-
 LoadOptions OptionsOf(const Scene::Impl::Source& source) {
   LoadOptions options;
-  options.overrides = source.overrides;
   options.user_brdfs = source.user_brdfs;
   options.allow_paths = source.allow_paths;
   // A program may ask for what a stranger's file may not.
@@ -42,33 +22,22 @@ LoadOptions OptionsOf(const Scene::Impl::Source& source) {
   return options;
 }
 
-// The text of the source's scene file. Throws if it is a model that text cannot add to.
-std::string TextOf(const Scene::Impl::Source& source) {
-  if (source.shapes.empty()) return source.text;
-  if (source.model_path.empty()) return WithShapes(source);
-  throw nacre::Error(ExitCode::kUsage, source.model_path, "a model takes no shapes as parameters",
-                     "AddSphere and AddMesh work; or name the model in a mesh of a scene");
-}
-
-nacre::Scene Read(const Scene::Impl::Source& source) {
-  const std::string text = TextOf(source);
-  if (!source.model_path.empty()) return LoadScene(source.model_path, OptionsOf(source));
-  return LoadSceneText(text, source.file, source.folder, OptionsOf(source));
-}
-
 // The scene's materials of these names.
 std::vector<nacre::MaterialId> FindMaterials(const std::vector<std::string>& names,
                                              const nacre::Scene& scene) {
-  std::vector<std::string> known;
-  known.reserve(scene.materials.size());
-  for (const nacre::Material& material : scene.materials) known.push_back(material.name);
+  std::unordered_map<std::string_view, uint32_t> places;
+  for (const nacre::Material& material : scene.materials) {
+    places.try_emplace(material.name, static_cast<uint32_t>(places.size()));
+  }
   FaultList faults;
   std::vector<nacre::MaterialId> ids;
   ids.reserve(names.size());
   for (const std::string& name : names) {
-    const auto found = std::find(known.begin(), known.end(), name);
-    ids.push_back({static_cast<uint32_t>(found - known.begin())});
-    if (found != known.end()) continue;
+    const auto found = places.find(name);
+    ids.push_back(found != places.end() ? nacre::MaterialId{found->second} : nacre::MaterialId{});
+    if (found != places.end()) continue;
+    std::vector<std::string> known;
+    for (const nacre::Material& material : scene.materials) known.push_back(material.name);
     const std::string nearest = NearestName(name, known);
     faults.Add("material", "unknown material \"" + name + "\"",
                nearest.empty() ? "AddMaterial adds one" : "did you mean \"" + nearest + "\"?");
@@ -120,28 +89,25 @@ std::shared_ptr<const nacre::UserBrdf> ToOwn(const UserBrdf& brdf, const std::st
 nacre::LiveScene Scene::Impl::MakeLive(const Source& source) {
   std::function<void(nacre::Scene*)> append;
   if (!source.spheres.empty() || !source.meshes.empty()) {
-    append = [source](nacre::Scene* scene) { Append(source, scene); };
+    Source shapes;
+    shapes.names = source.names;
+    shapes.spheres = source.spheres;
+    shapes.meshes = source.meshes;
+    append = [shapes = std::move(shapes)](nacre::Scene* scene) { Append(shapes, scene); };
   }
-  const std::string text = TextOf(source);
-  if (!source.model_path.empty()) return {source.model_path, OptionsOf(source), append};
-  return {text, source.file, source.folder, OptionsOf(source), append};
+  return {source.document, OptionsOf(source), append};
 }
 
-std::optional<std::string> Scene::Impl::ValueAt(const std::string& pointer) const {
-  const LoadOptions options = OptionsOf(source);
-  if (!source.model_path.empty()) return nacre::ValueAt(pointer, OverridesOf(options).root);
-  FaultList faults;
-  const std::string text = TextOf(source);
-  SceneTree tree = ParseScene({text, source.file, source.folder}, options, &faults);
-  ThrowFaults(faults, source.file);
-  CompleteTree(pointer, &tree);
-  return nacre::ValueAt(pointer, tree.root);
+Scene::Impl::Impl(Source read, FaultList* faults) : source(std::move(read)) {
+  made_ = std::make_shared<nacre::Scene>(ReadDocument(source.document, OptionsOf(source), faults));
 }
 
 std::shared_ptr<const nacre::Scene> Scene::Impl::Made() const {
   const std::lock_guard lock(mutex_);
   if (made_) return made_;
-  auto scene = std::make_shared<nacre::Scene>(Read(source));
+  FaultList faults;
+  auto scene =
+      std::make_shared<nacre::Scene>(ReadDocument(source.document, OptionsOf(source), &faults));
   if (!source.spheres.empty() || !source.meshes.empty()) Append(source, scene.get());
   made_ = std::move(scene);
   return made_;
@@ -149,11 +115,9 @@ std::shared_ptr<const nacre::Scene> Scene::Impl::Made() const {
 
 nacre::MaterialId Scene::Impl::NameId(const std::string& name) {
   std::vector<std::string>& names = source.names;
-  // Shapes of one material mostly come together.
-  const auto found = std::find(names.rbegin(), names.rend(), name);
-  if (found != names.rend()) return {static_cast<uint32_t>(names.rend() - found - 1)};
-  names.push_back(name);
-  return {static_cast<uint32_t>(names.size() - 1)};
+  const auto [place, is_new] = source.places.try_emplace(name, static_cast<uint32_t>(names.size()));
+  if (is_new) names.push_back(name);
+  return {place->second};
 }
 
 }  // namespace nacre::v0

@@ -35,6 +35,18 @@ std::optional<Value> Session::Get(const std::string& pointer) const {
   });
 }
 
+bool Session::Has(const std::string& pointer) const {
+  return AtBorder([&] { return impl_->live.Has(pointer); });
+}
+
+bool Session::Reload() {
+  return AtBorder([&] {
+    const SceneParts changed = impl_->live.ReadNamedFiles();
+    impl_->prepared.versions.Change(changed);
+    return !changed.empty();
+  });
+}
+
 Image Session::Render(const RenderSettings& settings, RenderStats* stats) {
   return RenderProgressively(settings, {}, stats);
 }

@@ -11,6 +11,7 @@
 
 #include "python/guard.h"
 #include "python/scene.h"
+#include "python/sealed.h"
 
 namespace nacre_python {
 namespace {
@@ -26,8 +27,22 @@ std::array<const double*, 3> VectorsOf(const Planes& planes) {
   return {planes.data(), planes.data() + count, planes.data() + 2 * count};
 }
 
+// The package passes nothing else; what it holds can be changed under it.
+void RequireShape(const py::array& array, size_t rows, size_t columns) {
+  const bool right = array.ndim() == 2 && static_cast<size_t>(array.shape(0)) == rows &&
+                     static_cast<size_t>(array.shape(1)) == columns;
+  if (!right) {
+    throw py::value_error("nacre: an array is not of the shape (" + std::to_string(rows) + ", " +
+                          std::to_string(columns) + ")");
+  }
+}
+
 nacre::Directions DirectionsOf(const Planes& normal, const Planes& to_view,
                                const Planes& to_light) {
+  if (normal.ndim() != 2) throw py::value_error("nacre: an array has not two axes");
+  for (const Planes* const planes : {&normal, &to_view, &to_light}) {
+    RequireShape(*planes, 3, static_cast<size_t>(normal.shape(1)));
+  }
   return {static_cast<size_t>(normal.shape(1)), VectorsOf(normal), VectorsOf(to_view),
           VectorsOf(to_light)};
 }
@@ -88,7 +103,9 @@ void CopyRows(const Rows& rows, size_t begin, size_t count, double* planes, size
 // the sum, or both components.
 py::object ShadeRows(const nacre::Brdf& brdf, const Rows& normal, const Rows& to_view,
                      const Rows& to_light, bool components) {
+  if (normal.ndim() != 2) throw py::value_error("nacre: an array has not two axes");
   const auto count = static_cast<size_t>(normal.shape(0));
+  for (const Rows* const rows : {&normal, &to_view, &to_light}) RequireShape(*rows, count, 3);
   const size_t stride = std::min<size_t>(50000, count);
   py::array_t<float> sum({count, size_t{3}}), specular({components ? count : 0, size_t{3}});
   float* const to = sum.mutable_data();
@@ -175,6 +192,7 @@ py::object Columns(size_t count, const std::array<const double*, kColumns>& from
 
 void CopyPlanes(const py::object& result, size_t count, const std::array<double*, 3>& to) {
   const Planes planes = result;
+  RequireShape(planes, 3, count);
   for (size_t c = 0; c < 3; ++c) {
     std::memcpy(to[c], planes.data() + c * count, count * sizeof(double));
   }
@@ -205,6 +223,9 @@ nacre::UserBrdf UserBrdfOf(const py::object& evaluate, const py::object& sample,
       const Call call;
       const Planes values = function(Columns<3>(d.count, d.normal), Columns<3>(d.count, d.to_view),
                                      Columns<3>(d.count, d.to_light));
+      if (static_cast<size_t>(values.size()) != d.count) {
+        throw py::value_error("nacre: a pdf is not one number for each sample");
+      }
       std::memcpy(out, values.data(), d.count * sizeof(double));
     };
   }
@@ -212,40 +233,47 @@ nacre::UserBrdf UserBrdfOf(const py::object& evaluate, const py::object& sample,
 }
 
 void BindBrdfs(py::module_* module) {
-  py::class_<nacre::Brdf>(*module, "Brdf")
-      .def(py::init([](const std::string& model, const Members& members) {
-        return nacre::Brdf(model, ParametersOf(members));
-      }))
-      .def(py::init([](const Scene& scene, const std::string& material) {
-        const Use use(&scene.users, Use::kShared, "Scene");
-        return nacre::Brdf(scene.scene, material);
-      }))
+  py::class_<nacre::Brdf> brdfs(*module, "Brdf");
+  brdfs
+      .def_static("of_model",
+                  [](const std::string& model, const Members& members) {
+                    return nacre::Brdf(model, ParametersOf(members));
+                  })
+      .def_static("of_material",
+                  [](const Scene& scene, const std::string& material) {
+                    const Use use(&scene.users, Use::kShared, "Scene");
+                    return nacre::Brdf(scene.scene, material);
+                  })
       .def("evaluate",
            [](const nacre::Brdf& brdf, const Planes& n, const Planes& v, const Planes& l) {
+             const nacre::Directions directions = DirectionsOf(n, v, l);
              nacre::ExactReflections result;
              {
                const py::gil_scoped_release release;
-               result = brdf.Evaluate(DirectionsOf(n, v, l));
+               result = brdf.Evaluate(directions);
              }
              return py::make_tuple(ArrayOf(result.diffuse), ArrayOf(result.specular));
            })
       .def("shade", &ShadeRows)
       .def("sample",
            [](const nacre::Brdf& brdf, const Planes& n, const Planes& v, const Planes& points) {
+             const nacre::Directions directions = DirectionsOf(n, v, v);
+             RequireShape(points, 2, directions.count);
              std::array<std::vector<double>, 3> result;
              {
                const py::gil_scoped_release release;
                const double* const u = points.data();
-               result = brdf.Sample(DirectionsOf(n, v, v), u, u + points.shape(1));
+               result = brdf.Sample(directions, u, u + directions.count);
              }
              return ArrayOf(result);
            })
       .def("pdf",
            [](const nacre::Brdf& brdf, const Planes& n, const Planes& v, const Planes& l) {
+             const nacre::Directions directions = DirectionsOf(n, v, l);
              std::vector<double> result;
              {
                const py::gil_scoped_release release;
-               result = brdf.Pdf(DirectionsOf(n, v, l));
+               result = brdf.Pdf(directions);
              }
              return ArrayOf(result);
            })
@@ -262,14 +290,16 @@ void BindBrdfs(py::module_* module) {
              return ArrayOf(result);
            })
       .def("terms", [](const nacre::Brdf& brdf, const Planes& n, const Planes& v, const Planes& l) {
+        const nacre::Directions directions = DirectionsOf(n, v, l);
         nacre::MicrofacetTerms terms;
         {
           const py::gil_scoped_release release;
-          terms = brdf.Terms(DirectionsOf(n, v, l));
+          terms = brdf.Terms(directions);
         }
         return py::make_tuple(ArrayOf(terms.d), ArrayOf(terms.g), ArrayOf(terms.f),
                               ArrayOf(terms.lambda_view), ArrayOf(terms.lambda_light));
       });
+  Seal(brdfs);
 }
 
 }  // namespace nacre_python

@@ -23,6 +23,12 @@ nacre::Window WindowOf(const py::handle& tuple) {
   return {x0, y0, x1, y1};
 }
 
+// Whether a window has the width and height of channels.
+bool SpansOf(const nacre::Window& window, const py::array& block) {
+  return int64_t{window.x1} - window.x0 == block.shape(2) &&
+         int64_t{window.y1} - window.y0 == block.shape(1);
+}
+
 py::array_t<uint8_t> PixelsOf(const nacre::Picture& picture) {
   py::array_t<uint8_t> pixels({picture.height, picture.width, 4});
   std::copy(picture.rgba.begin(), picture.rgba.end(), pixels.mutable_data());
@@ -143,6 +149,13 @@ nacre::Image FromPython(const py::object& image) {
   std::vector<std::string> names;
   for (const py::handle name : image.attr("_names")) names.push_back(BytesOf(name));
   const auto types = image.attr("_types").cast<std::vector<std::string>>();
+  // Whatever has been done to the members of an image: each is held to the others.
+  const bool is_whole = block.ndim() == 3 && static_cast<size_t>(block.shape(0)) == names.size() &&
+                        types.size() == names.size() && SpansOf(result.data, block) &&
+                        result.frame.x0 <= result.frame.x1 && result.frame.y0 <= result.frame.y1;
+  if (!is_whole) {
+    throw py::value_error("nacre: the names, types, windows and samples of an image do not fit");
+  }
   const size_t count = static_cast<size_t>(block.shape(1) * block.shape(2));
   const float* from = block.data();
   for (size_t i = 0; i < names.size(); ++i, from += count) {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // python/module.cc: the module _nacre, on which the package nacre stands: nothing here is for
 // users.
+#include <utility>
+
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <unistd.h>
 
 #include "nacre.h"
 #include "python/brdf.h"
@@ -47,7 +50,8 @@ PYBIND11_MODULE(_nacre, module) {
   module.def("set_target", &nacre::SetTarget);
   module.def("scene_schema", &nacre::SceneSchema);
   module.def("stop_all", &Running::StopAll);
-  module.def("after_fork", [] {
+  module.def("after_fork", [process = getpid()]() mutable {
+    if (std::exchange(process, getpid()) == getpid()) return;  // here renders may run
     FunctionLock::Reset();
     Running::Reset();
   });

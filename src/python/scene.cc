@@ -9,6 +9,7 @@
 
 #include "python/brdf.h"
 #include "python/image.h"
+#include "python/sealed.h"
 
 namespace nacre_python {
 namespace {
@@ -131,6 +132,19 @@ class Session {
     return value->json();
   }
 
+  bool Has(const std::string& pointer) const {
+    const Use use(&users_, Use::kShared, "Session");
+    Open();
+    return session_->Has(pointer);
+  }
+
+  bool Reload() {
+    const Use use(&users_, Use::kAlone, "Session");
+    Open();
+    const py::gil_scoped_release release;
+    return session_->Reload();
+  }
+
   py::object Render(const py::dict& dict, const py::object& on_progress, const py::object& show) {
     nacre::RenderSettings settings = SettingsOf(dict);
     const Use use(&users_, Use::kAlone, "Session");
@@ -181,8 +195,11 @@ class Session {
 }  // namespace
 
 void BindScenes(py::module_* module) {
-  py::class_<Scene>(*module, "Scene")
-      .def(py::init<>())
+  py::class_<Scene> scene(*module, "Scene");
+  scene.def_static("empty",
+                   [] {
+                     return Scene{nacre::Scene(), {}};
+                   })
       .def_static("from_file",
                   [](const std::string& path) {
                     const py::gil_scoped_release release;
@@ -193,6 +210,18 @@ void BindScenes(py::module_* module) {
                     const py::gil_scoped_release release;
                     return Scene{nacre::Scene::FromJson(text, folder), {}};
                   })
+      .def_static("from_bytes",
+                  [](const py::bytes& bytes) {
+                    const std::string text = bytes;
+                    const py::gil_scoped_release release;
+                    return Scene{nacre::Scene::FromBytes({text.begin(), text.end()}), {}};
+                  })
+      .def("to_bytes",
+           [](const Scene& self) {
+             const Use use(&self.users, Use::kShared, "Scene");
+             const std::vector<uint8_t> bytes = self.scene.ToBytes();
+             return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+           })
       .def("copy",
            [](const Scene& self) {
              return Scene{self.scene, {}};
@@ -208,6 +237,8 @@ void BindScenes(py::module_* module) {
              if (!value) return std::nullopt;
              return value->json();
            })
+      .def("has",
+           [](const Scene& self, const std::string& pointer) { return self.scene.Has(pointer); })
       .def("add_user_material",
            [](Scene& self, const std::string& name, const py::object& evaluate,
               const py::object& sample, const py::object& pdf, const Members& members) {
@@ -257,13 +288,17 @@ void BindScenes(py::module_* module) {
       .def("material_names", [](const Scene& self) { return self.scene.material_names(); })
       .def("light_names", [](const Scene& self) { return self.scene.light_names(); })
       .def("render", &Render);
-  py::class_<Session>(*module, "Session")
-      .def(py::init<const Scene&>())
+  Seal(scene);
+  py::class_<Session> session(*module, "Session");
+  session.def_static("of", [](const Scene& of) { return std::make_unique<Session>(of); })
       .def("set", &Session::Set)
       .def("get", &Session::Get)
+      .def("has", &Session::Has)
+      .def("reload", &Session::Reload)
       .def("render", &Session::Render)
       .def("cancel", &Session::Cancel)
       .def("close", &Session::Close);
+  Seal(session);
 }
 
 }  // namespace nacre_python

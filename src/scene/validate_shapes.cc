@@ -112,13 +112,15 @@ void ValidateTangents(const Mesh& mesh, const std::string& where, FaultList* fau
 
 void ValidateIndices(const Mesh& mesh, const std::string& where, FaultList* faults) {
   if (mesh.triangles.empty() || mesh.triangles.size() % 3 != 0) {
-    faults->Add(where + "/triangles", fmt::format("{} indices", mesh.triangles.size()),
-                "three for each triangle, and at least one triangle");
+    faults->Add(
+        where + "/triangles",
+        mesh.triangles.empty() ? "no triangles" : fmt::format("{} indices", mesh.triangles.size()),
+        "three for each triangle, and at least one triangle");
     return;
   }
   for (size_t i = 0; i < mesh.triangles.size(); ++i) {
     if (mesh.triangles[i] < mesh.positions.size()) continue;
-    faults->Add(fmt::format("{}/triangles/{}", where, i),
+    faults->Add(fmt::format("{}/triangles/{}", where, i / 3),
                 fmt::format("there is no position {}", mesh.triangles[i]),
                 fmt::format("the mesh has {}", mesh.positions.size()));
     return;

@@ -236,7 +236,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
 
   void TakePlainSpheres() {
     Level& shapes = levels_.back();
-    SphereRun run{shapes.value->size() + shapes.plain, {}};
+    SphereRun run{shapes.value->size() + shapes.plain, {}, shapes.value->size()};
     while (const std::optional<Sphere> sphere = sphere_reader_.Next(&reached_, end_)) {
       run.spheres.push_back(*sphere);
       TellProgress();

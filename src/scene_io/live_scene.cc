@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <utility>
 
 #include "scene/hash.h"
@@ -102,11 +103,28 @@ LiveScene::LiveScene(const std::filesystem::path& path, LoadOptions options,
   RefuseOtherModels(path);
   if (IsModelFile(path)) {
     files_.Add(path, SceneParts::All());
-    ReadModelFile();
+    ReadModelFile(OverridesOf(options_));
   } else {
     files_.Add(path, {});  // the trees tell what has changed
     ReadText(ReadSceneText(path));
   }
+}
+
+LiveScene::LiveScene(SceneDocument document, LoadOptions options,
+                     std::function<void(Scene*)> complete)
+    : path_(std::move(document.model)),
+      options_(std::move(options)),
+      file_(std::move(document.file)),
+      folder_(std::move(document.folder)),
+      bytes_(document.bytes),
+      complete_(std::move(complete)) {
+  if (!path_.empty()) {
+    files_.Add(path_, SceneParts::All());
+    ReadModelFile({std::move(document.tree.root), document.own_lights});
+    return;
+  }
+  tree_ = std::move(document.tree);
+  ReadAgain(SceneParts::All());
 }
 
 SceneTree LiveScene::Parse(std::string_view text) const {
@@ -126,10 +144,9 @@ void LiveScene::ReadText(std::string_view text) {
   ReadAgain(SceneParts::All());
 }
 
-void LiveScene::ReadModelFile() {
+void LiveScene::ReadModelFile(ModelOverrides overrides) {
   model_.emplace();
   model_->scene = ReadModel(path_, Watching(), &model_->has_camera);
-  ModelOverrides overrides = OverridesOf(options_);
   tree_.root = std::move(overrides.root);
   model_->own_lights = overrides.own_lights;
   SwapParts(ScenePart::kShapes, &scene_, &model_->scene);
@@ -166,6 +183,22 @@ SceneParts LiveScene::ReadChangedFiles() {
   }
 }
 
+SceneParts LiveScene::ReadNamedFiles() {
+  files_.Changed(std::chrono::milliseconds(0));
+  const SceneParts touched = files_.ChangedParts();
+  if (touched.empty()) return touched;
+  if (!model_) {
+    const SceneParts parts = ReadAgain(WithMaterials(touched));
+    files_.ForgetChanges();
+    return parts;
+  }
+  LiveScene fresh({path_, file_, folder_, bytes_, tree_, model_->own_lights}, Watching(),
+                  complete_);
+  fresh.options_.on_file = std::move(options_.on_file);
+  *this = std::move(fresh);
+  return SceneParts::All();
+}
+
 LoadOptions LiveScene::Watching() {
   LoadOptions options = options_;
   options.on_file = [this](const std::filesystem::path& file) {
@@ -193,11 +226,8 @@ SceneParts LiveScene::Set(const std::string& pointer, const std::string& json) {
 }
 
 std::optional<std::string> LiveScene::Get(const std::string& pointer) const {
-  const bool of_spheres = pointer.empty() || pointer.starts_with("/shapes");
-  if (!of_spheres || tree_.spheres.runs.empty()) return ValueAt(pointer, tree_.root);
-  SceneTree whole = tree_;
-  CompleteTree(pointer, &whole);
-  return ValueAt(pointer, whole.root);
+  const std::optional<Json> value = ValueIn(tree_, pointer);
+  return value ? std::optional(JsonText(*value)) : std::nullopt;
 }
 
 SceneParts LiveScene::ReadAgain(SceneParts touched, bool one_material) {

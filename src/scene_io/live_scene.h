@@ -17,7 +17,9 @@
 #include "scene_io/json_text.h"
 #include "scene_io/kept_files.h"
 #include "scene_io/load_scene.h"
+#include "scene_io/model_scene.h"
 #include "scene_io/read_scene.h"
+#include "scene_io/scene_document.h"
 #include "scene_io/watched_files.h"
 
 namespace nacre {
@@ -39,6 +41,10 @@ class LiveScene {
   // The text of a scene file, with LoadSceneText's arguments.
   LiveScene(std::string_view text, std::string file, std::filesystem::path folder,
             LoadOptions options, std::function<void(Scene*)> complete = {});
+
+  // A document, whose values and changes are never read again, but the files that it names are. The
+  // options' overrides and environment are not looked at.
+  LiveScene(SceneDocument document, LoadOptions options, std::function<void(Scene*)> complete = {});
 
   const Scene& scene() const { return scene_; }
 
@@ -62,9 +68,16 @@ class LiveScene {
   // is then the one before. Only of a scene that was read from a file.
   SceneParts ReadChangedFiles();
 
+  // The same of the files that the scene names, a model's own included, at once: those that are
+  // different now. What Set has put stays.
+  SceneParts ReadNamedFiles();
+
   // The value where `pointer` points, as JSON text, of a model only what Set and the options have
   // put there; nothing if there is none. Throws Error (kUsage) for what is no pointer.
   std::optional<std::string> Get(const std::string& pointer) const;
+
+  // Whether that is something else than null.
+  bool Has(const std::string& pointer) const { return HasValueIn(tree_, pointer); }
 
   // Renders it with other settings than its own, until the next change of those. Nothing else
   // follows: a model's camera stays.
@@ -75,7 +88,7 @@ class LiveScene {
 
  private:
   void ReadText(std::string_view text);
-  void ReadModelFile();
+  void ReadModelFile(ModelOverrides overrides);
   SceneTree Parse(std::string_view text) const;
   LoadOptions Watching();  // options_ of a model that put each file into files_; while this stays
   // `one_material`: of those of the file nothing but one has changed.

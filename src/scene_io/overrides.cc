@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -23,31 +24,6 @@ namespace {
 
 [[noreturn]] void RefuseOverride(const std::string& pointer, std::string what, std::string hint) {
   throw Error(ExitCode::kUsage, pointer, std::move(what), std::move(hint));
-}
-
-// The element of an array of `size` that a pointer's token names: RFC 6901 allows no leading zeros.
-std::optional<size_t> ElementOf(const std::string& token, size_t size) {
-  size_t index = 0;
-  const char* const last = token.data() + token.size();
-  const auto [end, error] = std::from_chars(token.data(), last, index);
-  const bool is_number = error == std::errc() && end == last && (token == "0" || token[0] != '0');
-  return is_number && index < size ? std::optional(index) : std::nullopt;
-}
-
-// The names that a pointer is made of, unescaped.
-std::vector<std::string> TokensOf(const std::string& pointer) {
-  try {
-    Json::json_pointer rest(pointer);
-    std::vector<std::string> tokens;
-    for (; !rest.empty(); rest.pop_back()) tokens.push_back(rest.back());
-    std::reverse(tokens.begin(), tokens.end());
-    if (tokens.size() <= kMaxJsonDepth) return tokens;
-  } catch (const Json::exception&) {
-    RefuseOverride(pointer, "is not a JSON pointer",
-                   "for example /image/spp or /materials/gold/roughness");
-  }
-  RefuseOverride(pointer.substr(0, 40) + "...",
-                 fmt::format("is deeper than {} levels", kMaxJsonDepth), {});
 }
 
 // The number that a text means though JSON has another form for it: .5, 1. or +2.
@@ -70,11 +46,6 @@ std::optional<Json> LooseNumber(std::string_view text) {
                      : fmt::format("{} is wanted there", wanted));
 }
 
-Json ParseValue(const std::string& pointer, const std::string& text) {
-  if (std::optional<Json> value = TryParseJson(text)) return *std::move(value);
-  RefuseText(pointer, text, {});
-}
-
 // The parts of a scene whose entries have names, and the key that an entry cannot do without.
 struct NamedPart {
   const char* part;
@@ -94,20 +65,26 @@ std::vector<std::string> NamesIn(const Json& root, const char* part) {
   return names;
 }
 
+// The part whose entry these tokens point into; nullptr if that is none.
+const NamedPart* PartOfEntry(std::span<const std::string> tokens) {
+  if (tokens.size() < 3) return nullptr;
+  const auto found = std::find_if(kNamedParts.begin(), kNamedParts.end(),
+                                  [&](const NamedPart& named) { return tokens[0] == named.part; });
+  return found != kNamedParts.end() ? &*found : nullptr;
+}
+
 // An entry that overrides have made, and without what makes it one, is a name that was mistyped.
-// `names`: those that there were.
-void CheckEntryExists(const std::string& pointer, const NamedPart& named,
-                      const std::vector<std::string>& names, const Json& root) {
-  const std::vector<std::string> tokens = TokensOf(pointer);
-  if (tokens.size() < 3 || tokens[0] != named.part) return;
-  if (std::find(names.begin(), names.end(), tokens[1]) != names.end()) return;
-  const auto part = root.find(named.part);
-  const bool is_whole = part == root.end() || !part->contains(tokens[1]) ||
-                        part->at(tokens[1]).contains(named.required);
-  if (is_whole) return;
+bool IsMistyped(std::span<const std::string> tokens, const NamedPart& named, const Json& root) {
+  const Json* const entry = FindValue(tokens.first(2), root);
+  return entry != nullptr && !entry->contains(named.required);
+}
+
+// `names`: those that there are.
+[[noreturn]] void RefuseEntry(const std::string& pointer, const std::string& name,
+                              const NamedPart& named, const std::vector<std::string>& names) {
   std::vector<std::string> shown;
-  for (const std::string& name : names) shown.push_back(Excerpt(name));
-  RefuseOverride(pointer, fmt::format("there is no {} \"{}\"", named.entry, Excerpt(tokens[1])),
+  for (const std::string& known : names) shown.push_back(Excerpt(known));
+  RefuseOverride(pointer, fmt::format("there is no {} \"{}\"", named.entry, Excerpt(name)),
                  names.empty() ? fmt::format("the scene has no {}", named.part)
                                : fmt::format("the scene has {}", fmt::join(shown, ", ")));
 }
@@ -125,6 +102,35 @@ Json* Step(const std::string& pointer, const std::string& token, Json* parent) {
 }
 
 }  // namespace
+
+// RFC 6901 allows no leading zeros.
+std::optional<size_t> ElementOf(const std::string& token, size_t size) {
+  size_t index = 0;
+  const char* const last = token.data() + token.size();
+  const auto [end, error] = std::from_chars(token.data(), last, index);
+  const bool is_number = error == std::errc() && end == last && (token == "0" || token[0] != '0');
+  return is_number && index < size ? std::optional(index) : std::nullopt;
+}
+
+std::vector<std::string> TokensOf(const std::string& pointer) {
+  try {
+    Json::json_pointer rest(pointer);
+    std::vector<std::string> tokens;
+    for (; !rest.empty(); rest.pop_back()) tokens.push_back(rest.back());
+    std::reverse(tokens.begin(), tokens.end());
+    if (tokens.size() <= kMaxJsonDepth) return tokens;
+  } catch (const Json::exception&) {
+    RefuseOverride(pointer, "is not a JSON pointer",
+                   "for example /image/spp or /materials/gold/roughness");
+  }
+  RefuseOverride(pointer.substr(0, 40) + "...",
+                 fmt::format("is deeper than {} levels", kMaxJsonDepth), {});
+}
+
+Json ParseValue(const std::string& pointer, const std::string& text) {
+  if (std::optional<Json> value = TryParseJson(text)) return *std::move(value);
+  RefuseText(pointer, text, {});
+}
 
 std::string JsonOfTyped(const std::string& pointer, const std::string& text) {
   const std::optional<Json> value = TryParseJson(text);
@@ -153,27 +159,34 @@ void ApplyOverride(const std::string& pointer, const std::string& text, Json* ro
   ReplaceValue(pointer, text, root);
 }
 
-std::optional<std::string> ValueAt(const std::string& pointer, const Json& root) {
+const Json* FindValue(std::span<const std::string> tokens, const Json& root) {
   const Json* place = &root;
-  for (const std::string& token : TokensOf(pointer)) {
-    if (place->is_object() && place->contains(token)) {
-      place = &place->at(token);
-    } else if (const auto element = ElementOf(token, place->is_array() ? place->size() : 0)) {
-      place = &place->at(*element);
+  for (const std::string& token : tokens) {
+    if (place->is_object()) {
+      const auto member = place->find(token);
+      if (member == place->end()) return nullptr;
+      place = &*member;
     } else {
-      return std::nullopt;
+      const auto element = ElementOf(token, place->is_array() ? place->size() : 0);
+      if (!element) return nullptr;
+      place = &(*place)[*element];
     }
   }
-  return JsonText(*place);
+  return place;
 }
 
 Replaced ReplaceValue(const std::string& pointer, const std::string& text, Json* root) {
+  return ReplaceValue(pointer, TokensOf(pointer), text, root);
+}
+
+Replaced ReplaceValue(const std::string& pointer, std::span<const std::string> tokens,
+                      const std::string& text, Json* root) {
   Json value = ParseValue(pointer, text);
   Replaced replaced;
   bool made = false;  // from here on nothing was there
   Json* place = root;
   try {
-    for (const std::string& token : TokensOf(pointer)) {
+    for (const std::string& token : tokens) {
       if (!made && place->is_null()) {
         replaced.value = nullptr;
         made = true;
@@ -207,18 +220,14 @@ void PutBack(Replaced replaced, Json* root) {
 }
 
 Replaced ReplaceInFile(const std::string& pointer, const std::string& text, Json* root) {
-  std::array<std::vector<std::string>, kNamedParts.size()> names;
-  for (size_t i = 0; i < names.size(); ++i) names[i] = NamesIn(*root, kNamedParts[i].part);
+  const std::vector<std::string> tokens = TokensOf(pointer);
+  const NamedPart* const named = PartOfEntry(tokens);
+  const bool was_there =
+      named == nullptr || FindValue(std::span(tokens).first(2), *root) != nullptr;
   Replaced replaced = ReplaceValue(pointer, text, root);
-  try {
-    for (size_t i = 0; i < names.size() && root->is_object(); ++i) {
-      CheckEntryExists(pointer, kNamedParts[i], names[i], *root);
-    }
-  } catch (const Error&) {
-    PutBack(std::move(replaced), root);
-    throw;
-  }
-  return replaced;
+  if (was_there || !IsMistyped(tokens, *named, *root)) return replaced;
+  PutBack(std::move(replaced), root);
+  RefuseEntry(pointer, tokens[1], *named, NamesIn(*root, named->part));
 }
 
 void ApplyOptions(const LoadOptions& options, Json* root) {
@@ -240,14 +249,15 @@ void ApplyOptions(const LoadOptions& options, Json* root) {
 
 void ApplyOptionsToFile(const LoadOptions& options, Json* root) {
   std::array<std::vector<std::string>, kNamedParts.size()> names;
-  for (size_t i = 0; i < names.size() && root->is_object(); ++i) {
-    names[i] = NamesIn(*root, kNamedParts[i].part);
-  }
+  for (size_t i = 0; i < names.size(); ++i) names[i] = NamesIn(*root, kNamedParts[i].part);
   ApplyOptions(options, root);
   for (const auto& [pointer, value] : options.overrides) {
-    for (size_t i = 0; i < names.size() && root->is_object(); ++i) {
-      CheckEntryExists(pointer, kNamedParts[i], names[i], *root);
-    }
+    const std::vector<std::string> tokens = TokensOf(pointer);
+    const NamedPart* const named = PartOfEntry(tokens);
+    if (named == nullptr || !IsMistyped(tokens, *named, *root)) continue;
+    const auto& known = names[static_cast<size_t>(named - kNamedParts.data())];
+    const bool was_there = std::find(known.begin(), known.end(), tokens[1]) != known.end();
+    if (!was_there) RefuseEntry(pointer, tokens[1], *named, known);
   }
 }
 

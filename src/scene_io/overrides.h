@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,9 @@
 #include "scene_io/text_file.h"
 
 namespace nacre {
+
+// The value that `text` is JSON for. Throws Error (kUsage), which names the pointer, if it is none.
+Json ParseValue(const std::string& pointer, const std::string& text);
 
 // Puts the value that `text` is JSON for where `pointer` points. Objects on the way that are
 // missing are made; places in arrays must exist. Throws Error (kUsage) if that cannot be done.
@@ -22,9 +26,14 @@ void ApplyOverride(const std::string& pointer, const std::string& text, Json* ro
 // `null` stays null. Throws Error (kUsage), which tells what is wanted there, for what is neither.
 std::string JsonOfTyped(const std::string& pointer, const std::string& text);
 
-// The value where `pointer` points as JSON text; nothing if there is none. Throws Error (kUsage)
-// for what is no pointer.
-std::optional<std::string> ValueAt(const std::string& pointer, const Json& root);
+// The names that a pointer is made of, unescaped. Throws Error (kUsage) for what is no pointer.
+std::vector<std::string> TokensOf(const std::string& pointer);
+
+// The element of an array of `size` that a pointer's token names; nothing if it names none.
+std::optional<size_t> ElementOf(const std::string& token, size_t size);
+
+// The value where these tokens of a pointer lead to; nullptr if there is none.
+const Json* FindValue(std::span<const std::string> tokens, const Json& root);
 
 // What an override has replaced.
 struct Replaced {
@@ -33,6 +42,9 @@ struct Replaced {
 };
 // The same, and returns what was there.
 Replaced ReplaceValue(const std::string& pointer, const std::string& text, Json* root);
+// The same by tokens that start at `root`; errors tell the whole pointer.
+Replaced ReplaceValue(const std::string& pointer, std::span<const std::string> tokens,
+                      const std::string& text, Json* root);
 // Puts it back, right after ReplaceValue.
 void PutBack(Replaced replaced, Json* root);
 

@@ -20,6 +20,7 @@ namespace nacre {
 struct SphereRun {
   size_t first = 0;             // the place of the first in the array
   std::vector<Sphere> spheres;  // their materials are places in PlainSpheres::materials
+  size_t in_tree = 0;           // how many shapes before it are in the tree
 };
 
 struct PlainSpheres {

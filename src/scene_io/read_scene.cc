@@ -2,7 +2,9 @@
 #include "scene_io/read_scene.h"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -134,6 +136,48 @@ void AddValidation(const Scene& scene, SceneParts parts, FaultList* faults) {
 }
 
 }  // namespace
+
+std::optional<Json> ValueIn(const SceneTree& tree, const std::string& pointer) {
+  const std::vector<std::string> tokens = TokensOf(pointer);
+  std::span<const std::string> rest(tokens);
+  const auto copy_in = [&](const Json& from) {
+    std::optional<Json> copy;
+    if (const Json* const found = FindValue(rest, from)) copy.emplace(*found);
+    return copy;
+  };
+  const std::vector<SphereRun>& runs = tree.spheres.runs;
+  if (runs.empty() || (!rest.empty() && rest[0] != "shapes")) return copy_in(tree.root);
+  if (rest.size() < 2) {
+    SceneTree whole = tree;
+    CompleteTree(pointer, &whole);
+    return copy_in(whole.root);
+  }
+  const auto& shapes = tree.root.at("shapes").get_ref<const Json::array_t&>();
+  const SphereRun& last = runs.back();
+  const size_t count = last.first + last.spheres.size() + (shapes.size() - last.in_tree);
+  const std::optional<size_t> element = ElementOf(rest[1], count);
+  if (!element) return std::nullopt;
+  rest = rest.subspan(2);
+  const auto next =
+      std::upper_bound(runs.begin(), runs.end(), *element,
+                       [](size_t place, const SphereRun& run) { return place < run.first; });
+  if (next == runs.begin()) return copy_in(shapes[*element]);
+  const SphereRun& run = *std::prev(next);
+  const size_t place = *element - run.first;
+  if (place >= run.spheres.size()) return copy_in(shapes[run.in_tree + place - run.spheres.size()]);
+  const Sphere& sphere = run.spheres[place];
+  return copy_in(JsonOf(sphere, tree.spheres.MaterialOf(sphere)));
+}
+
+bool HasValueIn(const SceneTree& tree, const std::string& pointer) {
+  const std::vector<std::string> tokens = TokensOf(pointer);
+  if (tokens.size() > 1 && tokens[0] == "shapes" && !tree.spheres.runs.empty()) {
+    const std::optional<Json> value = ValueIn(tree, pointer);
+    return value && !value->is_null();
+  }
+  const Json* const found = FindValue(tokens, tree.root);
+  return found != nullptr && !found->is_null();
+}
 
 void CompleteTree(const std::string& pointer, SceneTree* tree) {
   std::vector<SphereRun>& runs = tree->spheres.runs;

@@ -31,6 +31,13 @@ struct SceneTree {
   PlainSpheres spheres;  // here
 };
 
+// The value where `pointer` points, as a scene file has it; nothing if there is none. Plain spheres
+// stay where they are. Throws Error (kUsage) for what is no pointer.
+std::optional<Json> ValueIn(const SceneTree& tree, const std::string& pointer);
+
+// Whether that is something else than null. Takes no longer for large values.
+bool HasValueIn(const SceneTree& tree, const std::string& pointer);
+
 // Moves plain spheres into the tree if `pointer` points at or into the scene's shapes.
 void CompleteTree(const std::string& pointer, SceneTree* tree);
 

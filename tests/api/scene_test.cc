@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/api/scene_test.cc: scenes of the public API, which includes nothing but nacre.h.
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "catch.h"
 #include "nacre.h"
@@ -94,6 +97,11 @@ TEST_CASE("values are read where they were set, and where the file has them") {
   CHECK(at(scene, "/materials/red/metallic") == "nothing");
   CHECK(at(scene, "/shapes/2") == "nothing");
   CHECK(at(scene, "").find("\"lambert\"") != std::string::npos);
+  CHECK(scene.Has("/shapes"));
+  CHECK(scene.Has("/shapes/1/center/2"));
+  CHECK_FALSE(scene.Has("/shapes/2"));
+  CHECK_FALSE(scene.Has("/materials/red/metallic"));
+  CHECK_THROWS_AS(scene.Has("materials"), nacre::Error);
   scene.Set("/materials/red/metallic", 0.5);
   CHECK(at(scene, "/materials/red/metallic") == "0.5");
   nacre::Session session(scene);
@@ -103,6 +111,79 @@ TEST_CASE("values are read where they were set, and where the file has them") {
   CHECK(at(session, "/shapes/0/radius") == "1");
   CHECK_THROWS_AS(scene.Get("materials"), nacre::Error);
   CHECK_THROWS_AS(session.Get("materials"), nacre::Error);
+}
+
+TEST_CASE("a place that is not there is refused where it is set, and nothing changes") {
+  nacre::Scene scene = nacre::Scene::FromFile(kFirstScene);
+  const std::string before = scene.Get("")->json();
+  const auto refuses = [&](const char* pointer, const char* json) {
+    INFO(pointer << " " << json);
+    CHECK(ErrorOf([&] { scene.Set(pointer, nacre::Value::Json(json)); }).exit_code() == 64);
+    CHECK(scene.Get("")->json() == before);
+  };
+  refuses("materials", "1");
+  refuses("/materials/rad/roughness", "1");
+  refuses("/lights/kay/intensity", "1");
+  refuses("/textures/t/filter", "1");
+  refuses("/shapes/2/radius", "1");
+  refuses("/shapes/-", "{}");
+  refuses("/background/0/1", "1");
+  refuses("/materials/red/roughness", "[");
+  refuses("/materials/red/roughness/deeper", "1");
+  refuses("/materials/new", "{");
+  CHECK_NOTHROW(scene.Check());
+  scene.Set("/materials/new/model", "lambert");  // which makes it a material
+  CHECK(scene.material_names() == std::vector<std::string>{"red", "floor", "new"});
+  scene.Set("/materials", nacre::Value::Json(R"({"floor": {"model": "lambert"}})"));
+  CHECK_FALSE(scene.Has("/materials/red"));
+  CHECK(scene.Has("/materials/floor/model"));
+  refuses("/materials/red/roughness", "1");
+}
+
+TEST_CASE("values of many named entries are put where they belong") {
+  nacre::Scene scene;
+  for (int i = 0; i < 100; ++i) {
+    scene.AddMaterial("m" + std::to_string(i), {{"model", "lambert"}, {"albedo", i}});
+  }
+  scene.Set("/materials/m70/albedo", 0.5);
+  scene.AddMaterial("m99", {{"model", "phong"}});
+  scene.Set("/materials/m100", nacre::Value::Json(R"({"model": "burley"})"));
+  const auto at = [&](const std::string& pointer) { return scene.Get(pointer)->json(); };
+  CHECK(at("/materials/m69/albedo") == "69.0");
+  CHECK(at("/materials/m70") == R"({"model":"lambert","albedo":0.5})");
+  CHECK(at("/materials/m99") == R"({"model":"phong"})");
+  CHECK(at("/materials/m100/model") == R"("burley")");
+  const nacre::Scene copy = scene;
+  scene.Set("/materials/m0/albedo", 7);
+  CHECK(copy.Get("/materials/m0/albedo")->json() == "0.0");
+}
+
+TEST_CASE("a scene of bytes is the one that they were made of") {
+  nacre::Scene scene = nacre::Scene::FromFile(kFirstScene);
+  scene.AddSphere({1, 0.5, 2}, 0.25, "red");
+  nacre::Mesh mesh;
+  mesh.positions = {{-1, 0, 2}, {1, 0, 2}, {0, 1, 2}};
+  mesh.normals = {3, {0, 0, 1}};
+  mesh.uvs = {{0, 0}, {1, 0}, {0, 1}};
+  mesh.triangles = {0, 1, 2};
+  scene.AddMesh(mesh, "floor");
+  const std::vector<uint8_t> bytes = scene.ToBytes();
+  const nacre::Scene again = nacre::Scene::FromBytes(bytes);
+  CHECK(again.ToBytes() == bytes);
+  nacre::RenderSettings settings = Small();
+  settings.layers = {"all"};
+  const nacre::Image a = nacre::Render(scene, settings), b = nacre::Render(again, settings);
+  REQUIRE(a.channels.size() == b.channels.size());
+  for (size_t i = 0; i < a.channels.size(); ++i) {
+    CHECK((a.channels[i].samples == b.channels[i].samples));
+  }
+  for (size_t size = 0; size < bytes.size(); size += 97) {
+    const std::vector<uint8_t> cut(bytes.begin(), bytes.begin() + static_cast<ptrdiff_t>(size));
+    CHECK(ErrorOf([&] { nacre::Scene::FromBytes(cut); }).exit_code() == 65);
+  }
+  scene.AddMaterial("mine", nacre::UserBrdf{[](const auto&, const auto&) {}, {}, {}});
+  CHECK(ErrorOf([&] { scene.ToBytes(); }).faults()[0].what.find("\"mine\" is a function") !=
+        std::string::npos);
 }
 
 TEST_CASE("meshes are added, and a model is a scene") {
@@ -121,8 +202,8 @@ TEST_CASE("meshes are added, and a model is a scene") {
 
   nacre::Scene model = nacre::Scene::FromFile(NACRE_SOURCE_DIR "/scenes/meshes/torus_knot.obj");
   REQUIRE(model.mesh_count() == 1);
-  model.AddShape({{"type", "sphere"}});
-  REQUIRE(ErrorOf([&] { model.Check(); }).exit_code() == 64);
+  REQUIRE(ErrorOf([&] { model.AddShape({{"type", "sphere"}}); }).exit_code() == 64);
+  REQUIRE_NOTHROW(model.Check());
 }
 
 TEST_CASE("errors say where, what and how to mend it") {
@@ -145,8 +226,25 @@ TEST_CASE("errors say where, what and how to mend it") {
   bad_radius.AddSphere({0, 0, 0}, -1, "red");
   REQUIRE(ErrorOf([&] { bad_radius.Check(); }).faults()[0].where == "/spheres/2/radius");
   nacre::Scene twice = BuildFirstScene();
-  twice.AddShape({{"type", "sphere"}, {"type", "mesh"}});
-  REQUIRE(ErrorOf([&] { twice.Check(); }).faults()[0].where == "AddShape");
+  REQUIRE(ErrorOf([&] {
+            twice.AddShape({{"type", "sphere"}, {"type", "mesh"}});
+          })
+              .faults()[0]
+              .where == "AddShape");
+  nacre::Scene no_list = BuildFirstScene();
+  no_list.Set("/shapes", 5);
+  REQUIRE(ErrorOf([&] { no_list.AddShape({{"type", "sphere"}}); }).exit_code() == 64);
+  nacre::Mesh pair;
+  pair.positions = {{-1, 0, 2}, {1, 0, 2}, {0, 1, 2}};
+  pair.triangles = {0, 1, 2, 0, 7, 2};
+  nacre::Scene beyond = BuildFirstScene();
+  beyond.AddMesh(pair, "red");
+  const nacre::Error index = ErrorOf([&] { beyond.Check(); });
+  REQUIRE(index.faults()[0].where == "/meshes/0/triangles/1");
+  REQUIRE(index.faults()[0].what == "there is no position 7");
+  REQUIRE(
+      ErrorOf([&] { nacre::Scene::FromFile("model.fbx"); }).faults()[0].what.find("an FBX file") !=
+      std::string::npos);
   REQUIRE(ErrorOf([&] { nacre::Scene::FromFile("no such file.json"); }).exit_code() == 65);
   REQUIRE(ErrorOf([&] { nacre::Scene::FromJson("{"); }).exit_code() == 65);
   REQUIRE(ErrorOf([&] { other.Set("/image/spp", std::nan("")); }).exit_code() == 64);

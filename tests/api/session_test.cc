@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <thread>
 #include <vector>
+
+#include <unistd.h>
 
 #include "catch.h"
 #include "nacre.h"
@@ -89,19 +93,50 @@ TEST_CASE("sessions of scenes with shapes from code") {
       {{"type", "sphere"}, {"center", {1, 1, 0}}, {"radius", 0.3}, {"material", "grey"}});
   nacre::Session session(scene);
   CheckEqual(session.Render(Small()), nacre::Render(scene, Small()));
-  for (nacre::Session* const s : {&session}) {
-    s->Set("/materials/grey/albedo", 0.2);
-    s->Set("/shapes/0/radius", 0.6);
-  }
+  session.Set("/materials/grey/albedo", 0.2);
+  session.Set("/shapes/0/radius", 0.6);
   scene.Set("/materials/grey/albedo", 0.2);
-  // In the scene, shapes of parameters come behind overrides: the same by another way.
-  nacre::Scene other;
-  other.AddMaterial("grey", {{"model", "lambert"}, {"albedo", 0.2}});
-  other.AddLight("key", {{"type", "point"}, {"position", {3, 4, 5}}, {"intensity", 100}});
-  other.AddShape(
-      {{"type", "sphere"}, {"center", {1, 1, 0}}, {"radius", 0.6}, {"material", "grey"}});
-  other.AddSphere({0, 0, 0}, 1, "grey");
-  CheckEqual(session.Render(Small()), nacre::Render(other, Small()));
+  scene.Set("/shapes/0/radius", 0.6);
+  CheckEqual(session.Render(Small()), nacre::Render(scene, Small()));
+}
+
+TEST_CASE("a session reads files again that have changed, when it is asked to") {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("nacre_reload_" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  const auto write = [&](const char* name, const std::string& text) {
+    std::ofstream(folder / name) << text;
+  };
+  const auto mesh = [](const std::string& size) {
+    return "v -" + size + " -1 0\nv " + size + " -1 0\nv 0 1 0\nf 1 2 3\n";
+  };
+  write("m.obj", mesh("1"));
+  write("s.json", R"({"nacre": 1, "camera": {"position": [0, 0, 5]},
+    "materials": {"red": {"model": "lambert"}}, "lights": {"sky": {"type": "ambient", "radiance": 1}},
+    "shapes": [{"type": "mesh", "file": "m.obj", "material": "red"}]})");
+  for (const char* const file : {"s.json", "m.obj"}) {
+    INFO(file);
+    const auto fresh = [&] {
+      nacre::Scene scene = nacre::Scene::FromFile(folder / file);
+      scene.Set("/background", 0.25);
+      return scene;
+    };
+    nacre::Session session(fresh());
+    CHECK_FALSE(session.Reload());
+    const nacre::Image before = session.Render(Small());
+    write("m.obj", mesh("0.25"));
+    CheckEqual(session.Render(Small()), before);
+    CHECK(session.Reload());
+    CHECK_FALSE(session.Reload());
+    CheckEqual(session.Render(Small()), nacre::Render(fresh(), Small()));
+    CHECK(session.Render(Small()).Find("A")->samples != before.Find("A")->samples);
+    write("m.obj", "f 1 2 3\n");
+    for (int i = 0; i < 2; ++i) CHECK_THROWS_AS(session.Reload(), nacre::Error);
+    write("m.obj", mesh("1"));
+    CHECK(session.Reload());
+    CheckEqual(session.Render(Small()), before);
+  }
+  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("passes show more and more samples, and end in the picture of all") {

@@ -50,6 +50,24 @@ def masked_result(n, v, l):
     (lambda: nacre.Brdf(HALF_PAIR), ValueError, "no text that can be written"),
     (lambda: ball().add_material(HALF_PAIR, "lambert"), ValueError, "no text that can be written"),
     (lambda: ball()[f"/materials/{HALF_PAIR}"], ValueError, "no text that can be written"),
+    (lambda: ball().add_shape(HALF_PAIR), ValueError, "no text that can be written"),
+    (lambda: ball().add_shape("sphere", material=HALF_PAIR), ValueError, "no text that can be written"),
+    (lambda: ball().add_shape("sphere", **{HALF_PAIR: 1}), ValueError, "no text that can be written"),
+    (lambda: ball().add_light("key", HALF_PAIR), ValueError, "no text that can be written"),
+    (lambda: ball().add_texture("t", "caf\udce9.png"), ValueError, "no text that can be written"),
+    (lambda: ball().add_texture("t", pathlib.Path("caf\udce9.png")), ValueError, "no text that can be written"),
+    (lambda: ball().add_material("m", lambda n, v, l: n, rest=HALF_PAIR), ValueError, "no text that can be written"),
+    (lambda: ball().add_spheres([[0, 0, 0]], 1, HALF_PAIR), ValueError, "no text that can be written"),
+    (lambda: ball().__setitem__("/materials", {"a": [{HALF_PAIR: 1}]}), ValueError, "no text that can be written"),
+    (lambda: nacre.Scene.from_dict({"materials": {HALF_PAIR: {}}}), ValueError, "no text that can be written"),
+    (lambda: nacre.Session(ball()).__setitem__("/image", {"a": HALF_PAIR}), ValueError, "no text that can be written"),
+    (lambda: f"/materials/{HALF_PAIR}" in ball(), ValueError, "no text that can be written"),
+    (lambda: ball().render(layers=HALF_PAIR), ValueError, "no text that can be written"),
+    (lambda: nacre.Brdf("lambert", albedo=HALF_PAIR), ValueError, "no text that can be written"),
+    (lambda: nacre.Image(np.ones((2, 2, 3)), {"a": HALF_PAIR}), ValueError, "no text that can be written"),
+    (lambda: nacre.Image({HALF_PAIR: np.ones((2, 2))}), ValueError, "no name of a channel"),
+    (lambda: nacre.Scene.from_file(HALF_PAIR), ValueError, "surrogates not allowed|can't encode"),
+    (lambda: nacre.Image(IMAGE), TypeError, "`copy` copies"),
     (lambda: nacre.Brdf.from_scene(ball(), 5), TypeError, "a material is a text"),
     (lambda: nacre.Brdf.from_scene(nacre.Session(ball()), "red"), TypeError, "a nacre.Scene is wanted"),
     (lambda: nacre.render(5), TypeError, "a nacre.Scene is wanted"),
@@ -171,14 +189,114 @@ def test_renders_that_call_themselves_are_told_so():
         scene.render(width=2, height=2, samples=1)
 
 
+def test_what_is_refused_leaves_a_scene_as_it_was():
+    scene = ball()
+    before = scene.to_dict()
+    for change in (lambda: scene.add_shape(HALF_PAIR), lambda: scene.add_shape("sphere", radius=np.nan),
+                   lambda: scene.add_shape("sphere", **{"center": [[[[0]]]] * 2, "type ": object()}),
+                   lambda: scene.add_material("m", HALF_PAIR), lambda: scene.add_light(HALF_PAIR, "point")):
+        with pytest.raises((ValueError, TypeError, nacre.Error)):
+            change()
+        assert scene.to_dict() == before
+    scene.check()
+
+
+CRASHES = """
+import numpy as np, nacre
+from nacre import _nacre
+
+UP = np.array([[0.0, 0, 1]]).T  # as planes
+image, scene = nacre.Image(np.ones((4, 5, 3))), nacre.Scene()
+brdf, own = nacre.Brdf("conductor", preset="gold"), nacre.Brdf(lambda n, v, l: n)
+session = nacre.Session(scene)
+
+
+def with_members(**members):
+    other = image.copy()
+    for name, value in members.items():
+        setattr(other, name, value)
+    return other
+
+
+class Other(object):
+    pass
+
+
+def rendered_by(**members):
+    one = nacre.Brdf(lambda n, v, l: n)
+    for name, value in members.items():
+        setattr(one, name, value)
+    ball = nacre.Scene()
+    ball.add_material("m", one)
+    ball.add_light("sky", "environment", radiance=1)
+    ball.set_camera(position=(0, 0, 5))
+    ball.add_sphere((0, 0, 0), 1, "m")
+    return ball.render(width=8, height=8, samples=1)
+
+
+calls = []
+for made in _nacre.Scene, _nacre.Session, _nacre.Brdf:
+    calls += [lambda c=made: c(), lambda c=made: c.__new__(c), lambda c=made: object.__new__(c),
+              lambda c=made: c.__base__.__new__(c), lambda c=made: type("Sub", (c,), {}),
+              lambda c=made: c.__init__(), lambda c=made: setattr(c, "set", None),
+              lambda c=made: setattr(scene._native, "__class__", c),
+              lambda c=made: setattr(Other(), "__class__", c)]
+calls += [lambda: _nacre.Scene.set(session._native, "/a", "1"), lambda: _nacre.Session.of(session._native),
+          lambda: _nacre.Scene.from_bytes(b""), lambda: _nacre.Scene.from_bytes(scene._native.to_bytes()[:-5]),
+          lambda: _nacre.Scene.from_bytes(b"\\x9f" * 100), lambda: scene._native.render({}, None),
+          lambda: _nacre.Brdf.of_model("lambert", [("albedo", "[")]), lambda: scene._native.set("/a", "{")]
+big = 2**31 - 1
+calls += [lambda m=m: with_members(**m).write("/dev/null/a.exr") for m in (
+    {"_types": []}, {"_types": ["float"] * 9}, {"_types": ["half"] * 2 + ["wide"]}, {"_types": None},
+    {"_names": []}, {"_names": ["R"] * 9}, {"_names": [1, 2, 3]}, {"_names": None}, {"_block": None},
+    {"_block": np.ones((3, 4), np.float32)}, {"_block": np.ones((9, 4, 5), np.float32)},
+    {"_block": np.ones((3, 4, 5))}, {"_block": np.ones((3, 0, 5), np.float32)}, {"_block": np.float32(1)},
+    {"data": (0, 0, 50, 40)}, {"data": (0, 0, -5, -4)}, {"data": (-big, -big, big, big)}, {"data": "abcd"},
+    {"frame": (-big, -big, big, big)}, {"frame": (5, 5, 0, 0)}, {"frame": (1,)}, {"metadata": None})]
+calls += [lambda m=m: nacre.compare(with_members(**m), image) for m in (
+    {"_types": []}, {"_names": []}, {"frame": (-big, -big, big, big)},
+    {"_names": [], "_types": [], "_block": np.ones((0, 4, 5), np.float32)})]
+for native in _nacre.Brdf.of_model("conductor", []),:
+    for function in native.evaluate, native.pdf, native.terms:
+        calls += [lambda f=function, a=a: f(*a) for a in (
+            (UP, UP, np.ones((3, 0))), (UP, UP, UP[:2]), (UP, UP[:1], UP), (UP.T, UP.T, UP.T), (UP, UP, UP[0]),
+            (UP[0], UP, UP), (np.float64(1),) * 3, (UP.reshape(3, 1, 1),) * 3, (None,) * 3)]
+    calls += [lambda a=a: native.shade(*a, True) for a in (
+        (UP, UP, UP), (UP.T, UP.T, np.ones((1, 2))), (UP.T, np.ones((0, 3)), UP.T), (UP[0],) * 3)]
+    calls += [lambda p=p: native.sample(UP, UP, p) for p in (UP, UP[0], UP[:2].T, np.ones((2, 0)))]
+wrong = [lambda *a: np.ones((3, 1)), lambda *a: np.ones(2), lambda *a: None, lambda *a: np.ones((0, 0))]
+calls += [lambda f=f: rendered_by(_evaluate=f) for f in wrong]
+calls += [lambda f=f: rendered_by(_sample=f, _pdf=lambda n, v, l: np.ones(len(n))) for f in wrong]
+calls += [lambda f=f: rendered_by(_sample=lambda n, v, u: n.T, _pdf=f) for f in wrong]
+picture = nacre.Picture(np.zeros((2, 2, 3), np.uint8))
+for pixels in np.zeros((0, 0, 3), np.uint8), np.zeros((2, 2), np.uint8), np.zeros((2, 2, 5), np.uint8), None:
+    calls += [lambda p=pixels: _nacre.encode_png(p), lambda p=pixels: _nacre.encode_jpeg(p, 90)]
+passed = []
+for i, call in enumerate(calls):
+    try:
+        call()
+        passed.append(i)
+    except Exception as error:
+        assert "\\n" not in str(error).split("hint:")[0].strip() or "incompatible" in str(error), error
+assert not passed, passed
+_nacre.after_fork()  # in no child, while a render runs
+assert scene.render(width=4, height=4, progress=lambda share: _nacre.after_fork()).width == 4
+print(len(calls))
+"""
+
+
+def test_no_private_member_crashes_the_process():
+    done = subprocess.run([sys.executable, "-X", "faulthandler", "-c", CRASHES], capture_output=True, text=True,
+                          check=False)
+    assert done.returncode == 0, done.stderr
+    assert int(done.stdout) > 100
+
+
 def test_models_are_copied_and_pickled():
     for other in copy.copy(GOLD), copy.deepcopy(GOLD), pickle.loads(pickle.dumps(GOLD)):
         assert np.array_equal(other.evaluate(UP, UP, UP), GOLD.evaluate(UP, UP, UP))
     own = pickle.loads(pickle.dumps(nacre.Brdf(masked_result)))
     assert own.is_own and own.name == "masked_result"
-    for whole in ball(), nacre.Session(ball()):
-        with pytest.raises(TypeError, match="pickle"):
-            pickle.dumps(whole)
     image = pickle.loads(pickle.dumps(IMAGE))
     assert same(image, IMAGE)
     other = copy.copy(IMAGE)

@@ -43,6 +43,54 @@ def test_kernels_agree_with_formulas(model, parameters):
     assert np.array_equal(diffuse + specular, brdf.evaluate(UP, view[::-1], light, exact=False))
 
 
+@pytest.mark.parametrize("model, parameters", MODELS)
+def test_many_rows_are_those_of_few(model, parameters):
+    """Kernels take 50 000 rows at a time; each row is that which it is among others."""
+    brdf, count = nacre.Brdf(model, **parameters), 120_001
+    normal, view, light = directions(count, 3), directions(count), directions(count, 2)
+    some = [0, 1, 4999, 49_998, 49_999, 50_000, 50_001, 75_000, 99_999, 100_000, 100_001, count - 1]
+    whole = brdf.evaluate(normal, view, light, exact=False)
+    parts = brdf.evaluate(normal, view, light, exact=False, components=True)
+    assert np.array_equal(parts[0] + parts[1], whole)
+    few = brdf.evaluate(normal[some], view[some], light[some], exact=False, components=True)
+    for part, rows in zip(parts, few):
+        assert part.shape == (count, 3) and part.dtype == np.float32
+        assert np.array_equal(part[some], rows)
+    exact = brdf.evaluate(normal[some], view[some], light[some], components=True)
+    for rows, right in zip(few, exact):
+        assert np.allclose(rows, right, rtol=1e-3, atol=1e-6)  # as kernels agree with formulas
+    # Of arrays of any type, strides and shape.
+    flat = (normal, np.asfortranarray(view), np.repeat(light, 2, axis=0)[::2])
+    for given, shape in (flat, (count, 3)), ([v[:120_000].reshape(300, 400, 3) for v in flat], (300, 400, 3)):
+        for part, right in zip(brdf.evaluate(*given, exact=False, components=True), parts):
+            assert part.shape == shape and np.array_equal(part.reshape(-1, 3), right[:part.size // 3])
+    single = brdf.evaluate(*(v.astype(np.float32) for v in flat), exact=False, components=True)
+    doubles = brdf.evaluate(*(v.astype(np.float32).astype(float) for v in flat), exact=False, components=True)
+    assert all(np.array_equal(a, b) for a, b in zip(single, doubles))
+    one = brdf.evaluate(UP, view, UP, exact=False, components=True)
+    rows = brdf.evaluate([UP], view[some], [UP], exact=False, components=True)
+    assert all(np.array_equal(a[some], b) for a, b in zip(one, rows))
+
+
+def test_many_albedos_are_those_of_few():
+    """They are computed 256 at a time."""
+    brdf, cosines = nacre.Brdf("conductor", preset="gold", roughness=0.3), np.linspace(0.01, 1, 600)
+    whole, some = brdf.albedo(cosines), [0, 1, 254, 255, 256, 257, 511, 512, 599]
+    assert np.array_equal(whole[some], np.concatenate([brdf.albedo(cosines[[i]]) for i in some]))
+    assert len(np.unique(whole[:, 0])) > 500 and np.array_equal(brdf.albedo(cosines.reshape(2, 300)).reshape(-1, 3), whole)
+
+
+def test_components_of_a_function_are_its_own():
+    """Without a sampler it is all diffuse, with one all specular."""
+    own = nacre.Brdf("lambert")
+    view, light = directions(60_000), directions(60_000, 2)
+    plain, sampled = nacre.Brdf(ggx(0.16)), nacre.Brdf(ggx(0.16), sample=own.sample, pdf=own.pdf)
+    whole = plain.evaluate(UP, view, light)
+    for brdf, place in (plain, 0), (sampled, 1):
+        parts = brdf.evaluate(UP, view, light, components=True)
+        assert np.array_equal(parts[place], whole) and not parts[1 - place].any()
+
+
 def test_shapes_broadcast():
     brdf = nacre.Brdf("conductor", preset="gold", roughness=0.2)
     view, light = directions(4).reshape(4, 1, 3), directions(5, 2)

@@ -82,6 +82,27 @@ def test_arrays_that_are_no_image_are_refused(channels, error):
         nacre.Image(channels)
 
 
+def test_an_image_is_an_array(image):
+    array = np.asarray(image)
+    assert array.shape == (48, 64, 3) and array.dtype == np.float32
+    assert np.shares_memory(array, image["beauty"]) and np.array_equal(array, image["beauty"])
+    assert np.asarray(image, np.float64).dtype == np.float64 and np.array(image, dtype=int).dtype == int
+    assert not np.shares_memory(np.array(image), image["beauty"])
+    assert np.mean(image) == image["beauty"].mean() and (image + np.zeros(3))[0, 0, 0] == image["R"][0, 0]
+    assert np.asarray(nacre.Image({"Z": image["Z"]})).shape == (48, 64)
+    assert np.asarray(nacre.Image({"id.object": image["id.object"]})).dtype == np.uint32
+    with pytest.raises(ValueError, match="which layer.* N, Z$"):
+        np.asarray(nacre.Image({"N": image["N"], "Z": image["Z"]}))
+    # As numpy 2 calls it.
+    assert np.shares_memory(image.__array__(copy=False), image["beauty"])
+    assert not np.shares_memory(image.__array__(copy=True), image["beauty"])
+    assert image.__array__(np.float64, copy=None).dtype == np.float64
+    with pytest.raises(ValueError, match="copy"):
+        image.__array__(np.float64, copy=False)
+    picture = image.picture()
+    assert np.asarray(picture).dtype == np.uint8 and np.array_equal(np.asarray(picture), picture.pixels)
+
+
 def test_tone_mapping_is_that_of_png_files(image):
     codes = image.tone_map("diffuse", tonemap="aces", exposure=1)
     assert codes.shape == (48, 64, 3) and codes.dtype == np.uint8
@@ -117,6 +138,57 @@ def test_metrics(image):
         with pytest.raises(TypeError, match="nacre.Image"):
             wrong(image, image["beauty"])
     assert nacre.compare(image, image, layers="beauty")
+
+
+def test_each_metric_is_that_of_its_definition(image):
+    """Of two layers whose images and references have nothing in common."""
+    rng = np.random.default_rng(4)
+    got = {"beauty": rng.random((30, 40, 3)), "diffuse": 2 + rng.random((30, 40, 3))}
+    reference = {"beauty": 4 + rng.random((30, 40, 3)), "diffuse": 0.5 * rng.random((30, 40, 3))}
+    reference["diffuse"][3, 5:9] = 0
+    a, b = nacre.Image(got), nacre.Image(reference)
+    found = nacre.compare(a, b, max_abs=4)
+    assert (found.pixels, set(found.layers)) == (1200, {"beauty", "diffuse"})
+    for name, m in found.layers.items():
+        x, r = a[name].astype(float), b[name].astype(float)
+        d, some = x - r, r != 0
+        expected = {"samples": x.size, "mean": x.mean(), "mean_reference": r.mean(), "rmse": np.sqrt((d**2).mean()),
+                    "rel_mse": (d**2 / (r**2 + 1e-4)).mean(), "max_abs": np.abs(d).max(),
+                    "max_rel": (np.abs(d)[some] / r[some]).max(), "zero_mismatches": (~some).sum(),
+                    "psnr_db": 20 * np.log10(r.max() / np.sqrt((d**2).mean()))}
+        for key, value in expected.items():
+            assert math.isclose(getattr(m, key), value, rel_tol=1e-9), (name, key)  # sums in double
+        assert m.layer == name and m.ssim is None and m.flip is None and m.hdr_flip is None
+    beyond = (np.abs(a["beauty"] - b["beauty"]) > 4).any(axis=2) | (np.abs(a["diffuse"] - b["diffuse"]) > 4).any(axis=2)
+    assert found.exceeding_pixels == beyond.sum() > 0
+    # A layer that differs is found wherever it stands.
+    for name in reference:
+        other = b.copy()
+        other[name][29, 39, 2] += 1
+        found = nacre.compare(other, b)
+        assert not found and found.exceeding_pixels == 1
+        assert found.layers[name].max_abs == float(other[name][29, 39, 2]) - float(b[name][29, 39, 2]) > 0.9
+        assert nacre.compare(other, b, layers=[n for n in reference if n != name])
+        heat = nacre.heat_map(other, b, name, low=1e-3)
+        assert (heat != 0).any(axis=2).sum() == 1 and heat[29, 39].any()
+
+
+@pytest.mark.parametrize("value, other", [(np.nan, 1), (1, np.nan), (np.inf, 1), (np.inf, -np.inf), (np.inf, np.nan)])
+def test_what_is_not_finite_in_one_image_alone_never_matches(value, other):
+    a, b = nacre.Image(np.ones((40, 70, 3))), nacre.Image(np.ones((40, 70, 3)))
+    a["B"][39, 69], b["B"][39, 69] = value, other
+    for tolerances in {}, {"max_abs": 1e30}, {"max_abs": math.inf}, {"max_rel": math.inf}, {"max_rmse": 1e30}:
+        assert not nacre.compare(a, b, **tolerances), tolerances
+    b["B"][39, 69] = value
+    assert nacre.compare(a, b)
+
+
+def test_an_image_without_channels_is_compared_with_nothing():
+    empty = nacre.Image(np.ones((4, 4, 3)))
+    empty._block, empty._names, empty._types = empty._block[:0], [], []
+    for pair in (empty, empty), (nacre.Image(np.ones((4, 4, 3))), empty):
+        with pytest.raises(nacre.Error):
+            nacre.compare(*pair)
 
 
 def test_notebooks_show_pictures(image):

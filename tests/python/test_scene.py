@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Scenes, renders and sessions from Python."""
 import copy
+import json
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -94,6 +96,160 @@ def test_values_are_read_as_they_were_set(scenes):
         assert session["/shapes/0/radius"] == 1
 
 
+def least_seconds(call):
+    """The quickest of a few: a busy machine may keep any of them waiting."""
+    seconds = []
+    for _ in range(5):
+        start = time.perf_counter()
+        call()
+        seconds.append(time.perf_counter() - start)
+    return min(seconds)
+
+
+def test_values_cost_the_same_however_much_was_set():
+    def seconds(count):
+        scene = ball()
+        for i in range(count):
+            scene["/materials/red/roughness"] = i / count
+        assert scene["/materials/red/roughness"] == (count - 1) / count
+        with nacre.Session(scene) as session:
+            return [least_seconds(lambda: scene["/materials/red/roughness"]),
+                    least_seconds(lambda: "/materials/red" in scene),
+                    least_seconds(lambda: scene.to_dict()),
+                    least_seconds(lambda: scene.__setitem__("/materials/red/metallic", 0)),
+                    least_seconds(lambda: session["/materials/red/roughness"])]
+    # Those of 20 000 took 500 times as long where all of them were applied again.
+    assert all(many < 20 * few + 1e-3 for few, many in zip(seconds(10), seconds(20_000)))
+
+
+def test_many_materials_are_added_in_time_that_each_takes():
+    def seconds(count):
+        scene = nacre.Scene()
+        start = time.perf_counter()
+        for i in range(count):
+            scene.add_material(f"m{i}", "lambert", albedo=0.5)
+            scene[f"/materials/m{i}/albedo"] = 0.25
+            scene.add_sphere((3 * i, 0, 0), 1, f"m{i}")
+        return (time.perf_counter() - start) / count
+    # Where each is looked for among all, 16 000 take 16 times as long each as 1 000 do.
+    assert min(seconds(16_000) for _ in range(2)) < 6 * min(seconds(1000) for _ in range(3)) + 1e-5
+
+
+def test_one_sphere_of_many_is_read_without_the_others():
+    count = 200_000
+    scene = nacre.Scene.from_dict({
+        "materials": {"red": {"model": "lambert"}},
+        "shapes": [{"type": "sphere", "center": [3 * i, 0, 0.5], "radius": 1 + i, "material": "red"}
+                   if i not in (5, 6, 9) else {"type": "sphere", "center": [0, 0, 0], "radius": 0.5 + i,
+                                           "material": {"model": "lambert"}}
+                   for i in range(count)]})
+    with nacre.Session(scene) as session:
+        for of in scene, session:
+            for i in 0, 1, 4, 5, 6, 7, 8, 9, 10, 11, count - 1:
+                assert of[f"/shapes/{i}/radius"] == (0.5 if i in (5, 6, 9) else 1) + i
+                assert f"/shapes/{i}/radius" in of and f"/shapes/{i}/angle" not in of
+            assert of["/shapes/7"] == {"type": "sphere", "center": [21, 0, 0.5], "radius": 8, "material": "red"}
+            assert of["/shapes/7/center/2"] == 0.5 and of.get(f"/shapes/{count}") is None
+            assert "/shapes" in of and "/shapes/-" not in of and "/shapes/07" not in of
+            # A hundredth of what it takes to write all of them down.
+            assert least_seconds(lambda: of[f"/shapes/{count - 2}/radius"]) < 5e-3
+            assert least_seconds(lambda: "/shapes" in of) < 5e-3
+        assert len(scene["/shapes"]) == count and scene["/shapes"][count - 1]["radius"] == count
+    scene["/shapes/3/radius"] = 0.25
+    assert scene["/shapes/3/radius"] == 0.25 and scene["/shapes/10/radius"] == 11
+    scene.add_shape("sphere", radius=2, material="red")
+    assert scene[f"/shapes/{count}/radius"] == 2
+
+
+@pytest.mark.parametrize("change", [
+    lambda s: s.__setitem__("materials", 1), lambda s: s.__setitem__("/shapes/1/radius", 1),
+    lambda s: s.__setitem__("/shapes/-", {}), lambda s: s.__setitem__("/materials/rod/roughness", 1),
+    lambda s: s.__setitem__("/lights/kay/intensity", 1), lambda s: s.__setitem__("/camera/position/x/y", 1),
+    lambda s: s.__setitem__("/background/~2", 1), lambda s: s.__setitem__("/a" * 200, 1)])
+def test_a_place_that_is_not_there_is_refused_where_it_is_set(change):
+    scene = ball()
+    before = scene.to_dict()
+    with pytest.raises(nacre.Error) as caught:
+        change(scene)
+    assert caught.value.exit_code == 64 and scene.to_dict() == before
+    scene.check()
+
+
+def test_scenes_are_pickled(scenes, tmp_path):
+    scene = ball()
+    scene.add_spheres(np.arange(6).reshape(2, 3), [0.5, 0.25], "red")
+    scene.add_material("blue", "lambert", albedo=(0, 0.1, 1 / 3))
+    scene.add_mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], "blue", normals=[[0, 0, 1.0]] * 3,
+                   uvs=[[0, 0], [1, 0], [0, 1]])
+    again = pickle.loads(pickle.dumps(scene))
+    assert same(again.render(**SMALL), scene.render(**SMALL)) and again.to_dict() == scene.to_dict()
+    again.add_sphere((0, 2, 0), 0.5, "blue")  # to which shapes may be added
+    assert (scene.sphere_count, again.sphere_count, again.mesh_count) == (3, 4, 1)
+    # Of a model, and of a file in another folder, read by a process that works elsewhere.
+    (tmp_path / "far").mkdir()
+    for name in "meshes/torus_knot.obj", "textures.json":
+        own = nacre.Scene.from_file(os.path.relpath(scenes / name))
+        own["/image/spp"] = 2
+        (tmp_path / "s.pickle").write_bytes(pickle.dumps(own))
+        code = ("import pickle, sys, nacre; scene = pickle.load(open('../s.pickle', 'rb')); "
+                "scene.render(width=64, height=48).write('a.exr', half_floats=False)")
+        subprocess.run([sys.executable, "-c", code], cwd=tmp_path / "far", check=True)
+        assert same(nacre.read(tmp_path / "far/a.exr"), own.render(width=64, height=48))
+    scene.add_material("mine", lambda n, v, l: n)
+    with pytest.raises(TypeError, match='^cannot pickle a nacre.Scene: the material "mine" is a function'):
+        pickle.dumps(scene)
+    with pytest.raises(TypeError, match="^cannot pickle a nacre.Session"):
+        pickle.dumps(nacre.Session(ball()))
+    with pytest.raises(TypeError, match="^cannot pickle the nacre.Brdf of a scene"):
+        pickle.dumps(nacre.Brdf.from_scene(ball(), "red"))
+
+
+def test_a_session_reads_changed_files_again(tmp_path):
+    def texture(value):
+        nacre.Picture(np.full((4, 4, 3), value, np.uint8)).write(tmp_path / "t.png")
+
+    def mesh(size):
+        (tmp_path / "m.obj").write_text(f"v {-size} -1 0\nv {size} -1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
+                                        "f 1/1 2/2 3/3\n")
+    texture(200)
+    mesh(1)
+    (tmp_path / "s.json").write_text(json.dumps({
+        "nacre": 1, "camera": {"position": [0, 0, 5]}, "textures": {"t": {"file": "t.png"}},
+        "materials": {"red": {"model": "lambert", "albedo_map": "t"}},
+        "lights": {"sky": {"type": "ambient", "radiance": 1}},
+        "shapes": [{"type": "mesh", "file": "m.obj", "material": "red"}]}))
+    with nacre.Session(nacre.Scene.from_file(tmp_path / "s.json")) as session, \
+            nacre.Session(nacre.Scene.from_file(tmp_path / "m.obj")) as of_model:
+        session["/background"] = of_model["/background"] = 0.25  # stays
+
+        def is_fresh():
+            for one, file in (session, "s.json"), (of_model, "m.obj"):
+                fresh = nacre.Scene.from_file(tmp_path / file)
+                fresh["/background"] = 0.25
+                assert same(one.render(**SMALL), fresh.render(**SMALL))
+        assert not session.reload() and not of_model.reload()
+        for change in (lambda: texture(50)), (lambda: mesh(0.5)), (lambda: texture(90)):
+            before = session.render(**SMALL)
+            change()
+            assert same(session.render(**SMALL), before)  # until it is asked for
+            assert session.reload() and not session.reload()
+            of_model.reload()
+            assert not same(session.render(**SMALL), before)
+            is_fresh()
+        (tmp_path / "m.obj").write_text("f 1 2 3\n")
+        for one in session, of_model:
+            before = one.render(**SMALL)
+            for _ in range(2):
+                with pytest.raises(nacre.Error, match="m.obj"):
+                    one.reload()
+                assert same(one.render(**SMALL), before)
+        mesh(0.75)
+        assert session.reload() and of_model.reload()
+        is_fresh()
+    with pytest.raises(nacre.Error, match="closed"):
+        session.reload()
+
+
 def test_errors_are_those_of_the_program():
     scene = ball()
     scene["/materials/red/roughnes"] = 0.2
@@ -135,6 +291,7 @@ def test_settings_out_of_range_are_refused(settings, error):
     (lambda s: s.add_spheres([["a", 0, 0]], 1, "red"), TypeError),
     (lambda s: s.add_mesh([[0, 0, 0]], [[0.5, 0, 0]], "red"), TypeError),
     (lambda s: s.add_mesh([[0, 0, 0]], [[-1, 0, 0]], "red"), ValueError),
+    (lambda s: s.add_mesh([[0, 0, 0]], [[0, 0, 2**32]], "red"), ValueError),
     (lambda s: s.add_mesh([[0, 0, 0]], [0, 0, 0], "red"), ValueError),
     (lambda s: s.add_shape("sphere", center=object()), TypeError),
     (lambda s: nacre.Session("scene.json"), TypeError), (lambda s: s[3], TypeError),
@@ -151,6 +308,36 @@ def test_a_shape_out_of_range_is_found_when_checked():
     scene.add_mesh([[0, 0, 0]], [[0, 0, 7]], "blue")
     with pytest.raises(nacre.Error, match="blue"):
         scene.check()
+
+
+@pytest.mark.parametrize("triangles, error, text", [
+    ([0, 1, 2], ValueError, r"not \(3,\); reshape\(-1, 3\)"), ([[0, 1]], ValueError, r"not \(1, 2\)$"),
+    (np.array([[0, 1, 2], [0, 1, -2]]), ValueError, "triangle 1 names position -2$"),
+    (np.array([[0, 1, 2], [0, 2**40, 2]]), ValueError, "triangle 1 names position 1099511627776$"),
+    ([[0, 1, 2], [0, 1, 2], [2, 1, 3]], nacre.Error, "/triangles/2: there is no position 3\n.*the mesh has 3"),
+    (np.zeros((0, 3), int), nacre.Error, "no triangles")])
+def test_triangles_are_counted_as_triangles(triangles, error, text):
+    scene = ball()
+    with pytest.raises(error, match=text):
+        scene.add_mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], triangles, "red")
+        scene.check()
+
+
+@pytest.mark.parametrize("kind", [np.uint8, np.int16, np.uint32, np.int64, np.uint64])
+def test_triangles_may_be_of_any_integers_and_strides(kind):
+    square = [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]
+    pair = np.array([[0, 1, 2], [0, 2, 3]])
+
+    def rendered(triangles):
+        scene = ball()
+        scene["/shapes"] = []
+        scene.add_mesh(square, triangles, "red")
+        return scene.render(**SMALL, layers=["id.object", "N"])
+    expected = rendered(pair)
+    assert expected["A"].max() == 1
+    assert same(rendered(pair.astype(kind)), expected)
+    assert same(rendered(np.repeat(pair.astype(kind), 2, axis=0)[::2]), expected)
+    assert same(rendered(np.asfortranarray(pair.astype(kind))), expected)
 
 
 def test_a_session_gives_the_bits_of_a_render():

@@ -185,9 +185,13 @@ TEST_CASE("shape faults") {
       {"/spheres/0/material", "no material", [](Scene& s) { s.spheres[0].material = {}; }},
       {"/spheres/0/material", "no material 4",
        [](Scene& s) { s.spheres[0].material = MaterialId{4}; }},
-      {"/meshes/0/triangles/1", "no position 3", [](Scene& s) { s.meshes[0].triangles[1] = 3; }},
+      {"/meshes/0/triangles/0", "no position 3", [](Scene& s) { s.meshes[0].triangles[1] = 3; }},
+      {"/meshes/0/triangles/1", "no position 3",
+       [](Scene& s) {
+         s.meshes[0].triangles.insert(s.meshes[0].triangles.end(), {0, 1, 3});
+       }},
       {"/meshes/0/triangles", "2 indices", [](Scene& s) { s.meshes[0].triangles.pop_back(); }},
-      {"/meshes/0/triangles", "0 indices", [](Scene& s) { s.meshes[0].triangles.clear(); }},
+      {"/meshes/0/triangles", "no triangles", [](Scene& s) { s.meshes[0].triangles.clear(); }},
       {"/meshes/0/positions/2", "inf", [](Scene& s) { s.meshes[0].positions[2].x = kInfinity; }},
       {"/meshes/0/normals", "1 normals for 3",
        [](Scene& s) { s.meshes[0].normals = {Vec3d(0, 0, 1)}; }},

@@ -202,7 +202,7 @@ class Brdf:
                 parameters["albedo"] = albedo
             members = [(text(name, "a parameter"), to_json(value, name))
                        for name, value in parameters.items()]
-            self._native = _nacre.Brdf(text(model, "a model"), members)
+            self._native = _nacre.Brdf.of_model(text(model, "a model"), members)
             self._material = {"model": model, **parameters}
             return
         if not callable(model):
@@ -229,7 +229,7 @@ class Brdf:
         brdf = cls.__new__(cls)
         brdf.name = text(material, "a material")
         brdf._evaluate = brdf._sample = brdf._pdf = brdf._albedo = brdf._material = None
-        brdf._native = _nacre.Brdf(scene._native, material)
+        brdf._native = _nacre.Brdf.of_material(scene._native, material)
         return brdf
 
     # It never changes.
@@ -240,8 +240,10 @@ class Brdf:
         return self
 
     def __reduce__(self) -> Any:
+        if self._evaluate is not None:
+            return super().__reduce__()  # with functions that pickle finds by their names
         if self._material is None:
-            return super().__reduce__()  # with a function that pickle finds by its name
+            raise TypeError("cannot pickle the nacre.Brdf of a scene's material: pickle the scene")
         return _of_material, (self._material,)
 
     @property
@@ -352,7 +354,7 @@ class Brdf:
             directions = self._sample(n.T, v.T, points.T)
             _check_units({"a sampled direction": directions})
             return _rows(directions, shape)
-        lambert = _nacre.Brdf("lambert", [])
+        lambert = _nacre.Brdf.of_model("lambert", [])
         return _rows(lambert.sample(n, v, points), shape)
 
     def pdf(self, normal: Any, to_view: Any, to_light: Any) -> Array:
@@ -361,7 +363,7 @@ class Brdf:
         if self._evaluate is None:
             return self._in_pieces(self._native.pdf, _named(planes))[0].reshape(shape)
         if self._pdf is None:
-            return _nacre.Brdf("lambert", []).pdf(*planes).reshape(shape)
+            return _nacre.Brdf.of_model("lambert", []).pdf(*planes).reshape(shape)
         return self._own(self._pdf, planes)[0].reshape(shape)
 
     def albedo(self, n_dot_v: Any) -> Array:

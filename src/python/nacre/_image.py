@@ -23,6 +23,14 @@ class Window(NamedTuple):
     y1: int
 
 
+def _as_array(array: Array, dtype: Any, copy: Optional[bool]) -> Array:
+    """What numpy, version 1 or 2, asks of __array__."""
+    converted = array.astype(dtype or array.dtype, copy=bool(copy))
+    if copy is False and not np.shares_memory(converted, array):
+        raise ValueError(f"a copy is needed to make {dtype} of {array.dtype}")
+    return converted
+
+
 class Picture:
     """What a display shows: an array of sRGB codes, which notebooks show as a picture.
 
@@ -35,6 +43,10 @@ class Picture:
             raise ValueError("a picture is an array of shape (height, width, 3) and type uint8, not "
                              f"{array.shape} and {array.dtype}")
         self.pixels = array[:, :, :3]
+
+    def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> Array:
+        """np.asarray(picture): its pixels."""
+        return _as_array(self.pixels, dtype, copy)
 
     def _repr_png_(self) -> bytes:
         return _nacre.encode_png(self.pixels)
@@ -147,7 +159,8 @@ class Image:
     `image["R"]` is a channel, an array of shape (height, width); `image["beauty"]` the channels R, G
     and B, and `image["diffuse"]` or `image["N"]` another layer, of shape (height, width, 3). The type
     is float32; that of ids ("id.object") is uint32. All of them are views, not copies: what is
-    written to one is written to the image, and they outlive it.
+    written to one is written to the image, and they outlive it. `np.asarray(image)` is
+    `image["beauty"]`, without A, or its only layer.
 
     `layers` and `channels` list the names. `data` is the window that the channels cover, `frame` the
     whole picture. `metadata` holds text by name, `stats` of renders what was counted and timed.
@@ -163,6 +176,8 @@ class Image:
         """Of arrays, which are copied and converted to float32 (integers of ids: to uint32): one of
         shape (height, width, 3 or 4), the beauty and A; or several by the names of channels, of
         shape (height, width), and of layers, of shape (height, width, 3)."""
+        if isinstance(channels, Image):
+            raise TypeError("image: `copy` copies an image with all of its layers")
         if not isinstance(channels, Mapping):
             refuse_masked(channels, "the image")
             array = np.asarray(channels)
@@ -205,8 +220,13 @@ class Image:
             else:
                 block[i] = plane
         window = (0, 0, width, height)
-        self._init(block, list(planes), types, window, window,
-                   {str(key): str(value) for key, value in (metadata or {}).items()})
+        texts = {str(key): str(value) for key, value in (metadata or {}).items()}
+        for key, value in texts.items():
+            try:  # as files have them, where bytes that are no UTF-8 are surrogates
+                (key + value).encode("utf-8", "surrogateescape")
+            except UnicodeEncodeError:
+                raise ValueError(f"image: metadata {key!r} is no text that can be written") from None
+        self._init(block, list(planes), types, window, window, texts)
 
     def _init(self, block: Array, names: List[str], types: List[str],
               frame: Sequence[int], data: Sequence[int], metadata: Dict[str, str]) -> None:
@@ -276,6 +296,14 @@ class Image:
         view = self[name]
         if view is not values:
             view[...] = numbers(values, name, "fiub")
+
+    def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> Array:
+        """np.asarray(image): the beauty, of shape (height, width, 3), a view; of an image that has none,
+        its only layer. ValueError where that is not one."""
+        layers = self.layers
+        if "beauty" not in layers and len(layers) != 1:
+            raise ValueError(f"which layer? image[name] is one of {', '.join(layers)}")
+        return _as_array(self["beauty" if "beauty" in layers else layers[0]], dtype, copy)
 
     def copy(self) -> "Image":
         """One that shares no memory with this one."""

@@ -21,9 +21,15 @@ def to_json(value: Any, what: str) -> str:
         raise TypeError(f"{what}: a {type(other).__name__} is no value of a scene: these are numbers, "
                         "texts, lists and dictionaries")
     try:
-        return json.dumps(value, allow_nan=False, default=plain)
+        written = json.dumps(value, allow_nan=False, ensure_ascii=False, default=plain)
     except RecursionError:
         raise ValueError(f"{what}: lists in lists in lists are too deep") from None
     except ValueError as error:
         hint = "numbers of scenes are finite" if "float" in str(error) else ""
         raise fault(what, f"{error}", hint) from None
+    try:
+        written.encode()
+    except UnicodeEncodeError as error:  # half of a pair of surrogates
+        around = written[max(error.start - 20, 0):error.end + 20]
+        raise ValueError(f"{what}: there is no text that can be written at {around!r}") from None
+    return written

@@ -10,6 +10,7 @@ import numpy as np
 from . import _nacre
 from ._arguments import PathLike, numbers, path as _path, real, text, whole
 from ._brdf import Brdf, Function
+from ._errors import Error
 from ._image import Array, Image
 from ._json import to_json
 
@@ -99,11 +100,16 @@ class _Values:
         return default if value is None else json.loads(value)
 
     def __contains__(self, pointer: object) -> bool:
-        return isinstance(pointer, str) and self.get(pointer) is not None
+        return isinstance(pointer, str) and self._native.has(text(pointer, "a JSON pointer"))
 
     def to_dict(self) -> Dict[str, Any]:
         """The scene as a scene file has it, without the shapes of add_spheres and add_mesh."""
         return json.loads(self._native.get("") or "{}")
+
+
+def _scene_of_bytes(scene: bytes) -> "Scene":
+    """What pickle makes of a scene."""
+    return Scene._of(_nacre.Scene.from_bytes(scene))
 
 
 class Scene(_Values):
@@ -115,12 +121,16 @@ class Scene(_Values):
 
     Names, values and units are those of scene files (scenes/README.md, `nacre.scene_schema()`), and
     so are the checks. These run, on all of it at once, when the scene is first rendered, or by
-    `check`; they raise `nacre.Error`.
+    `check`; they raise `nacre.Error`. A place that there is not, in a list or below a material, light
+    or texture, is refused where it is set.
+
+    A scene is copied by `copy`, and pickled, for other processes; not with a function as a material.
+    Files that it names are not part of a pickle.
     """
 
     def __init__(self) -> None:
         """An empty scene: black, with the default camera."""
-        self._native = _nacre.Scene()
+        self._native = _nacre.Scene.empty()
 
     @classmethod
     def _of(cls, native: Any) -> "Scene":
@@ -150,6 +160,12 @@ class Scene(_Values):
 
     def __deepcopy__(self, memo: Any) -> "Scene":
         return self.copy()
+
+    def __reduce__(self) -> Any:
+        try:
+            return _scene_of_bytes, (self._native.to_bytes(),)
+        except Error as error:
+            raise TypeError(f"cannot pickle a nacre.Scene: {error.faults[0].what}") from None
 
     def set_camera(self, **camera: Any) -> None:
         """set_camera(position=(0, 1, 5), look_at=(0, 1, 0), fov_y_deg=40)"""
@@ -229,10 +245,14 @@ class Scene(_Values):
         normals: (vertices, 3), or None for flat faces. uvs: (vertices, 2), or None.
         """
         indices = numbers(triangles, "triangles")
+        if indices.ndim != 2 or indices.shape[1] != 3:
+            hint = "; reshape(-1, 3) makes it of a flat one" if indices.ndim == 1 else ""
+            raise ValueError(f"triangles has the shape (count, 3), not {indices.shape}{hint}")
         if indices.dtype.kind not in "iu":
             raise TypeError(f"triangles are indices, not {indices.dtype}")
         if indices.size and (indices.min() < 0 or indices.max() >= 2**32):
-            raise ValueError("triangles: an index is negative or too large")
+            i, corner = (int(n) for n in np.argwhere((indices < 0) | (indices >= 2**32))[0])
+            raise ValueError(f"triangles: triangle {i} names position {indices[i, corner]}")
         self._native.add_mesh(_doubles(positions, "positions"), indices.astype(np.uint32, copy=False),
                               text(material, "a material"),
                               None if normals is None else _doubles(normals, "normals"),
@@ -306,14 +326,14 @@ class Session(_Values):
     that is wrong raises `nacre.Error` and changes nothing. One call at a time; `cancel` alone may
     come from any thread.
 
-    Files are read when the session is made, and again only where a change touches what they are
-    named in. After a texture or a model has changed on disk, make a new session.
+    Files are read when the session is made, and again by `reload`, or where a change touches what
+    they are named in.
     """
 
     def __init__(self, scene: Scene) -> None:
         if not isinstance(scene, Scene):
             raise TypeError(f"a nacre.Scene is wanted, not {type(scene).__name__}")
-        self._native = _nacre.Session(scene._native)
+        self._native = _nacre.Session.of(scene._native)
 
     def render(self, *, width: Optional[int] = None, height: Optional[int] = None,
                samples: Optional[int] = None, max_error: Optional[float] = None,
@@ -334,6 +354,13 @@ class Session(_Values):
         finally:
             close()
 
+    def reload(self) -> bool:
+        """Reads the files again that have changed on disk of those that the scene names: textures,
+        models, skies. Returns whether there were any. Values stay what they are; those of the scene's
+        own file are read by `Scene.from_file` alone. Raises `nacre.Error` where a file is wrong now:
+        the scene is then the one before, and the next call tries again."""
+        return self._native.reload()
+
     def cancel(self) -> None:
         """Ends a render that runs, within some milliseconds, or else the next one as it begins."""
         self._native.cancel()
@@ -347,6 +374,9 @@ class Session(_Values):
 
     def __exit__(self, *_: object) -> None:
         self.close()
+
+    def __reduce__(self) -> Any:
+        raise TypeError("cannot pickle a nacre.Session: pickle its scene, and open another there")
 
     def __repr__(self) -> str:
         return "<nacre.Session>"
