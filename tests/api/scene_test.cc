@@ -137,7 +137,7 @@ TEST_CASE("a place that is not there is refused where it is set, and nothing cha
   scene.Set("/materials", nacre::Value::Json(R"({"floor": {"model": "lambert"}})"));
   CHECK_FALSE(scene.Has("/materials/red"));
   CHECK(scene.Has("/materials/floor/model"));
-  refuses("/materials/red/roughness", "1");
+  CHECK(ErrorOf([&] { scene.Set("/materials/red/roughness", 1); }).exit_code() == 64);
 }
 
 TEST_CASE("values of many named entries are put where they belong") {
@@ -149,13 +149,13 @@ TEST_CASE("values of many named entries are put where they belong") {
   scene.AddMaterial("m99", {{"model", "phong"}});
   scene.Set("/materials/m100", nacre::Value::Json(R"({"model": "burley"})"));
   const auto at = [&](const std::string& pointer) { return scene.Get(pointer)->json(); };
-  CHECK(at("/materials/m69/albedo") == "69.0");
+  CHECK(at("/materials/m69/albedo") == "69");
   CHECK(at("/materials/m70") == R"({"model":"lambert","albedo":0.5})");
   CHECK(at("/materials/m99") == R"({"model":"phong"})");
   CHECK(at("/materials/m100/model") == R"("burley")");
   const nacre::Scene copy = scene;
   scene.Set("/materials/m0/albedo", 7);
-  CHECK(copy.Get("/materials/m0/albedo")->json() == "0.0");
+  CHECK(copy.Get("/materials/m0/albedo")->json() == "0");
 }
 
 TEST_CASE("a scene of bytes is the one that they were made of") {
