@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <random>
 #include <utility>
 #include <vector>
@@ -138,6 +139,26 @@ Mesh Hills(int n, unsigned seed) {
   return mesh;
 }
 
+// Cuts the texture, not the surface: from x on, triangles have vertices of their own, at the same
+// places and with the same normals, whose coordinates are turned by a quarter.
+void CutTexture(double x, Mesh* mesh) {
+  std::map<uint32_t, uint32_t> beyond;  // by the vertex on this side
+  for (size_t first = 0; first < mesh->triangles.size(); first += 3) {
+    uint32_t* const corners = &mesh->triangles[first];
+    if (mesh->positions[corners[0]].x < x || mesh->positions[corners[1]].x < x) continue;
+    for (size_t k = 0; k < 3; ++k) {
+      const uint32_t vertex = corners[k];
+      const auto [copy, is_new] =
+          beyond.try_emplace(vertex, static_cast<uint32_t>(mesh->positions.size()));
+      corners[k] = copy->second;
+      if (!is_new) continue;
+      mesh->positions.push_back(Vec3d(mesh->positions[vertex]));
+      mesh->normals.push_back(Vec3d(mesh->normals[vertex]));
+      mesh->uvs.emplace_back(-mesh->uvs[vertex].y, mesh->uvs[vertex].x);
+    }
+  }
+}
+
 TEST_CASE("tangents point along growing u, and the sign says where v grows") {
   Mesh mesh = Square();
   const CornerTangents made = Make(mesh);
@@ -159,6 +180,33 @@ TEST_CASE("tangents are those of the definition") {
     CheckAgainstBruteForce(mesh);
     mesh.interpolation = Interpolation::kFaceted;  // each face has normals of its own
     CheckAgainstBruteForce(mesh);
+  }
+}
+
+TEST_CASE("tangents of the two sides of a seam in the texture are not averaged") {
+  Mesh mesh = Hills(8, 1);
+  CutTexture(2.5, &mesh);
+  CheckAgainstBruteForce(mesh);
+  mesh.interpolation = Interpolation::kFaceted;
+  CheckAgainstBruteForce(mesh);
+  // Nor those of vertices that coordinates v alone, or u alone, tell apart: two squares side by
+  // side, the second's texture turned.
+  for (const Vec2d& apart : {Vec2d(0, 5), Vec2d(5, 0)}) {
+    Mesh squares = Square();
+    for (size_t i = 0; i < 4; ++i) {
+      squares.positions.push_back(Vec3d(squares.positions[i]) + Vec3d(1, 0, 0));
+      squares.normals.emplace_back(0, 0, 1);
+    }
+    const Vec2d corner = Vec2d(1, 0) + apart;  // where the first square has (1, 0)
+    for (const Vec2d& uv : {Vec2d(0, 0), Vec2d(0, -1), Vec2d(1, -1), Vec2d(1, 0)}) {
+      squares.uvs.push_back(corner + uv);
+    }
+    squares.triangles.insert(squares.triangles.end(), {4, 5, 6, 4, 6, 7});
+    const CornerTangents made = Make(squares);
+    for (size_t k = 0; k < 6; ++k) {
+      CHECK(At(made, k).direction == Vec3d(1, 0, 0));
+      CHECK(At(made, 6 + k).direction == Vec3d(0, 1, 0));
+    }
   }
 }
 
