@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/render_job.h"
 
+#include <exception>
 #include <utility>
 
 #include <fmt/format.h>
@@ -100,13 +101,20 @@ void RenderJob::Load(const std::function<void()>& load) {
   start_ = Clock::now();
   times_ = {};
   warnings_.clear();
+  std::exception_ptr error;
   {
     Progress progress(EarlyProgressForm(options_), "reading", 0, "");
     on_load_progress_ = [&](double done) { progress.Update(done); };
-    load();
+    try {
+      load();
+    } catch (...) {
+      error = std::current_exception();
+    }
   }
-  CheckOutputsAreNoInputs(paths_, {read_.begin(), read_.end()});
+  // Before an error, too: it may be what they warn of.
   for (const std::string& text : warnings_) PrintError("warning: {}\n", text);
+  if (error) std::rethrow_exception(error);
+  CheckOutputsAreNoInputs(paths_, {read_.begin(), read_.end()});
   times_.load_seconds = SecondsSince(start_);
   ThrowIfStopped();
 }

@@ -10,6 +10,7 @@ import pathlib
 import re
 import signal
 import stat
+import struct
 import subprocess
 import sys
 import tempfile
@@ -825,6 +826,30 @@ class CliTest(unittest.TestCase):
             result = self.check_fails(64, 'unknown layer', 'render', FIRST_SCENE, '--layers', layer,
                                       '-o', self.out / 'a.png')
             self.assertNotIn('warning', result.stderr)
+
+    def test_warnings_before_an_error_are_printed_before_it(self):
+        """Of every reader: they may be its reason."""
+        write = lambda name, text: (self.out / name).write_text(text)
+        empty = {'asset': {'version': '2.0'}, 'extensionsUsed': ['EXT_unheard_of'],
+                 'scenes': [{'nodes': []}]}
+        write('empty.gltf', json.dumps(empty))
+        write('a.obj', 'mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n')
+        (self.out / 'sky.pfm').write_bytes(b'PF\n2 1\n-1.0\n' + struct.pack('<6f', *[-1.0] * 6))
+        write('scene.json', json.dumps({'nacre': 1, 'lights': {'sky': {
+            'type': 'environment', 'image': 'sky.pfm', 'clamp_negative': True}}, 'shapez': 1}))
+        wrong = '--set', '/materials/nobody/roughness=1'
+        for name, warning, error, *more in (
+                ('empty.gltf', 'EXT_unheard_of is not known here', 'no triangles'),
+                ('a.obj', 'there is no file "none.mtl"', 'nobody', *wrong),
+                ('scene.json', 'samples below 0', 'shapez')):
+            with self.subTest(name):
+                result = run('render', self.out / name, '-o', self.out / 'a.png', *more)
+                self.assertEqual(result.returncode, 65, result.stderr)
+                lines = result.stderr.splitlines()
+                self.assertRegex(lines[0], f'^warning: .*{warning}')
+                self.assertRegex(lines[1], f'^error: .*{error}')
+                quiet = run('render', self.out / name, '-o', self.out / 'a.png', *more, '--quiet')
+                self.assertEqual(quiet.stderr.splitlines(), lines[1:])
 
     def test_names_of_small_spheres_are_all_written(self):
         """Names lie in tiers where they do not fit side by side: the page is higher for them."""
