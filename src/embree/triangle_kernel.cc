@@ -67,6 +67,11 @@ HWY_INLINE const CutOut* HolesOf(const TraceGeometry& geometry, uint32_t triangl
   return geometry.cut_outs.empty() ? nullptr : FindCutOut(geometry.cut_outs, triangle);
 }
 
+// Whether the triangle's back is not there. Few scenes but models have such triangles.
+HWY_INLINE bool IsSingleSided(const TraceGeometry& geometry, uint32_t triangle) {
+  return !geometry.single_sided.empty() && geometry.single_sided[triangle] != 0;
+}
+
 constexpr double kUnit = 0x1p-53;
 
 // A triangle's plane, for distances of points from it.
@@ -108,6 +113,7 @@ HWY_INLINE void IntersectTriangle(const TraceGeometry& geometry, uint32_t triang
   Packet& packet = *to;
   const Corners corners = CornersOf(geometry, triangle);
   const uint32_t primitive = geometry.SphereCount() + triangle;
+  const bool single_sided = IsSingleSided(geometry, triangle);
   const CutOut* const holes = HolesOf(geometry, triangle);
   const hn::ScalableTag<double> d;
   const int step = static_cast<int>(hn::Lanes(d));
@@ -116,6 +122,10 @@ HWY_INLINE void IntersectTriangle(const TraceGeometry& geometry, uint32_t triang
     if (hn::AllFalse(d, active)) continue;
     const auto hit = TestLanes(d, packet, lane, corners);
     auto met = hn::And(active, hit.hit);
+    if (single_sided) {
+      if (hn::AllFalse(d, met)) continue;
+      met = hn::And(met, ComesFromFront(d, hit, Direction(d, packet, lane)));
+    }
     if (holes != nullptr) {
       met = hn::And(met, hn::Le(hit.t, hn::Load(d, packet.best_t + lane)));
       if (hn::AllFalse(d, met)) continue;
@@ -174,6 +184,7 @@ HWY_NOINLINE void OccludeByTriangle(const TraceGeometry& geometry, uint32_t tria
   Packet& packet = *to;
   const Corners corners = CornersOf(geometry, triangle);
   lanes &= ~StartingLanes(packet, geometry.SphereCount() + triangle);
+  const bool single_sided = IsSingleSided(geometry, triangle);
   const CutOut* const holes = HolesOf(geometry, triangle);
   const hn::ScalableTag<double> d;
   const int step = static_cast<int>(hn::Lanes(d));
@@ -185,6 +196,11 @@ HWY_NOINLINE void OccludeByTriangle(const TraceGeometry& geometry, uint32_t tria
     const auto within = hn::And(hit.hit, hn::Lt(hit.t, hn::Load(d, packet.t_max + lane)));
     auto met = hn::And(active, within);
     if (hn::AllFalse(d, met)) continue;
+    if (single_sided) {
+      // A back is one to the light: rays of shadows go the other way.
+      met = hn::AndNot(ComesFromFront(d, hit, Direction(d, packet, lane)), met);
+      if (hn::AllFalse(d, met)) continue;
+    }
     if (holes != nullptr) {
       met = OutsideHoles(d, geometry, *holes, triangle, hit.weights, met);
     }

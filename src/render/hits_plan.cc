@@ -49,6 +49,28 @@ std::string DescribeShapes(const Scene& scene) {
                      CountTriangles(scene), TargetName(ActiveTarget()));
 }
 
+// What of the materials says where meshes are: their holes and sides, of those that have any. Of
+// opacity maps also the version of the textures.
+ViewKey KeyOfSurfaces(const Scene& scene, const PreparedScene& prepared) {
+  ViewKey key;
+  if (scene.meshes.empty()) return key;
+  key.numbers.push_back(scene.image.culling ? 1 : 0);
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    const Material& material = scene.materials[i];
+    const Material usual;
+    if (material.opacity_map.valid()) key.parts = prepared.versions.Of(ScenePart::kTextures);
+    if (material.opacity == usual.opacity && material.opacity_cutoff == usual.opacity_cutoff &&
+        !material.opacity_map.valid() && !material.single_sided) {
+      continue;
+    }
+    key.numbers.insert(
+        key.numbers.end(),
+        {static_cast<double>(i), material.opacity, material.opacity_cutoff,
+         static_cast<double>(material.opacity_map.index), material.single_sided ? 1.0 : 0.0});
+  }
+  return key;
+}
+
 // That of a plan before follows the camera, if it can.
 std::shared_ptr<Intersector> FindIntersector(const Scene& scene, const RenderSettings& settings,
                                              PreparedScene* prepared) {
@@ -56,7 +78,9 @@ std::shared_ptr<Intersector> FindIntersector(const Scene& scene, const RenderSet
   constexpr double kOrbit = 2.5;
   const Vec3d& eye = scene.camera.position;
   const bool shells = settings.intersector == IntersectorChoice::kShells;
-  const ViewKey key{prepared->shapes_made, {}, {shells ? 1.0 : 0.0}};
+  ViewKey key = KeyOfSurfaces(scene, *prepared);
+  key.made = prepared->shapes_made;
+  key.numbers.push_back(shells ? 1 : 0);
   Kept<ViewKey, std::shared_ptr<Intersector>>& kept = prepared->intersector;
   if (kept.IsUpToDate(key) && !kept.value->MoveTo(scene, eye)) kept.Forget();
   return kept.Get(key, [&] {

@@ -27,6 +27,7 @@ struct ImageSettings {
   PixelFilter filter;
   uint32_t seed = 0;    // of the sample pattern
   bool shadows = true;  // false: no light casts any
+  bool culling = true;  // false: single-sided materials (Material::single_sided) have backs, too
   friend bool operator==(const ImageSettings&, const ImageSettings&) = default;
 };
 

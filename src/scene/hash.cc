@@ -100,6 +100,7 @@ void Add(const ImageSettings& image, Hasher* hash) {
   hash->Add(image.filter.width);
   hash->Word(image.seed);
   hash->Word(image.shadows);
+  hash->Word(image.culling);
 }
 
 // The hashes of what scenes share: those that were kept, and those that are needed now.

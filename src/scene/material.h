@@ -180,6 +180,9 @@ struct Material {
   std::variant<LambertMaterial, PhongMaterial, MetallicRoughnessMaterial, ConductorMaterial,
                DielectricMaterial, SplitMaterial, OrenNayarMaterial, BurleyMaterial>
       model;
+  // Meshes only: triangles have fronts alone. From behind no ray meets them: none of the camera,
+  // and no light.
+  bool single_sided = false;
   // A reflection model of the caller's own, in the place of the model's lobes; or null. All else
   // that the model says holds: coat, sheen, albedo, what it reflects of ambient light.
   std::shared_ptr<const UserBrdf> user{};

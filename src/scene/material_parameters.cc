@@ -291,15 +291,22 @@ constexpr MaterialChoice kDielectricPreset = {
     },
     "Sets ior to a measured value."};
 
-constexpr std::array kPhongChoices = {Choice<&PhongMaterial::convention>(
-    "convention", kConventions,
+constexpr std::array<std::string_view, 2> kSideNames = {"double", "single"};
+constexpr MaterialChoice kSides = Choice<&Material::single_sided>(
+    "sides", kSideNames,
+    "Meshes only. single: triangles have fronts alone, as with glTF's doubleSided false; from "
+    "behind, rays of the camera and light pass through.");
+
+constexpr std::array kMatteChoices = {kSides};
+constexpr std::string_view kConventionMeaning =
     "radiometric: kd / pi, and lobes normalised so that ks is the share that they reflect of light "
     "from along the normal. Under light from everywhere, seen along the normal, modified_phong "
     "reflects ks, too, but phong ks (n + 2) / (n + 1) and blinn_phong from 1.13 ks (n = 32) to 2 "
-    "ks "
-    "(n = 0): they have no n.l, and gain energy, of light at grazing angles without bound; render "
-    "notes what exceeds 1. classic: the equations as lessons write them, without these factors; "
-    "the coefficients are not reflectances.")};
+    "ks (n = 0): they have no n.l, and gain energy, of light at grazing angles without bound; "
+    "render notes what exceeds 1. classic: the equations as lessons write them, without these "
+    "factors; the coefficients are not reflectances.";
+constexpr std::array kPhongChoices = {
+    Choice<&PhongMaterial::convention>("convention", kConventions, kConventionMeaning), kSides};
 constexpr std::array kMetallicRoughnessChoices = {
     Choice<&MetallicRoughnessMaterial::shadowing>("shadowing", kShadowings, kShadowingMeaning),
     Choice<&MetallicRoughnessMaterial::compensation>("compensation", kCompensations,
@@ -309,7 +316,7 @@ constexpr std::array kMetallicRoughnessChoices = {
     Choice<&MetallicRoughnessMaterial::diffuse>("diffuse", kDiffuseForms, kDiffuseMeaning),
     Choice<&MetallicRoughnessMaterial::sheen_scaling>("sheen_scaling", kSheenScalings,
                                                       kSheenScalingMeaning),
-};
+    kSides};
 constexpr std::array kConductorChoices = {
     kConductorPreset,
     Choice<&ConductorMaterial::shadowing>("shadowing", kShadowings, kShadowingMeaning),
@@ -317,7 +324,8 @@ constexpr std::array kConductorChoices = {
     Choice<&ConductorMaterial::fresnel>(
         "fresnel", kConductorFresnels,
         "exact: Fresnel's equations. f82_tint: a curve through their values at 0 and 81.8 degrees. "
-        "schlick: through the value at 0.")};
+        "schlick: through the value at 0."),
+    kSides};
 constexpr std::array kDielectricChoices = {
     kDielectricPreset,
     Choice<&DielectricMaterial::shadowing>("shadowing", kShadowings, kShadowingMeaning),
@@ -326,7 +334,8 @@ constexpr std::array kDielectricChoices = {
     Choice<&DielectricMaterial::diffuse>("diffuse", kDiffuseForms, kDiffuseMeaning),
     Choice<&DielectricMaterial::fresnel>("fresnel", kDielectricFresnels,
                                          "exact: Fresnel's equations. schlick: Schlick's curve "
-                                         "through their value at normal incidence.")};
+                                         "through their value at normal incidence."),
+    kSides};
 
 constexpr MaterialMap kEmissionMap = Map<&Material::emission_map>(
     "emission_map", MapUse::kColor, "Multiplies emission.",
@@ -455,38 +464,18 @@ constexpr std::array<MaterialModel, 9> kModels = {{
     {"blinn_phong", "Blinn-Phong: highlight (n.h)^n where the light is above the surface",
      MakePhong<PhongModel::kBlinnPhong>, HoldsPhong<PhongModel::kBlinnPhong>, kPhongParameters,
      kPhongChoices, kPhongMaps, kNormalMaps, kExponentAxis, kKsAxis},
-    {"lambert",
-     "Lambert: perfectly diffuse",
-     Make<LambertMaterial>,
-     Holds<LambertMaterial>,
-     kLambertParameters,
-     {},
-     kLambertMaps,
-     kNormalMaps,
-     "emission=0:0.2:3",
-     kAlbedoAxis},
+    {"lambert", "Lambert: perfectly diffuse", Make<LambertMaterial>, Holds<LambertMaterial>,
+     kLambertParameters, kMatteChoices, kLambertMaps, kNormalMaps, "emission=0:0.2:3", kAlbedoAxis},
     {"oren_nayar",
      "Oren-Nayar: rough and diffuse, as clay or the moon; the EON form (Portsmouth et al. 2025), "
      "which conserves energy",
-     Make<OrenNayarMaterial>,
-     Holds<OrenNayarMaterial>,
-     kOrenNayarParameters,
-     {},
-     kOrenNayarMaps,
-     kNormalMaps,
-     kMatteAxis,
-     kAlbedoAxis},
+     Make<OrenNayarMaterial>, Holds<OrenNayarMaterial>, kOrenNayarParameters, kMatteChoices,
+     kOrenNayarMaps, kNormalMaps, kMatteAxis, kAlbedoAxis},
     {"burley",
      "Burley: Disney's diffuse term of 2012, which reflects up to 1.56 times the light that grazes "
      "it",
-     Make<BurleyMaterial>,
-     Holds<BurleyMaterial>,
-     kBurleyParameters,
-     {},
-     kBurleyMaps,
-     kNormalMaps,
-     kMatteAxis,
-     kAlbedoAxis},
+     Make<BurleyMaterial>, Holds<BurleyMaterial>, kBurleyParameters, kMatteChoices, kBurleyMaps,
+     kNormalMaps, kMatteAxis, kAlbedoAxis},
     {"metallic_roughness",
      "Metallic-roughness as in glTF 2.0: GGX lobes with Schlick's Fresnel, over a diffuse base",
      Make<MetallicRoughnessMaterial>, Holds<MetallicRoughnessMaterial>,

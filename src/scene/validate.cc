@@ -102,6 +102,10 @@ void ValidateSplit(const Scene& scene, const Material& material, const std::stri
       faults->Add(place, "its opacity cuts holes, which shadows would have in other bands, too",
                   "give the mesh that material, without a split");
     }
+    if (id.index < scene.materials.size() && scene.materials[id.index].single_sided) {
+      faults->Add(place, "it is single-sided, and shadows would be so in other bands, too",
+                  "give the mesh that material, without a split");
+    }
   }
   if (material.emission != Rgb(0, 0, 0)) {
     faults->Add(where + "/emission", "a split has no emission", "give it to the materials in it");

@@ -133,14 +133,15 @@ bool IsSound(const Sphere& sphere, size_t material_count) {
          sphere.material.index < material_count;
 }
 
-// Spheres are hit by tests of their own, which know no holes.
-void RefuseHoles(const Scene& scene, size_t sphere, FaultList* faults) {
-  const MaterialId material = scene.spheres[sphere].material;
-  if (material.index >= scene.materials.size() || !CutsHoles(scene.materials[material.index])) {
-    return;
-  }
+bool IsOfMeshes(const Material& material) { return CutsHoles(material) || material.single_sided; }
+
+// Spheres are hit by tests of their own, which know no holes and no sides.
+void RefuseMaterialOfMeshes(const Scene& scene, size_t sphere, FaultList* faults) {
+  const size_t index = scene.spheres[sphere].material.index;
+  if (index >= scene.materials.size() || !IsOfMeshes(scene.materials[index])) return;
   faults->Add(fmt::format("/spheres/{}/material", sphere),
-              "its opacity cuts holes, which only meshes have",
+              CutsHoles(scene.materials[index]) ? "its opacity cuts holes, which only meshes have"
+                                                : "it is single-sided, which only meshes are",
               "make the sphere of triangles: the shapes \"uv_sphere\" and \"icosphere\"");
 }
 
@@ -188,8 +189,8 @@ void ValidateShapes(const Scene& scene, FaultList* faults) {
 
 // Which of their materials shapes cannot have.
 void ValidateMaterialsOfShapes(const Scene& scene, FaultList* faults) {
-  if (std::none_of(scene.materials.begin(), scene.materials.end(), CutsHoles)) return;
-  for (size_t i = 0; i < scene.spheres.size(); ++i) RefuseHoles(scene, i, faults);
+  if (std::none_of(scene.materials.begin(), scene.materials.end(), IsOfMeshes)) return;
+  for (size_t i = 0; i < scene.spheres.size(); ++i) RefuseMaterialOfMeshes(scene, i, faults);
 }
 
 // How many there are, those of lights as well.

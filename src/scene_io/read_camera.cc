@@ -54,6 +54,7 @@ void ReadImageSettings(const JsonValue& value, ImageSettings* image) {
   }
   object.Whole("seed", limits::kSeed, &image->seed);
   object.Boolean("shadows", &image->shadows);
+  object.Boolean("culling", &image->culling);
   object.RefuseOthers();
 }
 

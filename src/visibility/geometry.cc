@@ -43,6 +43,13 @@ void AppendMesh(const Mesh& mesh, bool with_normals, TraceGeometry* geometry) {
   }
 }
 
+// Whether the mesh has no back: its material is single-sided.
+bool LacksBack(const Scene& scene, const Mesh& mesh) {
+  const size_t material = mesh.material.index;
+  return scene.image.culling && material < scene.materials.size() &&
+         scene.materials[material].single_sided;
+}
+
 // Calls move(i) for i < count, on several threads; returns the largest result, or 0.
 template <class Move>
 double MoveAll(size_t count, int threads, const Move& move) {
@@ -86,6 +93,10 @@ TraceGeometry MakeTraceGeometry(const Scene& scene, const Vec3d& camera_position
     const auto first = static_cast<uint32_t>(geometry.triangles.size());
     const auto vertex = static_cast<uint32_t>(geometry.positions.size());
     AppendMesh(mesh, with_normals, &geometry);
+    if (LacksBack(scene, mesh) || !geometry.single_sided.empty()) {
+      geometry.single_sided.resize(first, 0);
+      geometry.single_sided.resize(geometry.triangles.size(), LacksBack(scene, mesh) ? 1 : 0);
+    }
     std::optional<CutOut> holes = MakeCutOut(scene, mesh);
     if (!holes) continue;
     holes->begin = first;

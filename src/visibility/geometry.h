@@ -43,6 +43,8 @@ struct TraceGeometry {
   std::vector<std::array<uint32_t, 3>> triangles;
   // Meshes with holes, in the order of their triangles. Most scenes have none.
   std::vector<CutOut> cut_outs;
+  // Per triangle, 1: single-sided. Empty if none is.
+  std::vector<uint8_t> single_sided;
 
   // No point of any primitive is further than this from the camera.
   double extent = 0;

@@ -21,16 +21,29 @@ struct RayShearV {
   Vec3V<V> y_axis;
 };
 
+// The axes that directions are sheared onto: those of their largest components.
+template <class D, class V = hn::Vec<D>>
+struct ShearAxisV {
+  hn::Mask<D> x, y;  // else z
+
+  HWY_INLINE V Pick(V if_x, V if_y, V if_z) const {
+    return hn::IfThenElse(x, if_x, hn::IfThenElse(y, if_y, if_z));
+  }
+};
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE ShearAxisV<D> ShearAxis(D, const Vec3V<V>& direction) {
+  const V x = hn::Abs(direction.x), y = hn::Abs(direction.y), z = hn::Abs(direction.z);
+  const auto along_x = hn::And(hn::Ge(x, y), hn::Ge(x, z));
+  return {along_x, hn::AndNot(along_x, hn::Ge(y, z))};
+}
+
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE RayShearV<V> MakeShear(D d, const Vec3V<V>& direction) {
   const V zero = hn::Zero(d);
   const V one = hn::Set(d, 1.0);
-  const V x = hn::Abs(direction.x), y = hn::Abs(direction.y), z = hn::Abs(direction.z);
-  const auto along_x = hn::And(hn::Ge(x, y), hn::Ge(x, z));
-  const auto along_y = hn::AndNot(along_x, hn::Ge(y, z));
-  const auto pick = [&](V if_x, V if_y, V if_z) {
-    return hn::IfThenElse(along_x, if_x, hn::IfThenElse(along_y, if_y, if_z));
-  };
+  const ShearAxisV<D> axis = ShearAxis(d, direction);
+  const auto pick = [&](V if_x, V if_y, V if_z) { return axis.Pick(if_x, if_y, if_z); };
   const V along = pick(direction.x, direction.y, direction.z);
   const V kx = hn::Neg(hn::Div(pick(direction.y, direction.z, direction.x), along));
   const V ky = hn::Neg(hn::Div(pick(direction.z, direction.x, direction.y), along));
@@ -43,6 +56,7 @@ struct TriangleHitV {
   hn::Mask<D> hit;
   V t;
   Vec3V<V> weights;
+  V area;  // of the projection, twice; its sign is exact, and depends on the winding
 };
 
 // inverse_dd is 1 / |direction|^2.
@@ -70,7 +84,16 @@ HWY_INLINE TriangleHitV<D> TestTriangle(D d, const Vec3V<V>& a, const Vec3V<V>& 
   const Vec3V<V> depths{Dot(a, direction), Dot(b, direction), Dot(c, direction)};
   result.t = hn::Mul(Dot(depths, result.weights), inverse_dd);
   result.hit = hn::And(line_hit, hn::Gt(result.t, zero));
+  result.area = sum;
   return result;
+}
+
+// Of hits: whether the rays come from the triangle's front, from where its corners run
+// counter-clockwise.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE hn::Mask<D> ComesFromFront(D d, const TriangleHitV<D>& hit, const Vec3V<V>& direction) {
+  const V along = ShearAxis(d, direction).Pick(direction.x, direction.y, direction.z);
+  return hn::Eq(hn::CopySign(along, hit.area), along);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -21,11 +21,17 @@ struct RayShear {
   Imath::Vec3<Real> y_axis;
 };
 
+// The axis: that of the direction's largest component.
 template <typename Real>
-RayShear<Real> MakeShear(const Imath::Vec3<Real>& direction) {
+int ShearAxis(const Imath::Vec3<Real>& direction) {
   const Imath::Vec3<Real> size(std::abs(direction.x), std::abs(direction.y), std::abs(direction.z));
   const bool along_x = size.x >= size.y && size.x >= size.z;
-  const int kz = along_x ? 0 : (size.y >= size.z ? 1 : 2);
+  return along_x ? 0 : (size.y >= size.z ? 1 : 2);
+}
+
+template <typename Real>
+RayShear<Real> MakeShear(const Imath::Vec3<Real>& direction) {
+  const int kz = ShearAxis(direction);
   const int kx = (kz + 1) % 3, ky = (kz + 2) % 3;
   RayShear<Real> shear{Imath::Vec3<Real>(0), Imath::Vec3<Real>(0)};
   shear.x_axis[kx] = 1;
@@ -40,6 +46,7 @@ struct TriangleHit {
   bool hit = false;
   Real t = 0;                          // in units of the ray's direction
   Imath::Vec3<Real> weights{0, 0, 0};  // of the three vertices; their sum is 1
+  Real area = 0;  // of the projection, twice; its sign is exact, and depends on the winding
 };
 
 // The point of the ray t direction, t > 0, on the triangle a b c (relative to the ray's origin),
@@ -70,7 +77,15 @@ TriangleHit<Real> TestTriangle(const Imath::Vec3<Real>& a, const Imath::Vec3<Rea
       Imath::Vec3<Real>(a.dot(direction), b.dot(direction), c.dot(direction)).dot(result.weights) *
       inverse_dd;
   result.hit = result.t > 0;
+  result.area = sum;
   return result;
+}
+
+// Of a hit: whether the ray comes from the triangle's front, from where its corners run
+// counter-clockwise. The shear turns no winding round: its axes and the direction's are cyclic.
+template <typename Real>
+bool ComesFromFront(const TriangleHit<Real>& hit, const Imath::Vec3<Real>& direction) {
+  return (direction[ShearAxis(direction)] > 0) == (hit.area > 0);
 }
 
 }  // namespace nacre

@@ -237,9 +237,10 @@ class SceneMaker:
         return material
 
     def leaf(self):
-        """A material that cuts holes."""
+        """A material of meshes: it cuts holes, and may be single-sided."""
         r = self.random
         leaf = self.material()
+        leaf['sides'] = r.choice(('double', 'single'))
         leaf['opacity'] = r.choice((1, 1, 0.8))
         leaf['opacity_cutoff'] = r.choice((0.1, 0.5, 0.8, 1))
         if self.mapped and r.random() < 0.8:

@@ -101,6 +101,9 @@ TEST_CASE("Pictures of changed scenes have the bits of new ones", "[prepared_sce
   CheckChanges("textures.json",
                With({{"/materials/knot/roughness", {"0.3", "0.9"}},
                      {"/materials/knot/normal_map", {"\"tiles_normal\"", "null"}},
+                     {"/materials/knot/opacity", {"1", "0.4"}},
+                     {"/materials/knot/sides", {"\"double\"", "\"single\""}},
+                     {"/image/culling", {"true", "false"}},
                      {"/textures/boxed/scale", {"5", "1"}},
                      {"/textures/tiles_normal/rotate_deg", {"0", "30"}},
                      {"/shapes/3/transform/scale", {"0.5", "0.9"}}}),
@@ -133,6 +136,11 @@ TEST_CASE("A material's change makes nothing again but what it is made of", "[pr
   change("/materials/clay/roughness", "0.3");
   FramePlan after = plan();
   CHECK(after.hits.intersector == before.hits.intersector);
+  change("/materials/clay/opacity_cutoff", "0.75");  // where surfaces are, which trees ask
+  after = plan();
+  CHECK(after.hits.intersector != before.hits.intersector);
+  change("/materials/clay/roughness", "0.4");
+  CHECK(plan().hits.intersector == after.hits.intersector);
   CHECK(after.direct.sampled_lights[0].light.mesh == map);
   change("/lights/knot/radiance", "3");
   after = plan();
