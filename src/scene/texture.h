@@ -19,6 +19,7 @@ struct SceneImage {
   std::shared_ptr<const MipChain> texels;
   float middle = 0.5f;       // the value that stands for 0 in a normal map: 128/255 of 8-bit files
   bool lacks_alpha = false;  // read for its alpha, of which it has none: 1 everywhere
+  bool is_black = false, is_white = false;  // all of its values are 0, or 1
 };
 
 // An image on surfaces. (u, v) has its origin at the lower left corner of the image, v up. It comes

@@ -35,20 +35,10 @@ void ValidateTexture(const Scene& scene, const Texture& texture, const std::stri
   }
 }
 
-// The map's texture is there and has the channels that are read of it.
-void ValidateMap(const Scene& scene, TextureId id, int channels, const std::string& where,
-                 FaultList* faults) {
-  if (!id.valid()) return;
-  if (id.index >= scene.textures.size()) {
-    faults->Add(where, fmt::format("there is no texture {}", id.index),
-                fmt::format("the scene has {}", scene.textures.size()));
-    return;
-  }
-  const ImageId image = scene.textures[id.index].image;
-  if (image.index >= scene.images.size() || !scene.images[image.index].texels) return;
-  if (scene.images[image.index].texels->channels >= channels) return;
-  faults->Add(where, fmt::format("{} has no red, green and blue", scene.images[image.index].file),
-              "a grey image cannot serve here");
+void ValidateMap(const Scene& scene, TextureId id, const std::string& where, FaultList* faults) {
+  if (!id.valid() || id.index < scene.textures.size()) return;
+  faults->Add(where, fmt::format("there is no texture {}", id.index),
+              fmt::format("the scene has {}", scene.textures.size()));
 }
 
 using NamedMap = std::pair<std::string_view, TextureId>;
@@ -83,9 +73,7 @@ void ValidateCoordinates(const Scene& scene, const Material& material, const std
 void ValidateMaps(const Scene& scene, const Material& material, const std::string& where,
                   FaultList* faults) {
   for (const auto& [name, id] : MapsOf(material)) {
-    const bool needs_rgb =
-        name == "normal_map" || name == "coat_normal_map" || name == "metallic_roughness_map";
-    ValidateMap(scene, id, needs_rgb ? 3 : 1, where + "/" + std::string(name), faults);
+    ValidateMap(scene, id, where + "/" + std::string(name), faults);
   }
   if (const MaterialModel* const model = ModelOf(material)) {
     for (const MaterialNormalMap& row : model->normal_maps) {

@@ -146,8 +146,10 @@ class NodeWalk {
       AddGltfMesh(node.mesh, node.name, world, JointsOf(node), &document_, &budget_, &scene_);
     }
     if (node.camera >= 0 && !has_camera_) {
-      scene_.camera = MakeGltfCamera(document_, node.camera, world);
-      has_camera_ = true;
+      if (const auto camera = MakeGltfCamera(node.camera, index, world, &document_)) {
+        scene_.camera = *camera;
+        has_camera_ = true;
+      }
     }
     const Json* const light = gltf::FindExtension(node.extensions, "KHR_lights_punctual");
     if (light == nullptr) return;
@@ -155,7 +157,7 @@ class NodeWalk {
       document_.Refuse(fmt::format("/nodes/{}/extensions/KHR_lights_punctual", index),
                        "has no \"light\"");
     }
-    AddGltfLight((*light)["light"].get<int>(), world, &document_, &light_names_, &scene_);
+    AddGltfLight((*light)["light"].get<int>(), index, world, &document_, &light_names_, &scene_);
   }
 
   GltfDocument& document_;

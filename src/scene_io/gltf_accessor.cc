@@ -109,6 +109,9 @@ GltfAccessor::Elements GltfAccessor::CheckElements(const GltfDocument& document,
                     fmt::format("the file has {}", model.buffers.size()));
   }
   const gltf::Buffer& buffer = model.buffers[static_cast<size_t>(bytes.buffer)];
+  if (buffer.data == nullptr && bytes.extensions != nullptr && !bytes.extensions->empty()) {
+    document.RefuseExtension(view_place, bytes.extensions->begin().key());
+  }
   if (buffer.data == nullptr) {
     document.Refuse(fmt::format("/buffers/{}", bytes.buffer), "has no \"uri\" and no data");
   }

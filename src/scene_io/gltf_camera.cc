@@ -15,11 +15,15 @@ namespace nacre {
 Vec3d GltfDirection(const Imath::M44d& world_from_node, const Vec3d& direction) {
   Vec3d result;
   world_from_node.multDirMatrix(direction, result);
-  return result.normalized();
+  const double size = SumOfAbs(result);
+  if (!(size > 0) || !std::isfinite(size)) return Vec3d(0);
+  // By a power of two, which rounds nothing: squares of huge components would not be finite.
+  return (result * std::ldexp(1, -std::ilogb(size))).normalized();
 }
 
-Camera MakeGltfCamera(const GltfDocument& document, int camera,
-                      const Imath::M44d& world_from_node) {
+std::optional<Camera> MakeGltfCamera(int camera, size_t index, const Imath::M44d& world_from_node,
+                                     GltfDocument* to) {
+  const GltfDocument& document = *to;
   const std::string place = fmt::format("/cameras/{}", camera);
   const auto& cameras = document.model.cameras;
   if (camera < 0 || static_cast<size_t>(camera) >= cameras.size()) {
@@ -48,11 +52,15 @@ Camera MakeGltfCamera(const GltfDocument& document, int camera,
   result.position = world_from_node.translation();
   const Vec3d forward = GltfDirection(world_from_node, {0, 0, -1});
   result.up = GltfDirection(world_from_node, {0, 1, 0});
-  if (!(forward.length() > 0.5) || !(result.up.length() > 0.5)) {
-    document.Refuse(place, "its node's matrix has no direction");
+  if (forward == Vec3d(0) || result.up == Vec3d(0)) {
+    to->Warn("a camera that its node leaves no direction, as a scale of 0 does, is left out");
+    return std::nullopt;
   }
   // Far enough from it that adding the position does not round the direction away.
   result.look_at = result.position + forward * std::max(result.position.length(), 1.0);
+  const std::string node = fmt::format("/nodes/{}", index);
+  document.Check(node, result.position, limits::kCoordinate);
+  document.Check(node, result.look_at, limits::kCoordinate);
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "base/error.h"
 #include "base/excerpt.h"
 #include "base/path.h"
+#include "scene/fault_list.h"
 #include "scene_io/gltf_types.h"
 #include "scene_io/text_file.h"
 #include "scene_io/text_lines.h"
@@ -29,13 +31,13 @@ namespace {
 constexpr uint64_t kMaxBytes = 0xffffffffu;  // the length in a GLB header
 
 // Extensions that are supported, at least in part, or that do not change the picture.
-constexpr std::array<std::string_view, 11> kKnownExtensions = {
+constexpr std::array<std::string_view, 12> kKnownExtensions = {
     "KHR_materials_clearcoat", "KHR_materials_sheen",
     "KHR_lights_punctual",     "KHR_materials_emissive_strength",
     "KHR_materials_ior",       "KHR_materials_pbrSpecularGlossiness",
     "KHR_materials_specular",  "KHR_materials_unlit",
     "KHR_mesh_quantization",   "KHR_xmp_json_ld",
-    "KHR_texture_transform"};
+    "KHR_texture_transform",   "KHR_materials_variants"};
 
 bool IsKnown(const std::string& extension) {
   return std::find(kKnownExtensions.begin(), kKnownExtensions.end(), extension) !=
@@ -191,6 +193,22 @@ void RefuseOldVersion(const GltfDocument& document) {
   }
 }
 
+// The extensions of all objects in the tree but animations, which are left out as a whole; some
+// files do not list those that they use.
+void FindExtensions(const Json& json, std::set<std::string>* names) {
+  if (json.is_object()) {
+    for (const auto& [name, member] : json.items()) {
+      if (name == "extras" || name == "animations") continue;
+      if (name == "extensions" && member.is_object()) {
+        for (const auto& [extension, value] : member.items()) names->insert(extension);
+      }
+      FindExtensions(member, names);
+    }
+  } else if (json.is_array()) {
+    for (const Json& element : json) FindExtensions(element, names);
+  }
+}
+
 // "2.x" is read as 2.0, which each of them extends, unless the file says that this is not enough.
 void CheckVersionAndExtensions(GltfDocument* document) {
   const gltf::Model& model = document->model;
@@ -215,7 +233,9 @@ void CheckVersionAndExtensions(GltfDocument* document) {
             ? "export the model with PNG or JPEG textures"
             : "export the model without it");
   }
-  for (const std::string& extension : model.extensionsUsed) {
+  std::set<std::string> used(model.extensionsUsed.begin(), model.extensionsUsed.end());
+  FindExtensions(document->root, &used);
+  for (const std::string& extension : used) {
     if (IsKnown(extension)) continue;
     document->Warn(
         fmt::format("the extension {} is not known here and left out", Excerpt(extension)));
@@ -230,6 +250,23 @@ void GltfDocument::Warn(const std::string& text) {
 
 void GltfDocument::Refuse(const std::string& pointer, std::string what, std::string hint) const {
   throw Error(ExitCode::kBadInput, PlaceInFile(file, pointer), std::move(what), std::move(hint));
+}
+
+void GltfDocument::RefuseExtension(const std::string& pointer, const std::string& name) const {
+  Refuse(pointer + "/extensions/" + PointerToken(name),
+         fmt::format("the extension {} alone has its data and is not known here", Excerpt(name)),
+         "export the model without it");
+}
+
+void GltfDocument::Check(const std::string& pointer, const Vec3d& value, const Range& range) const {
+  if (range.Contains(value)) return;
+  Refuse(pointer, fmt::format("[{}, {}, {}] is out of range", value.x, value.y, value.z),
+         "each number " + Describe(range));
+}
+
+void GltfDocument::Check(const std::string& pointer, double value, const Range& range) const {
+  if (range.Contains(value)) return;
+  Refuse(pointer, fmt::format("{} is out of range", value), "a number " + Describe(range));
 }
 
 std::filesystem::path GltfDocument::Resolve(const std::string& uri,

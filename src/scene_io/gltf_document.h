@@ -10,6 +10,8 @@
 #include <string>
 #include <unordered_set>
 
+#include "base/vec.h"
+#include "scene/limits.h"
 #include "scene_io/gltf_model.h"
 #include "scene_io/load_scene.h"
 #include "scene_io/text_file.h"
@@ -32,6 +34,11 @@ struct GltfDocument {
   // Throws Error (kBadInput) for the part of the file that the JSON pointer names.
   [[noreturn]] void Refuse(const std::string& pointer, std::string what,
                            std::string hint = {}) const;
+  // Refuses data that only the extension of this name, of the object at `pointer`, has.
+  [[noreturn]] void RefuseExtension(const std::string& pointer, const std::string& name) const;
+  // Refuses the colour, or point, or the number unless it is in the range.
+  void Check(const std::string& pointer, const Vec3d& value, const Range& range) const;
+  void Check(const std::string& pointer, double value, const Range& range) const;
   // The file that a URI names, which is no data URI; `pointer` says where it is named. Throws Error
   // (kBadInput) for URLs, and as ResolveReference (text_file.h) does.
   std::filesystem::path Resolve(const std::string& uri, const std::string& pointer) const;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/excerpt.h"
+#include "scene/limits.h"
 #include "scene/validate.h"
 #include "scene_io/gltf_camera.h"
 
@@ -23,10 +24,8 @@ std::string LayerName(const std::string& wanted) {
   return name;
 }
 
-SpotLight MakeSpot(const gltf::Light& light, const std::string& place,
-                   const Imath::M44d& world_from_node, GltfDocument* document) {
+SpotLight MakeSpot(const gltf::Light& light, const std::string& place, GltfDocument* document) {
   SpotLight spot;
-  spot.direction_of_travel = GltfDirection(world_from_node, {0, 0, -1});
   if (!(light.innerConeAngle >= 0) || !(light.outerConeAngle >= light.innerConeAngle) ||
       !(light.outerConeAngle > 0) || !(light.outerConeAngle <= std::numbers::pi / 2 + 1e-6)) {
     document->Refuse(
@@ -42,8 +41,8 @@ SpotLight MakeSpot(const gltf::Light& light, const std::string& place,
 
 }  // namespace
 
-void AddGltfLight(int light, const Imath::M44d& world_from_node, GltfDocument* document,
-                  UniqueNames* names, Scene* scene) {
+void AddGltfLight(int light, size_t index, const Imath::M44d& world_from_node,
+                  GltfDocument* document, UniqueNames* names, Scene* scene) {
   const auto& lights = document->model.lights;
   const std::string place = fmt::format("/extensions/KHR_lights_punctual/lights/{}", light);
   if (light < 0 || static_cast<size_t>(light) >= lights.size()) {
@@ -53,18 +52,29 @@ void AddGltfLight(int light, const Imath::M44d& world_from_node, GltfDocument* d
   const gltf::Light& source = lights[static_cast<size_t>(light)];
   const Rgb intensity = Rgb(source.color[0], source.color[1], source.color[2]) * source.intensity;
   if (source.range > 0) document->Warn("the ranges of lights are left out: they have no end");
+  document->Check(place + "/intensity", intensity, limits::kRadiance);
+  const Vec3d position = world_from_node.translation();
+  if (source.type != "directional") {
+    document->Check(fmt::format("/nodes/{}", index), position, limits::kCoordinate);
+  }
+  const Vec3d direction = GltfDirection(world_from_node, {0, 0, -1});
+  if (source.type != "point" && direction == Vec3d(0)) {
+    document->Warn("a light that its node leaves no direction, as a scale of 0 does, is left out");
+    return;
+  }
   Light result;
   result.name = names->Take(LayerName(source.name), " ", scene->lights.size());
   if (source.type == "directional") {
-    result.kind = DirectionalLight{GltfDirection(world_from_node, {0, 0, -1}), intensity};
+    result.kind = DirectionalLight{direction, intensity};
   } else if (source.type == "point") {
     PointLight point;
-    point.position = world_from_node.translation();
+    point.position = position;
     point.intensity = intensity;
     result.kind = point;
   } else if (source.type == "spot") {
-    SpotLight spot = MakeSpot(source, place, world_from_node, document);
-    spot.position = world_from_node.translation();
+    SpotLight spot = MakeSpot(source, place, document);
+    spot.position = position;
+    spot.direction_of_travel = direction;
     spot.intensity = intensity;
     result.kind = spot;
   } else {

@@ -2,6 +2,8 @@
 // scene_io/gltf_lights.h: the lights of a glTF file (KHR_lights_punctual).
 #pragma once
 
+#include <cstddef>
+
 #include "base/vec.h"
 #include "scene/scene.h"
 #include "scene_io/gltf_document.h"
@@ -9,9 +11,11 @@
 
 namespace nacre {
 
-// Adds a light of the file to the scene, under a name that `names` has not returned. Intensities
-// are taken as they are: lux as irradiance, candela as radiant intensity.
-void AddGltfLight(int light, const Imath::M44d& world_from_node, GltfDocument* document,
-                  UniqueNames* names, Scene* scene);
+// Adds a light of the file to the scene, as the node `index` with this matrix has it, under a name
+// that `names` has not returned. Intensities are taken as they are: lux as irradiance, candela as
+// radiant intensity. One that shines in a direction, of which the matrix leaves none, is left out,
+// with a warning.
+void AddGltfLight(int light, size_t index, const Imath::M44d& world_from_node,
+                  GltfDocument* document, UniqueNames* names, Scene* scene);
 
 }  // namespace nacre

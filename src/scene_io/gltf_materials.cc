@@ -29,56 +29,29 @@ Rgb ColorOf(const std::vector<double>& factor, const Rgb& otherwise) {
   return factor.size() < 3 ? otherwise : Rgb(factor[0], factor[1], factor[2]);
 }
 
-// Metallic and base colour with about the same diffuse and specular reflectances, after the
-// conversion in the appendix of KHR_materials_pbrSpecularGlossiness: equal brightness of the
-// specular reflectance decides the metallic.
-MetallicRoughnessMaterial FromSpecularGlossiness(const GltfExtension& extension) {
-  const Rgb diffuse = extension.Color("diffuseFactor", Rgb(1));
-  const Rgb specular = extension.Color("specularFactor", Rgb(1));
-  const auto brightness = [](const Rgb& c) {
-    return std::sqrt(0.299 * c.x * c.x + 0.587 * c.y * c.y + 0.114 * c.z * c.z);
-  };
-  constexpr double kDielectric = 0.04;
-  const double rest = 1 - LargestChannel(specular);
-  const double ks = brightness(specular), kd = brightness(diffuse);
-  double metallic = 0;
-  if (ks > kDielectric) {
-    const double b = kd * rest / (1 - kDielectric) + ks - 2 * kDielectric;
-    const double discriminant = std::max(b * b - 4 * kDielectric * (kDielectric - ks), 0.0);
-    metallic = std::clamp((-b + std::sqrt(discriminant)) / (2 * kDielectric), 0.0, 1.0);
-  }
-  MetallicRoughnessMaterial result;
-  for (int c = 0; c < 3; ++c) {
-    const double from_diffuse =
-        metallic < 1 ? diffuse[c] * rest / ((1 - kDielectric) * (1 - metallic)) : 0;
-    const double from_specular =
-        metallic > 0 ? (specular[c] - kDielectric * (1 - metallic)) / metallic : 0;
-    const double share = metallic * metallic;
-    result.base_color[c] =
-        std::clamp(from_diffuse + (from_specular - from_diffuse) * share, 0.0, 1.0);
-  }
-  result.metallic = metallic;
-  result.roughness = std::clamp(1 - extension.Number("glossinessFactor", 1), 0.0, 1.0);
-  return result;
-}
-
 Rgb EmissionOf(const GltfDocument& document, const gltf::Material& material, size_t index) {
-  const auto strength = FindExtension(document, material, index, "KHR_materials_emissive_strength");
-  return ColorOf(material.emissiveFactor, Rgb(0)) *
-         (strength ? strength->Number("emissiveStrength", 1) : 1);
+  const std::string place = fmt::format("/materials/{}/", index);
+  const auto extension =
+      FindExtension(document, material, index, "KHR_materials_emissive_strength");
+  const double strength = extension ? extension->Number("emissiveStrength", 1) : 1;
+  const Rgb factor = ColorOf(material.emissiveFactor, Rgb(0));
+  document.Check(place + "emissiveFactor", factor, limits::kRadiance);
+  document.Check(place + "extensions/KHR_materials_emissive_strength/emissiveStrength",
+                 factor * strength, limits::kRadiance);
+  return factor * strength;
 }
 
 // A texture of a material: its member `name` is a TextureInfo of some kind.
 template <class Info>
 TextureId AddTexture(const Info& info, const std::string& place, TextureEncoding encoding,
-                     bool needs_rgb, GltfTextures* textures) {
-  return textures->Add({info.index, info.texCoord, info.extensions, encoding, needs_rgb}, place);
+                     GltfTextures* textures) {
+  return textures->Add({info.index, info.texCoord, info.extensions, encoding}, place);
 }
 
-// The texture that an extension has as its member `name`.
+// The texture that an extension has as its member `name`. `glossiness`: GltfTextureUse's.
 TextureId AddTexture(const GltfDocument& document, const GltfExtension& extension, const char* name,
                      const std::string& place, TextureEncoding encoding, GltfTextures* textures,
-                     bool needs_rgb = false) {
+                     double glossiness = 0) {
   if (!extension.Has(name)) return {};
   const std::string member = place + "/" + name;
   const GltfExtension reader(document, extension.Get(name), member);
@@ -86,7 +59,7 @@ TextureId AddTexture(const GltfDocument& document, const GltfExtension& extensio
       reader.Has("extensions") ? &reader.Get("extensions") : nullptr;
   return textures->Add(
       {static_cast<int>(reader.Number("index", -1)), static_cast<int>(reader.Number("texCoord", 0)),
-       extensions, encoding, needs_rgb},
+       extensions, encoding, glossiness},
       member);
 }
 
@@ -147,11 +120,13 @@ void ApplyCoat(GltfDocument* document, const gltf::Material& material, size_t in
   result->coat_roughness_map = map("clearcoatRoughnessTexture");
   const char* const normal = "clearcoatNormalTexture";
   result->coat_normal_map.texture =
-      AddTexture(*document, *coat, normal, place, TextureEncoding::kLinear, textures, true);
+      AddTexture(*document, *coat, normal, place, TextureEncoding::kLinear, textures);
   result->coat_normal_map.convention = NormalMap::Convention::kLiteral;
   if (!coat->Has(normal)) return;
   const GltfExtension info(*document, coat->Get(normal), place + "/" + normal);
   result->coat_normal_map.scale = info.Number("scale", 1);
+  document->Check(place + "/" + normal + "/scale", result->coat_normal_map.scale,
+                  limits::kNormalScale);
 }
 
 // KHR_materials_sheen.
@@ -179,6 +154,34 @@ void ApplySheen(GltfDocument* document, const gltf::Material& material, size_t i
   if (textures->IsWhite(result->sheen_roughness_map)) result->sheen_roughness_map = {};
 }
 
+// KHR_materials_pbrSpecularGlossiness: the dielectric of a metallic-roughness material, whose
+// reflectance at normal incidence may be any colour, as metals' is. Metallic is 0 throughout.
+MetallicRoughnessMaterial FromSpecularGlossiness(const GltfDocument& document,
+                                                 const GltfExtension& extension,
+                                                 const std::string& place, GltfTextures* textures) {
+  const auto map = [&](const char* name, TextureEncoding encoding, double glossiness = 0) {
+    return AddTexture(document, extension, name, place, encoding, textures, glossiness);
+  };
+  const auto factor = [&](const char* name) {
+    Rgb color = extension.Color(name, Rgb(1));
+    for (int c = 0; c < 3; ++c) color[c] = std::clamp(color[c], 0.0, 1.0);
+    return color;
+  };
+  MetallicRoughnessMaterial result;
+  result.base_color = factor("diffuseFactor");
+  result.base_color_map = map("diffuseTexture", TextureEncoding::kSrgb);
+  result.dielectric_f0 = factor("specularFactor");
+  const double glossiness = std::clamp(extension.Number("glossinessFactor", 1), 0.0, 1.0);
+  result.roughness = 1 - glossiness;
+  const char* const both = "specularGlossinessTexture";
+  result.specular_color_map = map(both, TextureEncoding::kSrgb);
+  if (glossiness > 0 && extension.Has(both)) {
+    result.metallic_roughness_map = map(both, TextureEncoding::kAlpha, glossiness);
+    if (result.metallic_roughness_map.valid()) result.roughness = 1;
+  }
+  return result;
+}
+
 // alphaMode MASK: holes where the base colour's alpha is below alphaCutoff. KHR_materials_unlit has
 // the base colour's members, too.
 void ApplyMask(const gltf::Material& material, double alpha, TextureId alpha_map,
@@ -191,13 +194,14 @@ void ApplyMask(const gltf::Material& material, double alpha, TextureId alpha_map
 
 double AlphaOf(const std::vector<double>& factor) { return factor.size() < 4 ? 1 : factor[3]; }
 
-void AddCommonTextures(const gltf::Material& material, const std::string& place,
-                       GltfTextures* textures, Material* result) {
+void AddCommonTextures(const GltfDocument& document, const gltf::Material& material,
+                       const std::string& place, GltfTextures* textures, Material* result) {
   result->emission_map = AddTexture(material.emissiveTexture, place + "/emissiveTexture",
-                                    TextureEncoding::kSrgb, false, textures);
+                                    TextureEncoding::kSrgb, textures);
   result->normal_map.texture = AddTexture(material.normalTexture, place + "/normalTexture",
-                                          TextureEncoding::kLinear, true, textures);
+                                          TextureEncoding::kLinear, textures);
   result->normal_map.scale = material.normalTexture.scale;
+  document.Check(place + "/normalTexture/scale", result->normal_map.scale, limits::kNormalScale);
   // "red [0.0 .. 1.0] to X [-1 .. 1]", says the specification: code 128 of 255 is not quite level.
   result->normal_map.convention = NormalMap::Convention::kLiteral;
 }
@@ -213,6 +217,7 @@ void CheckTextures(const GltfDocument& document, size_t index, const GltfTexture
         "/extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture",
         "/extensions/KHR_materials_clearcoat/clearcoatNormalTexture",
         "/extensions/KHR_materials_pbrSpecularGlossiness/diffuseTexture",
+        "/extensions/KHR_materials_pbrSpecularGlossiness/specularGlossinessTexture",
         "/extensions/KHR_materials_sheen/sheenColorTexture",
         "/extensions/KHR_materials_sheen/sheenRoughnessTexture",
         "/extensions/KHR_materials_specular/specularTexture",
@@ -230,6 +235,7 @@ Material MakeMaterial(GltfDocument* document, size_t index, std::string name,
   const auto& pbr = material.pbrMetallicRoughness;
   Material result;
   result.name = std::move(name);
+  result.single_sided = !material.doubleSided;
   const std::string place = fmt::format("/materials/{}", index);
   const bool masked = material.alphaMode == "MASK";
   if (!masked && material.alphaMode != "OPAQUE") {
@@ -240,20 +246,20 @@ Material MakeMaterial(GltfDocument* document, size_t index, std::string name,
     }
     document->Warn("transparency is not shown: materials whose alphaMode is BLEND are opaque");
   }
+  const std::string factors = place + "/pbrMetallicRoughness/";
   const Rgb base_color = ColorOf(pbr.baseColorFactor, Rgb(1));
   const auto mask_by_base_color = [&] {
-    const TextureId alpha =
-        masked ? AddTexture(pbr.baseColorTexture, place + "/pbrMetallicRoughness/baseColorTexture",
-                            TextureEncoding::kAlpha, false, textures)
-               : TextureId{};
+    const TextureId alpha = masked ? AddTexture(pbr.baseColorTexture, factors + "baseColorTexture",
+                                                TextureEncoding::kAlpha, textures)
+                                   : TextureId{};
     ApplyMask(material, AlphaOf(pbr.baseColorFactor), alpha, textures, &result);
   };
   if (FindExtension(*document, material, index, "KHR_materials_unlit")) {
+    document->Check(factors + "baseColorFactor", base_color, limits::kRadiance);
     result.model = LambertMaterial{Rgb(0)};
     result.emission = base_color;
-    result.emission_map =
-        AddTexture(pbr.baseColorTexture, place + "/pbrMetallicRoughness/baseColorTexture",
-                   TextureEncoding::kSrgb, false, textures);
+    result.emission_map = AddTexture(pbr.baseColorTexture, factors + "baseColorTexture",
+                                     TextureEncoding::kSrgb, textures);
     mask_by_base_color();
     return result;
   }
@@ -261,34 +267,33 @@ Material MakeMaterial(GltfDocument* document, size_t index, std::string name,
     document->Warn("occlusion textures are left out: lights and their shadows are computed");
   }
   result.emission = EmissionOf(*document, material, index);
-  AddCommonTextures(material, place, textures, &result);
+  AddCommonTextures(*document, material, place, textures, &result);
   if (const auto glossiness =
           FindExtension(*document, material, index, "KHR_materials_pbrSpecularGlossiness")) {
-    document->Warn("specular-glossiness materials are shown as the nearest metallic-roughness");
-    MetallicRoughnessMaterial nearest = FromSpecularGlossiness(*glossiness);
-    // Which is the base colour where the material is no metal.
-    nearest.base_color_map = AddTexture(*document, *glossiness, "diffuseTexture",
-                                        place + "/extensions/KHR_materials_pbrSpecularGlossiness",
-                                        TextureEncoding::kSrgb, textures);
-    const TextureId alpha =
-        masked ? AddTexture(*document, *glossiness, "diffuseTexture",
-                            place + "/extensions/KHR_materials_pbrSpecularGlossiness",
-                            TextureEncoding::kAlpha, textures)
-               : TextureId{};
+    const std::string inner = place + "/extensions/KHR_materials_pbrSpecularGlossiness";
+    MetallicRoughnessMaterial model =
+        FromSpecularGlossiness(*document, *glossiness, inner, textures);
+    ApplyCoat(document, material, index, textures, &model);
+    ApplySheen(document, material, index, textures, &model);
+    const TextureId alpha = masked ? AddTexture(*document, *glossiness, "diffuseTexture", inner,
+                                                TextureEncoding::kAlpha, textures)
+                                   : TextureId{};
     ApplyMask(material, glossiness->Alpha("diffuseFactor", 1), alpha, textures, &result);
-    result.model = nearest;
+    result.model = model;
     return result;
   }
+  document->Check(factors + "baseColorFactor", base_color, limits::kUnit);
+  document->Check(factors + "metallicFactor", pbr.metallicFactor, limits::kUnit);
+  document->Check(factors + "roughnessFactor", pbr.roughnessFactor, limits::kUnit);
   MetallicRoughnessMaterial metallic_roughness;
   metallic_roughness.base_color = base_color;
   metallic_roughness.metallic = pbr.metallicFactor;
   metallic_roughness.roughness = pbr.roughnessFactor;
-  metallic_roughness.base_color_map =
-      AddTexture(pbr.baseColorTexture, place + "/pbrMetallicRoughness/baseColorTexture",
-                 TextureEncoding::kSrgb, false, textures);
-  metallic_roughness.metallic_roughness_map = AddTexture(
-      pbr.metallicRoughnessTexture, place + "/pbrMetallicRoughness/metallicRoughnessTexture",
-      TextureEncoding::kLinear, true, textures);
+  metallic_roughness.base_color_map = AddTexture(pbr.baseColorTexture, factors + "baseColorTexture",
+                                                 TextureEncoding::kSrgb, textures);
+  metallic_roughness.metallic_roughness_map =
+      AddTexture(pbr.metallicRoughnessTexture, factors + "metallicRoughnessTexture",
+                 TextureEncoding::kLinear, textures);
   ApplyReflectance(document, material, index, textures, &metallic_roughness);
   ApplyCoat(document, material, index, textures, &metallic_roughness);
   ApplySheen(document, material, index, textures, &metallic_roughness);
@@ -314,6 +319,7 @@ std::vector<Material> MakeGltfMaterials(GltfDocument* document, Scene* scene) {
   // The defaults of the specification: white, metallic 1, roughness 1, which few files mean.
   Material& otherwise = materials.emplace_back();
   otherwise.name = names.Take("default", "#", count);
+  otherwise.single_sided = true;
   otherwise.model = MetallicRoughnessMaterial{.base_color = Rgb(1), .metallic = 1, .roughness = 1};
   return materials;
 }

@@ -333,6 +333,23 @@ void WarnOfRest(const Primitive& primitive, GltfDocument* document) {
   }
 }
 
+// Refuses a primitive whose positions or indices have no data but those of an extension: one that
+// refers to a buffer view, as compressed ones do.
+void RefuseCompressed(const GltfDocument& document, const Primitive& primitive) {
+  const gltf::Extensions extensions = primitive.source.extensions;
+  if (extensions == nullptr) return;
+  const auto& accessors = document.model.accessors;
+  const auto is_empty = [&](int accessor) {
+    return accessor >= 0 && static_cast<size_t>(accessor) < accessors.size() &&
+           accessors[static_cast<size_t>(accessor)].bufferView < 0 &&
+           !accessors[static_cast<size_t>(accessor)].isSparse;
+  };
+  if (!is_empty(AttributeOf(primitive, "POSITION")) && !is_empty(primitive.source.indices)) return;
+  for (const auto& [name, extension] : extensions->items()) {
+    if (extension.contains("bufferView")) document.RefuseExtension(primitive.place, name);
+  }
+}
+
 // The sparse elements of its accessors, which are read whenever a node shows the primitive, whether
 // or not its triangles use them.
 uint64_t SparseElements(const gltf::Model& model, const gltf::Primitive& primitive) {
@@ -362,6 +379,7 @@ void AddPrimitive(Primitive primitive, const std::string& name, const Imath::M44
   if (AttributeOf(primitive, "POSITION") < 0) {
     return leave_out("primitives without positions are left out");
   }
+  RefuseCompressed(*document, primitive);
   SpendTriangles(SparseElements(document->model, primitive.source), document->file, budget);
   const GltfAccessor positions(*document, AttributeOf(primitive, "POSITION"), "VEC3");
   primitive.triangles = ReadTriangles(*document, primitive, positions.count(), budget);

@@ -49,6 +49,7 @@ void ReadBufferView(const Json& json, BufferView* view) {
   Get(json, "byteOffset", &view->byteOffset);
   Get(json, "byteLength", &view->byteLength);
   Get(json, "byteStride", &view->byteStride);
+  view->extensions = Find(json, "extensions");
 }
 
 void ReadPrimitive(const Json& json, Primitive* primitive) {

@@ -44,6 +44,7 @@ struct Buffer {
 struct BufferView {
   int buffer = -1;
   uint64_t byteOffset = 0, byteLength = 0, byteStride = 0;
+  Extensions extensions = nullptr;
 };
 
 struct Accessor {

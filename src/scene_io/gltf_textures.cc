@@ -117,11 +117,12 @@ GltfImage FindImage(const GltfDocument& document, int image) {
 
 }  // namespace
 
-ImageId GltfTextures::AddImage(int image, TextureEncoding encoding) {
-  const auto known = images_.find({image, encoding});
+ImageId GltfTextures::AddImage(int image, const TextureReading& reading) {
+  const auto key = std::make_pair(image, reading.Key({}));
+  const auto known = images_.find(key);
   if (known != images_.end()) return known->second;
-  const ImageId id = DecodeImage(image, encoding);
-  images_.emplace(std::make_pair(image, encoding), id);
+  const ImageId id = DecodeImage(image, reading);
+  images_.emplace(key, id);
   return id;
 }
 
@@ -160,9 +161,9 @@ void GltfTextures::DecodeAhead() {
   ahead_.Decode(texels_, document_.threads);
 }
 
-ImageId GltfTextures::DecodeImage(int image, TextureEncoding encoding) {
+ImageId GltfTextures::DecodeImage(int image, const TextureReading& reading) {
   const GltfImage source = FindImage(document_, image);
-  const auto key = std::make_pair(source.key, encoding);
+  const auto key = std::make_pair(source.key, reading.Key({}));
   const auto known = decoded_.find(key);
   if (known != decoded_.end()) return known->second;
   const gltf::Image& named = document_.model.images[static_cast<size_t>(image)];
@@ -170,8 +171,7 @@ ImageId GltfTextures::DecodeImage(int image, TextureEncoding encoding) {
   const std::string name = is_file ? named.uri : fmt::format("image {}", image);
   try {
     if (is_file) texels_.AddFile(source.file);
-    const ImageId id =
-        AddTextureImage(FileOf(source), name, Reading(encoding), &texels_, &scene_, &ahead_);
+    const ImageId id = AddTextureImage(FileOf(source), name, reading, &texels_, &scene_, &ahead_);
     files_.erase(source.key);
     decoded_.emplace(key, id);
     return id;
@@ -183,15 +183,8 @@ ImageId GltfTextures::DecodeImage(int image, TextureEncoding encoding) {
   }
 }
 
-bool GltfTextures::IsWhite(TextureId texture) {
-  if (!texture.valid()) return false;
-  const ImageId image = scene_.textures[texture.index].image;
-  const auto [known, is_new] = is_white_.try_emplace(image.index);
-  if (is_new) {
-    const auto& texels = scene_.images[image.index].texels->values;
-    known->second = std::all_of(texels.begin(), texels.end(), [](float v) { return v == 1; });
-  }
-  return known->second;
+bool GltfTextures::IsWhite(TextureId texture) const {
+  return texture.valid() && scene_.images[scene_.textures[texture.index].image.index].is_white;
 }
 
 void GltfTextures::CheckIndex(int texture, const std::string& place) const {
@@ -236,11 +229,7 @@ TextureId GltfTextures::Add(const GltfTextureUse& use, const std::string& place)
     const gltf::Sampler& sampler = model.samplers[static_cast<size_t>(source.sampler)];
     texture.sampling = {FilterOf(sampler), WrapOf(sampler.wrapS), WrapOf(sampler.wrapT)};
   }
-  texture.image = AddImage(source.source, use.encoding);
-  if (use.needs_rgb && scene_.images[texture.image.index].texels->channels < 3) {
-    document_.Warn("grey images are left out where red, green and blue mean different things");
-    return {};
-  }
+  texture.image = AddImage(source.source, Reading(use.encoding, use.glossiness));
   scene_.textures.push_back(std::move(texture));
   return {static_cast<uint32_t>(scene_.textures.size() - 1)};
 }

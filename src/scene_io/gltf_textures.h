@@ -30,10 +30,10 @@ struct GltfTextureUse {
   int tex_coord = 0;
   gltf::Extensions extensions = nullptr;
   TextureEncoding encoding = TextureEncoding::kLinear;
-  bool needs_rgb = false;
+  double glossiness = 0;  // TextureReading's
 };
 
-// Adds textures and their images to a scene, each image once for each encoding, however many of the
+// Adds textures and their images to a scene, each image once for each reading, however many of the
 // document's images are the same file or bytes.
 class GltfTextures {
  public:
@@ -52,26 +52,27 @@ class GltfTextures {
   void DecodeAhead();
 
   // Whether it is a texture that changes nothing: all of its texels are 1.
-  bool IsWhite(TextureId texture);
+  bool IsWhite(TextureId texture) const;
 
  private:
-  ImageId AddImage(int image, TextureEncoding encoding);
-  ImageId DecodeImage(int image, TextureEncoding encoding);
+  ImageId AddImage(int image, const TextureReading& reading);
+  ImageId DecodeImage(int image, const TextureReading& reading);
   void WantAhead(int texture, TextureEncoding encoding);
   // The image as a file: its own, or a temporary one.
   std::filesystem::path FileOf(const GltfImage& image);
-  TextureReading Reading(TextureEncoding encoding) const {
-    return {.encoding = encoding, .part = {}, .threads = document_.threads};
+  TextureReading Reading(TextureEncoding encoding, double glossiness = 0) const {
+    return {
+        .encoding = encoding, .glossiness = glossiness, .part = {}, .threads = document_.threads};
   }
 
   GltfDocument& document_;
   Scene& scene_;
   TexelBudget texels_;
   TexturesAhead ahead_;
-  std::map<std::string, std::unique_ptr<const TemporaryFile>> files_;   // by GltfImage::key
-  std::map<std::pair<int, TextureEncoding>, ImageId> images_;           // by index in the document
-  std::map<std::pair<std::string, TextureEncoding>, ImageId> decoded_;  // by GltfImage::key
-  std::map<uint32_t, bool> is_white_;                                   // by the image's index
+  std::map<std::string, std::unique_ptr<const TemporaryFile>> files_;  // by GltfImage::key
+  // By reading, and by index in the document or by GltfImage::key.
+  std::map<std::pair<int, std::string>, ImageId> images_;
+  std::map<std::pair<std::string, std::string>, ImageId> decoded_;
 };
 
 }  // namespace nacre

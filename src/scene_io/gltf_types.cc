@@ -151,6 +151,7 @@ constexpr std::array kMembers = {
     Member{"KHR_materials_clearcoat", "clearcoatRoughnessTexture", Kind::kTexture},
     Member{"KHR_materials_clearcoat", "clearcoatNormalTexture", Kind::kTexture},
     Member{"KHR_materials_pbrSpecularGlossiness", "diffuseTexture", Kind::kTexture},
+    Member{"KHR_materials_pbrSpecularGlossiness", "specularGlossinessTexture", Kind::kTexture},
     Member{"KHR_materials_sheen", "sheenColorTexture", Kind::kTexture},
     Member{"KHR_materials_sheen", "sheenRoughnessTexture", Kind::kTexture},
     Member{"KHR_materials_specular", "specularTexture", Kind::kTexture},

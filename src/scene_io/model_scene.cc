@@ -13,6 +13,7 @@
 #include <Imath/ImathBox.h>
 
 #include "base/error.h"
+#include "scene/idle_layers.h"
 #include "scene_io/overrides.h"
 #include "scene_io/readers.h"
 
@@ -305,6 +306,8 @@ bool CompleteModelScene(const ModelCompletion& how, SceneParts parts, Scene* sce
          [&](const JsonValue& value) { ReadTextures(value, &context); });
   member("materials", ScenePart::kMaterials,
          [&](const JsonValue& value) { SetMaterials(value, &context); });
+  // Last: what a file leaves idle may be set. (Parts that are complete have none.)
+  for (Material& material : scene->materials) RemoveIdleLayers(*scene, &material);
   // New maps may need them.
   const bool new_coordinates = parts.Has(ScenePart::kMaterials) && CompleteCoordinates(scene);
   member("background", ScenePart::kBackground,

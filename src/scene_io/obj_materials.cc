@@ -341,11 +341,19 @@ class ObjMaterials {
     if (material->emission_map.valid() && material->emission == Rgb(0)) material->emission = Rgb(1);
     material->normal_map.texture = AddTexture(source.norm, TextureEncoding::kLinear);
     material->normal_map.scale = source.norm.multiplier;
+    if (IsGrey(material->normal_map.texture)) {
+      Warn("an image of normals (norm) is left out: it is grey, as heights are");
+      material->normal_map = {};
+    }
     const bool ambient = !source.map_ka.file.empty() && source.map_ka.file != source.map_kd.file;
     if (ambient) Warn("ambient images (map_Ka) are not shown");
     if (!source.bump.file.empty()) Warn("bump images are not shown: normal ones (norm) are");
     if (!source.disp.file.empty()) Warn("displacement images are not shown");
     if (!source.map_d.file.empty()) Warn("transparency is not shown: all materials are opaque");
+  }
+
+  bool IsGrey(TextureId id) const {
+    return id.valid() && scene_.images[scene_.textures[id.index].image.index].texels->channels < 3;
   }
 
   // By its file, however that is spelled.

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/version.h"
+#include "scene/idle_layers.h"
 #include "scene/validate.h"
 #include "scene_io/overrides.h"
 #include "scene_io/readers.h"
@@ -249,6 +250,8 @@ std::optional<ReadMembers> ReadScene(const SceneTree& tree, SceneParts parts,
       !TakeOverBrought(*reading.before, reading.members, read, scene)) {
     return std::nullopt;
   }
+  // Last: generators may vary what a material leaves idle.
+  for (Material& material : scene->materials) RemoveIdleLayers(*scene, &material);
   AddValidation(*scene, parts, faults);
   return read;
 }

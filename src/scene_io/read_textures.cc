@@ -231,6 +231,15 @@ const std::string* NameOfTexture(const Json& map) {
   return name.get_ptr<const std::string*>();
 }
 
+// Heights are often taken for normals.
+void RefuseGrey(const JsonValue& value, const Scene& scene, TextureId id) {
+  if (!id.valid()) return;
+  const SceneImage& image = scene.images[scene.textures[id.index].image.index];
+  if (image.texels->channels >= 3) return;
+  value.AddFault(fmt::format("\"{}\" is grey, and holds no normals", image.file),
+                 "heights are for \"bump_map\"");
+}
+
 }  // namespace
 
 void DecodeMapsAhead(const Json& materials, SceneContext* context) {
@@ -323,6 +332,7 @@ void ReadMaps(const MaterialModel& model, JsonObject* object, SceneContext* cont
         map->Number("scale", limits::kNormalScale, &normal.scale);
         ReadChoice(map, "convention", kConventions, &normal.convention);
       });
+      RefuseGrey(value, *context->scene, normal.texture);
     });
   }
   member("bump_map", [&](const JsonValue& value) {

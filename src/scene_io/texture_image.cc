@@ -204,6 +204,15 @@ SceneImage DecodeTextureImage(const OpenTexture& open, const TextureReading& rea
     throw Error(ExitCode::kBadInput, open.image.path, "holds NaN or infinities",
                 "a texture needs finite values");
   }
+  if (reading.glossiness > 0) {
+    const auto factor = static_cast<float>(reading.glossiness);
+    for (float& value : values) value = 1 - factor * value;
+  }
+  const auto are_all = [&](float all) {
+    return std::all_of(values.begin(), values.end(), [&](float value) { return value == all; });
+  };
+  texture.is_black = are_all(0);
+  texture.is_white = are_all(1);
   FillMipLevels(&chain);
   texture.texels = std::make_shared<const MipChain>(std::move(chain));
   return texture;
@@ -212,7 +221,9 @@ SceneImage DecodeTextureImage(const OpenTexture& open, const TextureReading& rea
 }  // namespace
 
 std::string TextureReading::Key(const std::filesystem::path& path) const {
-  return path.string() + "sla"[static_cast<size_t>(encoding)] + (trust_encoding ? "!" : "?") + part;
+  const std::string gloss = glossiness > 0 ? fmt::format("{} ", glossiness) : "";
+  return path.string() + "sla"[static_cast<size_t>(encoding)] + (trust_encoding ? "!" : "?") +
+         gloss + part;
 }
 
 void TexturesAhead::Want(const std::filesystem::path& path, const TextureReading& reading) {

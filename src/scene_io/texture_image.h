@@ -24,6 +24,9 @@ struct TextureReading {
   // false: an integer file that is decoded as sRGB and says itself that it is something else (gAMA
   // or cHRM of PNG, ICC profiles) is refused. glTF forbids to look, and a scene may say so.
   bool trust_encoding = true;
+  // Above 0: the values are glossinesses, which this multiplies. The texture holds the roughness
+  // that they stand for, 1 less the product.
+  double glossiness = 0;
   std::string part;  // of an EXR file that has several
   int threads = 0;   // to decode on; 0: as many as the machine has
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "catch.h"
+#include "messages.h"
 #include "scene/mesh.h"
 #include "scene_io/gltf_builder.h"
 
@@ -343,14 +344,132 @@ TEST_CASE("extensions of materials") {
       "glossinessFactor": 0.25})",
                                  &warnings);
   const auto& painted = std::get<MetallicRoughnessMaterial>(paint.model);
-  CHECK(painted.metallic == Approx(0).margin(1e-12));
+  CHECK(painted.metallic == 0);
   CHECK(painted.roughness == 0.75);
-  CHECK(painted.base_color.x == Approx(0.5).epsilon(1e-12));
+  CHECK(painted.base_color == Rgb(0.5));
+  CHECK(painted.dielectric_f0 == Rgb(0.04));
   const Material metal = plastic(R"("KHR_materials_pbrSpecularGlossiness": {
       "diffuseFactor": [0, 0, 0, 1], "specularFactor": [1, 0.75, 0.3]})",
                                  &warnings);
-  CHECK(std::get<MetallicRoughnessMaterial>(metal.model).metallic == Approx(1).epsilon(1e-6));
-  CHECK(std::get<MetallicRoughnessMaterial>(metal.model).base_color.y == Approx(0.75));
+  const auto& gilded = std::get<MetallicRoughnessMaterial>(metal.model);
+  CHECK((gilded.metallic == 0 && gilded.roughness == 0 && gilded.base_color == Rgb(0)));
+  CHECK(gilded.dielectric_f0 == Rgb(1, 0.75, 0.3));
+  CHECK(warnings.empty());
+}
+
+TEST_CASE("materials are single-sided unless they are doubleSided, and mirrors keep their fronts") {
+  CHECK(MaterialOf("{}").single_sided);
+  CHECK(MaterialOf(R"({"doubleSided": false})").single_sided);
+  CHECK_FALSE(MaterialOf(R"({"doubleSided": true})").single_sided);
+  CHECK_FALSE(MaterialOf(R"({"doubleSided": true, "extensions": {"KHR_materials_unlit": {}}})")
+                  .single_sided);
+  CHECK(LoadFile(MakeSquare()).materials.back().single_sided);  // the default one
+  for (const char* scale : {"[1, 1, 1]", "[-1, 1, 1]", "[1, -1, 1]", "[-1, -1, 1]"}) {
+    CAPTURE(scale);
+    CHECK(VectorArea(MeshWithNode(std::string(R"({"mesh": 0, "scale": )") + scale + "}")).z == 1);
+  }
+  // Mirrored in depth, the side that was behind is in front.
+  CHECK(VectorArea(MeshWithNode(R"({"mesh": 0, "scale": [1, 1, -1]})")).z == -1);
+}
+
+TEST_CASE("nodes scaled to nothing leave lights and cameras without direction out, not the model") {
+  GltfFile file = MakeSquare();
+  file.json["cameras"] = Json::parse(R"([{"type": "perspective", "perspective": {"yfov": 1}}])");
+  file.json["extensions"]["KHR_lights_punctual"]["lights"] =
+      Json::parse(R"([{"type": "directional"}, {"type": "spot", "spot": {}}, {"type": "point"}])");
+  const auto scene_of = [&](const Json& node, std::vector<std::string>* warnings) {
+    GltfFile with = file;
+    with.json["scenes"][0]["nodes"].push_back(1);
+    with.json["nodes"].push_back(node);
+    for (int light = 0; light < 3; ++light) {
+      with.json["nodes"][1]["children"].push_back(light + 2);
+      with.json["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", light}}}}}});
+    }
+    return LoadFile(with, warnings);
+  };
+  std::vector<std::string> warnings;
+  const Scene scene =
+      scene_of({{"camera", 0}, {"scale", {0, 0, 0}}, {"translation", {1, 2, 3}}}, &warnings);
+  REQUIRE(scene.lights.size() == 1);
+  CHECK(std::get<PointLight>(scene.lights[0].kind).position == Vec3d(1, 2, 3));
+  REQUIRE(warnings.size() == 2);
+  CHECK(warnings[0].find("a camera that its node leaves no direction") != std::string::npos);
+  CHECK(warnings[1].find("a light that its node leaves no direction") != std::string::npos);
+  CHECK(scene.camera.fov_y_deg == Camera().fov_y_deg);  // the one that is added
+  // Tiny and huge scales leave it, whatever their squares are.
+  for (const double scale : {1e-200, 1e-5, 3.0, 1e200}) {
+    CAPTURE(scale);
+    warnings.clear();
+    const Json turned = {{"scale", {scale, scale, scale}}, {"rotation", {0, 0.6, 0, 0.8}}};
+    const Scene lit = scene_of(turned, &warnings);
+    CHECK(warnings.empty());
+    REQUIRE(lit.lights.size() == 3);
+    CHECK(Near(std::get<DirectionalLight>(lit.lights[0].kind).direction_of_travel,
+               {-0.96, 0, -0.28}));
+  }
+  Tells(ErrorOf([&] {
+          scene_of({{"translation", {1e300, 0, 0}}}, &warnings);
+        }),
+        "/nodes/3: [1e+300, 0, 0] is out of range");
+  Tells(ErrorOf([&] {
+          scene_of({{"camera", 0}, {"translation", {1e300, 0, 0}}}, &warnings);
+        }),
+        "/nodes/1: [1e+300, 0, 0] is out of range");
+}
+
+TEST_CASE("extensions are told whether or not the file lists them, and geometry in them refused") {
+  GltfFile file = MakeSquare();
+  file.json["extensionsUsed"] = {"EXT_listed", "KHR_materials_ior"};
+  file.json["nodes"][0]["extensions"]["EXT_of_node"] = Json::object();
+  file.json["meshes"][0]["primitives"][0]["extensions"]["EXT_listed"] = Json::object();
+  file.json["materials"] = Json::parse(R"([{"extensions": {"EXT_of_material": {"textures":
+      [{"extensions": {"EXT_within": {}}}]}}, "extras": {"extensions": {"EXT_in_extras": {}}}}])");
+  std::vector<std::string> warnings;
+  LoadFile(file, &warnings);
+  std::vector<std::string> expected;
+  for (const char* name : {"EXT_listed", "EXT_of_material", "EXT_of_node", "EXT_within"}) {
+    expected.push_back(fmt::format("the extension {} is not known here and left out", name));
+  }
+  REQUIRE(warnings.size() == expected.size());
+  for (size_t i = 0; i < warnings.size(); ++i) {
+    CHECK(warnings[i].ends_with(": " + expected[i]));
+  }
+  // Draco's and meshopt's, which need not be listed as required.
+  GltfFile draco = MakeSquare();
+  draco.json["accessors"][0].erase("bufferView");
+  draco.json["meshes"][0]["primitives"][0]["extensions"] = Json::parse(
+      R"({"KHR_materials_variants": {"mappings": []},
+          "KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {"POSITION": 0}}})");
+  Tells(ErrorOf([&] { LoadFile(draco); }),
+        "/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression: the extension "
+        "KHR_draco_mesh_compression alone has its data");
+  draco.json["accessors"][0]["bufferView"] = 0;  // what is there for readers that do not know it
+  CHECK(LoadFile(draco).meshes.size() == 1);
+  draco.json["accessors"][1].erase("bufferView");
+  Tells(ErrorOf([&] { LoadFile(draco); }), "KHR_draco_mesh_compression alone has");
+  GltfFile meshopt = MakeSquare();
+  meshopt.json["buffers"].push_back({{"byteLength", 99}});
+  meshopt.json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0}};
+  CHECK(LoadFile(meshopt).meshes.size() == 1);
+  meshopt.json["bufferViews"][0]["buffer"] = 1;
+  Tells(ErrorOf([&] { LoadFile(meshopt); }),
+        "/bufferViews/0/extensions/EXT_meshopt_compression: the extension "
+        "EXT_meshopt_compression alone has its data");
+}
+
+TEST_CASE("numbers out of range are told in the file's own words") {
+  const auto refuses = [](const char* pointer, const char* value, const char* message) {
+    CAPTURE(pointer);
+    GltfFile file = MakeSquare();
+    file.json["materials"] = Json::parse(R"([{}])");
+    file.json[Json::json_pointer(pointer)] = Json::parse(value);
+    Tells(ErrorOf([&] { LoadFile(file); }), std::string(pointer) + ": " + message);
+  };
+  const std::string pbr = "/materials/0/pbrMetallicRoughness/";
+  refuses((pbr + "baseColorFactor").c_str(), "[2, 1, 1, 1]", "[2, 1, 1] is out of range");
+  refuses((pbr + "metallicFactor").c_str(), "-1", "-1 is out of range");
+  refuses((pbr + "roughnessFactor").c_str(), "1.5", "1.5 is out of range");
+  refuses("/materials/0/emissiveFactor", "[0, 0, -1]", "[0, 0, -1] is out of range");
 }
 
 TEST_CASE("cameras: the first one in the scene is taken") {

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "catch.h"
+#include "image_io/png_bytes.h"
 #include "messages.h"
 #include "scene/texture_mapping.h"
 #include "scene_io/gltf_builder.h"
@@ -172,6 +173,8 @@ TEST_CASE("references to textures are checked even where they are not followed")
        {"occlusionTexture", "extensions/KHR_materials_clearcoat/clearcoatTexture",
         "extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture",
         "extensions/KHR_materials_clearcoat/clearcoatNormalTexture",
+        "extensions/KHR_materials_pbrSpecularGlossiness/diffuseTexture",
+        "extensions/KHR_materials_pbrSpecularGlossiness/specularGlossinessTexture",
         "extensions/KHR_materials_sheen/sheenColorTexture",
         "extensions/KHR_materials_sheen/sheenRoughnessTexture",
         "extensions/KHR_materials_specular/specularTexture",
@@ -225,6 +228,7 @@ TEST_CASE("textures on second coordinates") {
   CHECK(LoadFile(file).meshes.at(0).second_uvs.empty());  // nothing asks for them
   CHECK(!LoadFile(file).textures.at(0).second_uvs);
   file.json["materials"][0]["emissiveTexture"] = {{"index", 0}, {"texCoord", 1}};
+  file.json["materials"][0]["emissiveFactor"] = {1, 1, 1};
   std::vector<std::string> warnings;
   const Scene scene = LoadFile(file, &warnings);
   CHECK(warnings.empty());
@@ -383,6 +387,165 @@ TEST_CASE("clear coats and sheen, with their images") {
   const MetallicRoughnessMaterial bare = MaterialOf(LoadFile(file));
   CHECK(!bare.coat_map.valid());
   CHECK(bare.sheen_color == Rgb(0));
+}
+
+// One row of texels as a PNG file: 8 or 16 bits a channel, of a colour type of PNG (0 grey, 2 RGB,
+// 4 grey and alpha, 6 RGB and alpha).
+std::vector<unsigned char> RowPng(uint8_t bits, uint8_t type, const std::vector<uint16_t>& values) {
+  const size_t channels = type == 0 ? 1 : type == 2 ? 3 : type == 4 ? 2 : 4;
+  std::vector<uint8_t> file =
+      PngHead(static_cast<uint32_t>(values.size() / channels), 1, bits, type);
+  std::vector<uint8_t> row = {0};  // no filter
+  for (const uint16_t value : values) {
+    if (bits == 16) row.push_back(static_cast<uint8_t>(value >> 8));
+    row.push_back(static_cast<uint8_t>(value));
+  }
+  AppendPixels(row, &file);
+  return file;
+}
+
+const MipChain& TexelsOf(const Scene& scene, TextureId id) {
+  REQUIRE(id.valid());
+  return *scene.images.at(scene.textures.at(id.index).image.index).texels;
+}
+
+TEST_CASE("specular-glossiness: reflectance by the texture's colour, roughness by its alpha") {
+  // The colours 56 and 255, with glossinesses of 128/255 and 51/255.
+  GltfFile file = MakeTexturedSquare(RowPng(8, 6, {56, 56, 255, 128, 255, 56, 56, 51}));
+  const Json image = {{"index", 0}};
+  const Json moved = {{"index", 0},
+                      {"texCoord", 0},
+                      {"extensions", {{"KHR_texture_transform", {{"scale", {2, 3}}}}}}};
+  file.json["materials"] = Json::parse(R"([{}, {}])");
+  Json& of_first = file.json["materials"][0]["extensions"]["KHR_materials_pbrSpecularGlossiness"];
+  of_first = {{"diffuseFactor", {0.5, 0.25, 1, 1}},
+              {"specularFactor", {1, 0.5, 0.25}},
+              {"glossinessFactor", 0.75},
+              {"diffuseTexture", image},
+              {"specularGlossinessTexture", moved}};
+  Json& of_second = file.json["materials"][1]["extensions"];
+  of_second["KHR_materials_pbrSpecularGlossiness"] = {{"specularGlossinessTexture", image}};
+  of_second["KHR_materials_clearcoat"] = {{"clearcoatFactor", 0.5}};
+  of_second["KHR_materials_sheen"] = {{"sheenColorFactor", {1, 1, 1}},
+                                      {"sheenRoughnessFactor", 0.5}};
+  std::vector<std::string> warnings;
+  const Scene scene = LoadFile(file, &warnings);
+  CHECK(warnings.empty());
+  const MetallicRoughnessMaterial& model = MaterialOf(scene);
+  CHECK(model.metallic == 0);
+  CHECK(model.base_color == Rgb(0.5, 0.25, 1));
+  CHECK(model.dielectric_f0 == Rgb(1, 0.5, 0.25));
+  CHECK(model.specular == 1);
+  CHECK(model.roughness == 1);  // all of it is in the map
+  const MipChain& f0 = TexelsOf(scene, model.specular_color_map);
+  REQUIRE(f0.channels == 3);
+  CHECK(f0.Value(0, 0, 0, 0) == Approx(0.0395462).epsilon(1e-5));  // sRGB's 56, to six digits
+  CHECK(f0.Value(0, 0, 0, 2) == 1);
+  CHECK(&f0 == &TexelsOf(scene, model.base_color_map));  // decoded once
+  // 1 - 0.75 g in float, of g in float.
+  const MipChain& roughness = TexelsOf(scene, model.metallic_roughness_map);
+  REQUIRE(roughness.channels == 1);
+  CHECK(roughness.Value(0, 0, 0, 0) == 1 - 0.75f * (128.0f / 255));
+  CHECK(roughness.Value(0, 1, 0, 0) == 1 - 0.75f * (51.0f / 255));
+  // The mean of roughnesses is the roughness of the mean of glossinesses.
+  CHECK(roughness.Value(1, 0, 0, 0) == Approx(1 - 0.75 * (128 + 51) / 510.0).epsilon(1e-6));
+  for (const TextureId id : {model.specular_color_map, model.metallic_roughness_map}) {
+    CHECK(scene.textures.at(id.index).scale == Vec2d(2, 3));
+  }
+  CHECK(scene.textures.at(model.base_color_map.index).scale == Vec2d(1, 1));
+  // Another factor is another roughness of the same image.
+  const auto& other = std::get<MetallicRoughnessMaterial>(scene.materials.at(1).model);
+  CHECK(TexelsOf(scene, other.metallic_roughness_map).Value(0, 0, 0, 0) == 1 - 128.0f / 255);
+  CHECK(&TexelsOf(scene, other.specular_color_map) == &f0);
+  CHECK(other.dielectric_f0 == Rgb(1));
+  CHECK(other.coat == 0.5);
+  CHECK(other.sheen_color == Rgb(1));
+  // Without glossiness there is none that a texture could multiply.
+  of_first["glossinessFactor"] = 0;
+  const MetallicRoughnessMaterial matte = MaterialOf(LoadFile(file));
+  CHECK(matte.roughness == 1);
+  CHECK(!matte.metallic_roughness_map.valid());
+  // Where it cannot be shown, the factors are.
+  of_first["glossinessFactor"] = 0.75;
+  of_first["specularGlossinessTexture"]["texCoord"] = 2;
+  const MetallicRoughnessMaterial plain = MaterialOf(LoadFile(file, &warnings));
+  CHECK(plain.roughness == 0.25);
+  CHECK(!plain.specular_color_map.valid());
+  CHECK(Mentions(warnings, "other coordinates"));
+}
+
+TEST_CASE("a grey image is one of three equal channels, whatever it is for") {
+  const auto load = [](const std::vector<unsigned char>& png) {
+    GltfFile file = MakeTexturedSquare(png);
+    const Json image = {{"index", 0}};
+    Json& material = file.json["materials"][0];
+    material = {{"normalTexture", image}};
+    material["pbrMetallicRoughness"]["metallicRoughnessTexture"] = image;
+    material["extensions"]["KHR_materials_clearcoat"] = {{"clearcoatFactor", 1},
+                                                         {"clearcoatTexture", image},
+                                                         {"clearcoatRoughnessFactor", 1},
+                                                         {"clearcoatRoughnessTexture", image},
+                                                         {"clearcoatNormalTexture", image}};
+    material["extensions"]["KHR_materials_sheen"] = {
+        {"sheenColorFactor", {1, 1, 1}}, {"sheenRoughnessFactor", 1}, {"sheenColorTexture", image}};
+    std::vector<std::string> warnings;
+    const Scene scene = LoadFile(file, &warnings);
+    CHECK(warnings.empty());
+    const MetallicRoughnessMaterial& model = MaterialOf(scene);
+    std::vector<float> values;
+    for (const TextureId id :
+         {model.metallic_roughness_map, scene.materials.at(0).normal_map.texture, model.coat_map,
+          model.coat_roughness_map, model.coat_normal_map.texture, model.sheen_color_map}) {
+      const MipChain& texels = TexelsOf(scene, id);
+      for (int c = 0; c < 3; ++c) {  // as look-ups take channels that an image lacks
+        values.push_back(texels.Value(0, 1, 0, std::min(c, texels.channels - 1)));
+      }
+    }
+    return values;
+  };
+  const std::vector<float> expected = load(RowPng(8, 2, {9, 9, 9, 200, 200, 200}));
+  CHECK(load(RowPng(8, 0, {9, 200})) == expected);
+  CHECK(load(RowPng(8, 4, {9, 255, 200, 77})) == expected);
+  CHECK(load(RowPng(8, 6, {9, 9, 9, 255, 200, 200, 200, 77})) == expected);
+  // 200 / 255 in 16 bits.
+  CHECK(load(RowPng(16, 0, {9 * 257, 200 * 257})) == expected);
+  CHECK(load(RowPng(16, 4, {9 * 257, 65535, 200 * 257, 77})) == expected);
+}
+
+TEST_CASE("coats, sheen and emission that are known to show nothing are left out") {
+  const auto load = [](const std::vector<unsigned char>& png, double factor) {
+    GltfFile file = MakeTexturedSquare(png);
+    const Json image = {{"index", 0}};
+    Json& material = file.json["materials"][0];
+    material["emissiveFactor"] = {factor, factor, factor};
+    material["emissiveTexture"] = image;
+    material["extensions"]["KHR_materials_clearcoat"] = {{"clearcoatFactor", factor},
+                                                         {"clearcoatTexture", image},
+                                                         {"clearcoatNormalTexture", image}};
+    material["extensions"]["KHR_materials_sheen"] = {{"sheenColorFactor", {factor, factor, factor}},
+                                                     {"sheenRoughnessFactor", 0.5},
+                                                     {"sheenColorTexture", image}};
+    return LoadFile(file).materials.at(0);
+  };
+  const Material shown = load(RowPng(8, 2, {0, 0, 0, 0, 1, 0}), 0.5);
+  const auto& layers = std::get<MetallicRoughnessMaterial>(shown.model);
+  CHECK((layers.coat == 0.5 && layers.coat_map.valid()));
+  CHECK((layers.sheen_color == Rgb(0.5) && layers.sheen_color_map.valid()));
+  CHECK((shown.emission == Rgb(0.5) && shown.emission_map.valid()));
+  for (const Material& idle :
+       {load(RowPng(8, 2, {0, 0, 0, 0, 0, 0}), 0.5), load(RowPng(8, 2, {1, 2, 3, 4, 5, 6}), 0)}) {
+    const auto& model = std::get<MetallicRoughnessMaterial>(idle.model);
+    CHECK((model.coat == 0 && !model.coat_map.valid() && !model.coat_normal_map.texture.valid()));
+    CHECK((model.sheen_color == Rgb(0) && !model.sheen_color_map.valid()));
+    CHECK((idle.emission == Rgb(0) && !idle.emission_map.valid()));
+  }
+  // What roughness leaves of sheen: the map's alpha is 0.
+  GltfFile file = MakeTexturedSquare(RowPng(8, 6, {9, 9, 9, 0, 9, 9, 9, 0}));
+  file.json["materials"][0]["extensions"]["KHR_materials_sheen"] = {
+      {"sheenColorFactor", {1, 1, 1}},
+      {"sheenRoughnessFactor", 1},
+      {"sheenRoughnessTexture", {{"index", 0}}}};
+  CHECK(MaterialOf(LoadFile(file)).sheen_color == Rgb(0));
 }
 
 TEST_CASE("images that are not there, or are none, are refused") {

@@ -284,6 +284,20 @@ TEST_CASE("sheen and clear coats of material libraries are those of metallic-rou
   CHECK(texel(blue.coat_roughness_map) == 0.2f);
 }
 
+TEST_CASE("a grey image of normals is left out, with a warning") {
+  const ModelFolder folder;
+  folder.Write("grey.pgm", "P5\n2 1\n255\n\x10\xff");
+  folder.Write("a.mtl", "newmtl red\nKd 1 0 0\nnorm grey.pgm\n");
+  LoadOptions options;
+  std::vector<std::string> warnings;
+  options.on_warning = [&](const std::string& text) { warnings.push_back(text); };
+  const Scene scene = LoadScene(folder.Write("m.obj", kCorner), options);
+  for (const Material& material : scene.materials) CHECK(!material.normal_map.texture.valid());
+  CHECK(std::any_of(warnings.begin(), warnings.end(), [](const std::string& text) {
+    return Contains(text, "an image of normals (norm) is left out: it is grey");
+  }));
+}
+
 TEST_CASE("colours of vertices are shown") {
   const Scene scene = Load("v 0 0 0 1 0 0\nv 1 0 0 0 0.5 1\nv 0 1 0\nf 1 2 3\n", "").scene;
   REQUIRE(scene.meshes.size() == 1);
