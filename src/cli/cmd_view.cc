@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // cli/cmd_view.cc: nacre view [SCENE | IMAGES...]
 #include <algorithm>
+#include <cctype>
+#include <chrono>
 #include <cstdlib>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fcntl.h>
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -33,7 +38,9 @@
 #include "cli/report_sections.h"
 #include "report/child_process.h"
 #include "scene_io/kept_files.h"
+#include "view/edits.h"
 #include "view/page.h"
+#include "view/private_file.h"
 #include "view/server.h"
 #include "view/token.h"
 #include "view/worker.h"
@@ -50,16 +57,62 @@ struct ViewArguments {
   RenderOptions options;
 };
 
+// How long the program may take to end once a signal has come.
+constexpr std::chrono::milliseconds kEndsWithin(800);
+
+// A page in a file of the user's own that sends the browser on to the address. Arguments of
+// programs are shown to every user of the machine, and the address has the token in it.
+class RedirectFile {
+ public:
+  explicit RedirectFile(const std::string& url) {
+    std::string folder = SessionFolder();
+    if (folder.empty()) folder = StateFolder();
+    if (folder.empty()) return;
+    path_ = fmt::format("{}/nacre-view-{}.html", folder, getpid());
+    const std::string html = fmt::format(
+        "<!DOCTYPE html>\n<meta charset=\"utf-8\">\n<meta name=\"referrer\" "
+        "content=\"no-referrer\">\n"
+        "<meta http-equiv=\"refresh\" content=\"0; url={0}\">\n<title>nacre view</title>\n"
+        "<a href=\"{0}\">nacre view</a>\n",
+        url);
+    if (!WritePrivateFile(path_, html)) path_.clear();
+  }
+  ~RedirectFile() {
+    if (!path_.empty()) unlink(path_.c_str());
+  }
+  RedirectFile(const RedirectFile&) = delete;
+  RedirectFile& operator=(const RedirectFile&) = delete;
+
+  // The file's own address (RFC 8089); empty where there is no folder for it.
+  std::string url() const {
+    std::string text = path_.empty() ? "" : "file://";
+    for (const char c : path_) {
+      const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+                         std::string_view("/-._~").find(c) != std::string_view::npos;
+      text += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+    return text;
+  }
+
+ private:
+  std::string path_;
+};
+
 // The user's browser, if there is a display to show it on. Whether it comes is its own affair: the
 // address has been printed.
-void OpenBrowser(const std::string& url) {
-  if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
+void OpenBrowser(const std::string& file_url) {
   std::optional<std::string> program = FindProgram("xdg-open");
   if (!program) {
     PrintError("note: there is no xdg-open to open a browser with; open the address yourself\n");
     return;
   }
-  std::string argument = url;
+  if (file_url.empty()) {
+    PrintError(
+        "note: there is no folder of the user's own for a page that leads the browser to the "
+        "address (XDG_RUNTIME_DIR, XDG_STATE_HOME); open it yourself\n");
+    return;
+  }
+  std::string argument = file_url;
   char* const arguments[] = {program->data(), argument.data(), nullptr};
   // In a session of its own, which Ctrl-C does not reach, and silent: stdout has the address.
   posix_spawnattr_t attributes;
@@ -116,7 +169,9 @@ std::string PicturesPage(const std::vector<ReportPicture>& pictures,
   return ReportHtml(title, Json::array({section}), shown, page);
 }
 
-void Announce(const ViewArguments& arguments, const Server& server) {
+// Says where the server is, and opens it in the browser. What is returned is to live as long as the
+// server.
+std::unique_ptr<RedirectFile> Announce(const ViewArguments& arguments, const Server& server) {
   const std::string& address = arguments.server.address;
   if (!IsLoopback(address)) {
     PrintError(
@@ -129,17 +184,27 @@ void Announce(const ViewArguments& arguments, const Server& server) {
   if (!arguments.options.quiet) {
     PrintError("nacre view: open the address above; Ctrl-C ends it\n");
   }
-  if (!arguments.no_open) OpenBrowser(server.url());
+  std::unique_ptr<RedirectFile> redirect;
+  const bool has_display =
+      std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
+  if (!arguments.no_open && has_display) {
+    redirect = std::make_unique<RedirectFile>(server.url());
+    OpenBrowser(redirect->url());
+  }
+  return redirect;
 }
 
 // Serves until a signal, which is how it ends.
 void RunServer(Server* server, int* exit_code) {
-  try {
-    server->Run();
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::kInterrupted && error.code() != ExitCode::kTerminated) throw;
-    *exit_code = static_cast<int>(error.code());
-  }
+  server->Run([] { return StopExitCode() != 0; });
+  *exit_code = StopExitCode();
+}
+
+void NoteOtherName(const std::string& origin) {
+  PrintError(
+      "note: a browser with the right token calls this server {}, which is not its name, and was "
+      "refused; if that is a tunnel or proxy of yours, start nacre view with --origin {}\n",
+      origin, origin);
 }
 
 ServerOptions MakeServerOptions(const ViewArguments& arguments) {
@@ -177,7 +242,6 @@ void RunImages(const ViewArguments& arguments, const CLI::App& command, int* exi
   std::string banner;
   int ticks = 0;
   const auto tick = [&] {
-    ThrowIfStopped();
     constexpr int kTicksBetweenLooks = 6;
     if (++ticks % kTicksBetweenLooks != 0) return;
     std::vector<std::string> now = keys();
@@ -187,7 +251,7 @@ void RunImages(const ViewArguments& arguments, const CLI::App& command, int* exi
       running->Serve(make());
       banner.clear();
       running->Say(0, Json{{"reload", true}}.dump());
-    } catch (const Error& error) {  // the pictures before stay
+    } catch (const std::exception& error) {  // the pictures before stay
       banner = PrintableLines(error.what());
       running->Say(0, Json{{"banner", banner}}.dump());
     }
@@ -200,9 +264,9 @@ void RunImages(const ViewArguments& arguments, const CLI::App& command, int* exi
                  [](ClientId, std::string_view) {
                    throw Error(ExitCode::kUsage, "", "images have nothing to ask for");
                  },
-                 [](double, size_t) {}, tick});
+                 [](double, size_t) {}, tick, NoteOtherName});
   running = &server;
-  Announce(arguments, server);
+  const auto redirect = Announce(arguments, server);
   RunServer(&server, exit_code);
 }
 
@@ -211,7 +275,21 @@ bool IsScene(const std::string& path) {
   return IsModelFile(path) || HasExtension(path, ".json");
 }
 
+// Where the edits go that are to outlive the server, with a line about those that are there.
+std::unique_ptr<EditsFile> OpenEdits(const std::string& scene) {
+  std::string why_not;
+  std::unique_ptr<EditsFile> edits = EditsFile::Open(scene, &why_not);
+  if (!edits) {
+    PrintError("note: edits are not kept for the case that the server ends: {}\n", why_not);
+  } else if (!edits->offered().empty()) {
+    PrintError("note: {} edits of {:%Y-%m-%d %H:%M} were not taken away; the page offers them\n",
+               edits->offered().size(), fmt::localtime(edits->offered_time()));
+  }
+  return edits;
+}
+
 void RunView(const ViewArguments& arguments, const CLI::App& command, int* exit_code) {
+  const StopsInTime stops(kEndsWithin);
   const RenderOptions& options = arguments.options;
   ApplyTarget(options.target);
   const std::vector<std::string>& inputs = arguments.inputs;
@@ -247,23 +325,19 @@ void RunView(const ViewArguments& arguments, const CLI::App& command, int* exit_
   Worker worker(open, work);
 
   const std::string title = scene.empty() ? "nacre view" : fmt::format("{} - nacre view", scene);
-  Server server(
-      MakeServerOptions(arguments),
-      MakeViewPage(title, generator, options.tonemap, options.exposure),
-      {[&](ClientId id) { worker.Opened(id); }, [&](ClientId id) { worker.Closed(id); },
-       [&](ClientId id, std::string_view text) { worker.Receive(id, text); },
-       [&](double ms, size_t bytes) { worker.Ready(ms, bytes); }, [] { ThrowIfStopped(); }});
-  Announce(arguments, server);
+  Server server(MakeServerOptions(arguments),
+                MakeViewPage(title, generator, options.tonemap, options.exposure),
+                {[&](ClientId id) { worker.Opened(id); }, [&](ClientId id) { worker.Closed(id); },
+                 [&](ClientId id, std::string_view text) { worker.Receive(id, text); },
+                 [&](double ms, size_t bytes) { worker.Ready(ms, bytes); }, [] {}, NoteOtherName});
+  std::unique_ptr<EditsFile> edits = OpenEdits(scene);
+  const auto redirect = Announce(arguments, server);
   worker.Start({[&](SharedBytes frame) { server.Show(std::move(frame)); },
                 [&](ClientId id, std::string text) { server.Say(id, std::move(text)); },
-                [&](ClientId id, SharedBytes bytes) { server.Send(id, std::move(bytes)); }});
-  try {
-    RunServer(&server, exit_code);
-  } catch (...) {
-    worker.Stop();  // before the server, which it sends to
-    throw;
-  }
-  worker.Stop();
+                [&](ClientId id, SharedBytes bytes) { server.Send(id, std::move(bytes)); }},
+               std::move(edits));
+  RunServer(&server, exit_code);
+  worker.Stop();  // before the server, which it sends to
 }
 
 }  // namespace

@@ -128,6 +128,31 @@ void ThrowIfStopped() {
                                 written.last));
 }
 
+int StopExitCode() {
+  const int signal = g_stop_signal.load();
+  return signal == 0 ? 0 : SignalExitCode(signal);
+}
+
+StopsInTime::StopsInTime(std::chrono::milliseconds limit)
+    : thread_([this, limit] {
+        constexpr std::chrono::milliseconds kLook(20);
+        std::unique_lock lock(mutex_);
+        const auto has_ended = [&] { return has_ended_; };
+        while (StopExitCode() == 0) {
+          if (ended_.wait_for(lock, kLook, has_ended)) return;
+        }
+        if (!ended_.wait_for(lock, limit, has_ended)) _exit(StopExitCode());
+      }) {}
+
+StopsInTime::~StopsInTime() {
+  {
+    const std::lock_guard lock(mutex_);
+    has_ended_ = true;
+  }
+  ended_.notify_all();
+  thread_.join();
+}
+
 void NoteWritten(const std::string& path) {
   ++Written().count;
   Written().last = path;

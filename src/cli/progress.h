@@ -4,7 +4,10 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
+#include <mutex>
 #include <string>
+#include <thread>
 
 namespace nacre {
 
@@ -48,6 +51,25 @@ std::atomic<bool>& CancelFlag();
 
 // Throws Error if a stop signal has come, with what NoteWritten was told.
 void ThrowIfStopped();
+
+// What the program exits with because of a stop signal; 0: none has come.
+int StopExitCode();
+
+// While this lives, the process ends no later than `limit` after a stop signal, whatever its
+// threads do then. For programs that serve until a signal, and leave nothing half-written.
+class StopsInTime {
+ public:
+  explicit StopsInTime(std::chrono::milliseconds limit);
+  ~StopsInTime();
+  StopsInTime(const StopsInTime&) = delete;
+  StopsInTime& operator=(const StopsInTime&) = delete;
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  bool has_ended_ = false;  // under mutex_
+  std::thread thread_;
+};
 
 // For commands that write several files, one after the other, and may be stopped in between: tells
 // that this one is whole and stays. From the thread that calls ThrowIfStopped.

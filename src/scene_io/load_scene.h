@@ -41,8 +41,8 @@ struct LoadOptions {
   // Files that the caller chose himself, and that may lie anywhere, as `environment` may.
   std::vector<std::filesystem::path> trusted_files = {};
 
-  // Called with each file that the scene refers to, by its path without links, before it is read;
-  // for one file perhaps several times. Also with files that are not there.
+  // Called with each file that the scene refers to, before it is read; for one file perhaps several
+  // times. Also with files that are not there. Links stay in the path: where they lead may change.
   std::function<void(const std::filesystem::path&)> on_file = {};
 
   // To make large shapes on; 0: as many as the machine has.

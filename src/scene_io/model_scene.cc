@@ -293,6 +293,11 @@ bool CompleteModelScene(const ModelCompletion& how, SceneParts parts, Scene* sce
   context.scene = scene;
   context.on_warning = how.options->on_warning;
   context.kept = how.kept;
+  for (const Light& light : scene->lights) {
+    const auto* const sky = std::get_if<EnvironmentLight>(&light.kind);
+    const auto* const room = sky != nullptr ? std::get_if<PictureSky>(&sky->sky) : nullptr;
+    if (room != nullptr) context.room = room->picture;
+  }
   SceneBudget budget(how.options->max_primitives.value_or(kDefaultMaxPrimitives));
   context.budget = &budget;
   TexelBudget texels(0, TexelValuesOf(*scene));

@@ -216,7 +216,11 @@ EnvironmentLight ReadEnvironment(JsonObject* object, const SceneContext& context
   };
   const int given =
       (radiance != nullptr) + (gradient != nullptr) + (quadratic != nullptr) + (image != nullptr);
-  if (given != 1) {
+  if (given == 0 && context.room != nullptr) {
+    PictureSky room{context.room, Rgb(1)};
+    object->Color("scale", limits::kRadiance, &room.scale);
+    light.sky = std::move(room);
+  } else if (given != 1) {
     object->value().AddFault(given == 0 ? "no sky" : "more than one sky",
                              R"(give one of "radiance", "gradient", "quadratic" and "image")");
   }

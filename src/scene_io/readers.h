@@ -59,6 +59,8 @@ struct SceneContext {
   TexturesAhead ahead;                                 // of DecodeMapsAhead
   std::function<void(const std::string&)> on_warning;  // LoadOptions::on_warning
   KeptFiles* kept = nullptr;                           // of a scene that is read again; else null
+  // Of a model in the studio: the room, which an environment without another sky keeps.
+  std::shared_ptr<const SkyPicture> room;
 };
 
 // The object "lights"; `context` says where their pictures are.

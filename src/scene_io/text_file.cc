@@ -151,6 +151,11 @@ std::filesystem::path ResolveReference(const std::filesystem::path& folder, cons
   std::error_code error;
   const std::filesystem::path base = std::filesystem::weakly_canonical(
       folder.empty() ? std::filesystem::path(".") : folder, error);
+  // By its name, and before links are followed: where they lead may change, at this moment, too.
+  // One of the folder that leads out of it may be mended.
+  const std::filesystem::path named = folder / name;
+  const bool in_folder = IsBelow((base / name).lexically_normal(), base);
+  if (rules.on_file && !error && (rules.allow_paths || in_folder)) rules.on_file(named);
   std::filesystem::path path =
       error ? std::filesystem::path() : std::filesystem::weakly_canonical(base / name, error);
   if (error || name.empty()) {
@@ -163,7 +168,9 @@ std::filesystem::path ResolveReference(const std::filesystem::path& folder, cons
     throw Error(ExitCode::kBadInput, {}, fmt::format("\"{}\"{}", Excerpt(name), kIsOutside),
                 "move it there, or allow it with --allow-paths");
   }
-  if (rules.on_file) rules.on_file(path);
+  if (rules.on_file && !rules.allow_paths && !in_folder) rules.on_file(named);
+  // "missing/../a.png" is no file to the system.
+  if (rules.on_file && !std::filesystem::exists(named, error)) rules.on_file(path);
   if (!std::filesystem::exists(path, error)) {
     throw Error(ExitCode::kBadInput, {}, fmt::format("there is no file \"{}\"", Excerpt(name)),
                 fmt::format("it was looked for as {}", path.string()));

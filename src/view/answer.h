@@ -11,4 +11,7 @@ namespace nacre {
 // The message of the faults of what a page asked for at `pointer`, or of anything.
 std::string FaultMessage(const std::string& pointer, const Error& error);
 
+// The same of whatever has been thrown, from where it is caught.
+std::string CaughtFault(const std::string& pointer);
+
 }  // namespace nacre

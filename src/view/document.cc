@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <iterator>
 #include <utility>
 
 #include "base/error.h"
@@ -14,8 +16,11 @@
 namespace nacre {
 namespace {
 
-// Steps that can be undone. Each holds the values before and after it, which may be whole scenes.
+// Steps that can be undone, changes in one of them, and bytes in all. Each holds the values before
+// and after it, which may be whole scenes.
 constexpr size_t kMaxSteps = 500;
+constexpr size_t kMaxChanges = 1000;
+constexpr size_t kMaxHistoryBytes = size_t{64} << 20;
 
 // Of more plain spheres no list is made, unless a change needs it: there are no controls for so
 // many, and the list would take more memory than the scene.
@@ -23,16 +28,27 @@ constexpr size_t kMaxTreeSpheres = 1000;
 
 // The deepest value on the way to where `pointer` points that exists: the pointer itself, or that
 // of the object in which a member is going to be made.
-std::string ExistingPart(const Json& root, std::string pointer) {
-  while (!pointer.empty()) {
-    try {
-      if (root.contains(Json::json_pointer(pointer))) return pointer;
-    } catch (const Json::exception&) {  // no pointer: Set will say so
+std::string ExistingPart(const Json& root, const std::string& pointer) {
+  const Json* value = &root;
+  size_t end = 0;
+  try {
+    while (end < pointer.size()) {
+      const size_t next = std::min(pointer.find('/', end + 1), pointer.size());
+      const Json::json_pointer step(pointer.substr(end, next - end));
+      if (!value->contains(step)) break;
+      value = &value->at(step);
+      end = next;
     }
-    const size_t slash = pointer.rfind('/');
-    pointer.resize(slash == std::string::npos ? 0 : slash);
+  } catch (const Json::exception&) {  // no pointer: Set will say so
   }
-  return pointer;
+  return pointer.substr(0, end);
+}
+
+// Whether a value at one of the pointers is part of a value at the other.
+bool AreNested(const std::string& a, const std::string& b) {
+  const std::string& above = a.size() < b.size() ? a : b;
+  const std::string& below = a.size() < b.size() ? b : a;
+  return below.starts_with(above) && (below.size() == above.size() || below[above.size()] == '/');
 }
 
 Json PointJson(const Vec3d& v) { return {v.x, v.y, v.z}; }
@@ -49,10 +65,20 @@ void AddAttenuation(const Attenuation& attenuation, Json* json) {
                             {"quadratic", attenuation.quadratic}};
 }
 
-// A light as an object of a scene file; null for skies, and for lights with an extent.
+// A light as an object of a scene file; null for those that models have none of.
 Json ModelLightJson(const Light& light) {
   Json json;
-  if (const auto* sun = std::get_if<DirectionalLight>(&light.kind)) {
+  if (const auto* ambient = std::get_if<AmbientLight>(&light.kind)) {
+    return {{"type", "ambient"}, {"radiance", ColorJson(ambient->radiance)}};
+  }
+  if (const auto* sky = std::get_if<EnvironmentLight>(&light.kind)) {
+    const auto* const room = std::get_if<PictureSky>(&sky->sky);
+    if (room == nullptr) return json;
+    json = {{"type", "environment"},
+            {"scale", ColorJson(room->scale)},
+            {"rotate_deg", sky->rotate_deg},
+            {"background", sky->background}};
+  } else if (const auto* sun = std::get_if<DirectionalLight>(&light.kind)) {
     json = {{"type", "directional"},
             {"direction_of_travel", PointJson(sun->direction_of_travel)},
             {"irradiance", ColorJson(sun->irradiance)}};
@@ -123,8 +149,24 @@ void ViewDocument::ListShapes() {
   original_["shapes"] = live_.root()["shapes"];
 }
 
-void ViewDocument::Put(const std::string& pointer, const Json& value) {
-  prepared_.versions.Change(live_.Set(pointer, JsonText(value)));
+void ViewDocument::Put(const std::string& pointer, const std::string& json) {
+  prepared_.versions.Change(live_.Set(pointer, json));
+}
+
+// All of them or none: backwards the values before, or forwards those after.
+void ViewDocument::PutAll(const std::vector<Change>& changes, bool after) {
+  std::vector<const Change*> order;
+  for (const Change& change : changes) order.push_back(&change);
+  if (!after) std::reverse(order.begin(), order.end());
+  size_t done = 0;
+  try {
+    for (; done < order.size(); ++done) {
+      Put(order[done]->pointer, after ? order[done]->after : order[done]->before);
+    }
+  } catch (...) {
+    while (done-- > 0) Put(order[done]->pointer, after ? order[done]->before : order[done]->after);
+    throw;
+  }
 }
 
 // A model's light that is changed by a member becomes one of the file's own words first: there all
@@ -136,7 +178,7 @@ bool ViewDocument::CompleteLight(const std::string& pointer) {
     if (!pointer.starts_with(own + "/") || live_.root().contains(Json::json_pointer(own))) continue;
     const Json json = ModelLightJson(light);
     if (json.is_null()) continue;
-    Put(own, json);
+    Put(own, JsonText(json));
     return true;
   }
   return false;
@@ -152,47 +194,92 @@ void ViewDocument::Set(const std::string& pointer, const Json& value, uint64_t g
   // A value for all lights of a model would leave none of its own: the history keeps the whole.
   if (place == "/lights" && place != pointer && is_model()) place.clear();
   if (place.empty() || place.starts_with("/shapes")) ListShapes();  // the history holds all of it
-  Json before = live_.root().at(Json::json_pointer(place));
+  std::string before = JsonText(live_.root().at(Json::json_pointer(place)));
   const bool completed = CompleteLight(pointer);
   try {
-    Put(pointer, value);
-  } catch (const Error&) {
+    Put(pointer, JsonText(value));
+  } catch (...) {
     if (completed) Put(place, before);
     throw;
   }
-  Json after = live_.root().at(Json::json_pointer(place));
+  std::string after = JsonText(live_.root().at(Json::json_pointer(place)));
   future_.clear();
-  if (gesture != 0 && !past_.empty() && past_.back().gesture == gesture) {
-    std::vector<Change>& changes = past_.back().changes;
-    if (!changes.empty() && changes.back().pointer == place) {
-      changes.back().after = std::move(after);
-      return;
-    }
-    changes.push_back({place, std::move(before), std::move(after)});
-    return;
+  Remember({std::move(place), std::move(before), std::move(after)}, gesture);
+}
+
+void ViewDocument::Remember(Change change, uint64_t gesture) {
+  const bool same = gesture != 0 && !past_.empty() && past_.back().gesture == gesture &&
+                    past_.back().changes.size() < kMaxChanges;
+  if (!same) past_.push_back({gesture, {}});
+  std::vector<Change>& changes = past_.back().changes;
+  // The last change of this place, if none that came after it was within it or around it.
+  const auto nested = std::find_if(changes.rbegin(), changes.rend(), [&](const Change& other) {
+    return AreNested(other.pointer, change.pointer);
+  });
+  if (nested != changes.rend() && nested->pointer == change.pointer) {
+    nested->after = std::move(change.after);
+  } else {
+    changes.push_back(std::move(change));
   }
-  past_.push_back({gesture, {{place, std::move(before), std::move(after)}}});
-  if (past_.size() > kMaxSteps) past_.erase(past_.begin());
+  size_t bytes = 0, steps = 0;
+  for (auto step = past_.rbegin(); step != past_.rend() && bytes <= kMaxHistoryBytes; ++step) {
+    for (const Change& kept : step->changes) {
+      bytes += kept.pointer.size() + kept.before.size() + kept.after.size();
+    }
+    steps += steps == 0 || bytes <= kMaxHistoryBytes ? 1 : 0;
+  }
+  steps = std::min(steps, kMaxSteps);
+  past_.erase(past_.begin(), past_.end() - static_cast<std::ptrdiff_t>(steps));
 }
 
 bool ViewDocument::Undo() {
   if (past_.empty()) return false;
-  Step step = std::move(past_.back());
+  PutAll(past_.back().changes, false);
+  future_.push_back(std::move(past_.back()));
   past_.pop_back();
-  for (auto change = step.changes.rbegin(); change != step.changes.rend(); ++change) {
-    Put(change->pointer, change->before);
-  }
-  future_.push_back(std::move(step));
   return true;
 }
 
 bool ViewDocument::Redo() {
   if (future_.empty()) return false;
-  Step step = std::move(future_.back());
+  PutAll(future_.back().changes, true);
+  past_.push_back(std::move(future_.back()));
   future_.pop_back();
-  for (const Change& change : step.changes) Put(change.pointer, change.after);
-  past_.push_back(std::move(step));
   return true;
+}
+
+std::vector<Edit> ViewDocument::Edits() const {
+  std::vector<Edit> edits = EditsBetween(original_, live_.root());
+  if (!is_model()) return edits;
+  // One by one: a value for all lights would leave none of the model's own.
+  std::vector<Edit> split;
+  for (Edit& edit : edits) {
+    if (edit.pointer != "/lights") {
+      split.push_back(std::move(edit));
+      continue;
+    }
+    for (const auto& [name, light] : edit.value.items()) {
+      split.push_back({(Json::json_pointer("/lights") / name).to_string(), light});
+    }
+  }
+  return split;
+}
+
+std::vector<std::string> ViewDocument::Restore(const std::vector<Edit>& edits) {
+  std::vector<std::string> refused;
+  Step all;  // of their own steps
+  for (const Edit& edit : edits) {
+    try {
+      Set(edit.pointer, edit.value, 0);
+      std::vector<Change>& changes = past_.back().changes;
+      std::move(changes.begin(), changes.end(), std::back_inserter(all.changes));
+      past_.pop_back();
+    } catch (const Error&) {
+      refused.push_back(edit.pointer);
+    }
+  }
+  if (!all.changes.empty()) past_.push_back(std::move(all));
+  return refused;
 }
 
 bool ViewDocument::Reset() {
@@ -269,6 +356,7 @@ std::vector<std::string> ViewDocument::ImageFiles() const {
   std::vector<std::string> files;
   std::error_code error;
   const fs::path folder = folder_.empty() ? "." : folder_;
+  const fs::path base = fs::weakly_canonical(folder, error);
   fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied,
                                          error);
   const fs::recursive_directory_iterator end;
@@ -278,7 +366,10 @@ std::vector<std::string> ViewDocument::ImageFiles() const {
     if (hidden || entry.depth() >= kMaxDepth) entry.disable_recursion_pending();
     std::error_code ignored;
     if (!hidden && IsImageFile(path) && entry->is_regular_file(ignored)) {
-      files.push_back(path.lexically_relative(folder).generic_string());
+      const std::string name = path.lexically_relative(folder).generic_string();
+      // A link that leads out of the folder is refused as a scene's file (ResolveReference).
+      const fs::path inside = fs::canonical(path, ignored).lexically_relative(base);
+      if (!inside.empty() && *inside.begin() != "..") files.push_back(name);
     }
     entry.increment(error);
   }
@@ -301,7 +392,7 @@ void ViewDocument::ReadChangedFiles() {
   kept_edits_ = false;
   const auto put_again = [&](const Json::json_pointer& pointer, const Json& value) {
     try {
-      Put(pointer.to_string(), value);
+      Put(pointer.to_string(), JsonText(value));
       kept_edits_ = true;
     } catch (const Error&) {  // it needs what the file no longer has
     }

@@ -10,6 +10,7 @@
 
 #include "render/prepared_scene.h"
 #include "scene_io/live_scene.h"
+#include "view/edits.h"
 
 namespace nacre {
 
@@ -35,7 +36,13 @@ class ViewDocument {
   // 0 is never the same as another. Throws Error: the scene is then the one before.
   void Set(const std::string& pointer, const Json& value, uint64_t gesture);
 
-  // Each returns whether there was anything to do.
+  // What has been changed of the scene as it was read.
+  std::vector<Edit> Edits() const;
+  // Makes edits of an earlier document again, as one step. Returns the pointers of those that the
+  // scene refuses.
+  std::vector<std::string> Restore(const std::vector<Edit>& edits);
+
+  // Each returns whether there was anything to do. What throws Error has changed nothing.
   bool Undo();
   bool Redo();
   bool Reset();  // to the scene as it was read; a step of the history
@@ -45,8 +52,8 @@ class ViewDocument {
   // Edits that have outlived a change of the file are no step that could be undone.
   bool can_reset() const { return can_undo() || kept_edits_; }
 
-  // The file's tree with all changes. A model's has materials and lights of the file in it, but for
-  // skies and lights with an extent. Without "shapes" if these are too many to be listed.
+  // The file's tree with all changes. A model's has materials and lights of the file in it. Without
+  // "shapes" if these are too many to be listed.
   Json Tree() const;
   bool lists_all_shapes() const { return live_.lists_all_shapes(); }
   // The same without the changes.
@@ -69,16 +76,18 @@ class ViewDocument {
   void ReadChangedFiles();
 
  private:
+  // Values are kept as text, which takes a tenth of a tree's memory.
   struct Change {
-    std::string pointer;
-    Json before, after;
+    std::string pointer, before, after;
   };
   struct Step {
     uint64_t gesture = 0;
     std::vector<Change> changes;
   };
 
-  void Put(const std::string& pointer, const Json& value);
+  void Put(const std::string& pointer, const std::string& json);
+  void PutAll(const std::vector<Change>& changes, bool after);
+  void Remember(Change change, uint64_t gesture);
   bool CompleteLight(const std::string& pointer);
   void AddModelLights(Json* lights) const;
   void ListShapes();

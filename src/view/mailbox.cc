@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "base/error.h"
 #include "color/tone.h"
 #include "scene/limits.h"
@@ -30,9 +32,21 @@ bool Overlap(std::string_view a, std::string_view b) {
   return a == b || IsBelow(a, b) || IsBelow(b, a);
 }
 
+// A pointer that no value of a scene has is refused at once, whatever it would cost to follow it.
+void ReadPointer(const char* name, JsonObject* message, std::string* pointer) {
+  message->Text(name, pointer);
+  const auto depth = static_cast<size_t>(std::count(pointer->begin(), pointer->end(), '/'));
+  if (pointer->size() > kMaxPointerBytes || depth > kMaxJsonDepth) {
+    message->faults()->Add(
+        message->path().Member(name).ToString(), "is longer than any scene's pointers",
+        fmt::format("{} bytes and {} levels at most", kMaxPointerBytes, kMaxJsonDepth));
+    pointer->clear();
+  }
+}
+
 SetRequest ReadSet(JsonObject* message) {
   SetRequest set;
-  message->Text("set", &set.pointer);
+  ReadPointer("set", message, &set.pointer);
   if (const Json* value = message->Require("value")) set.value = *value;
   message->Whole("gesture", kCounter, &set.gesture);
   message->Whole("serial", kCounter, &set.serial);
@@ -55,7 +69,13 @@ LookRequest ReadLook(JsonObject* message) {
 
 bool Request::ChangesPicture() const {
   return std::holds_alternative<SetRequest>(what) || std::holds_alternative<HistoryRequest>(what) ||
-         std::holds_alternative<LookRequest>(what) || std::holds_alternative<ConvertRequest>(what);
+         std::holds_alternative<LookRequest>(what) ||
+         std::holds_alternative<ConvertRequest>(what) ||
+         std::holds_alternative<OfferedRequest>(what);
+}
+
+bool Request::ChangesScene() const {
+  return ChangesPicture() && !std::holds_alternative<LookRequest>(what);
 }
 
 Request ReadRequest(ClientId client, std::string_view text) {
@@ -66,7 +86,8 @@ Request ReadRequest(ClientId client, std::string_view text) {
   JsonObject message({json, root, &faults});
   constexpr std::array<std::string_view, 3> kSteps = {"undo", "redo", "reset"};
   constexpr std::array<std::string_view, 2> kFiles = {"exr", "report"};
-  Request request{client, {}};
+  constexpr std::array<std::string_view, 2> kOffered = {"restore", "discard"};
+  Request request{client, {}, text.size()};
   size_t step = 0;
   if (message.Find("set") != nullptr) {
     request.what = ReadSet(&message);
@@ -85,7 +106,7 @@ Request ReadRequest(ClientId client, std::string_view text) {
   } else if (message.Find("convert") != nullptr) {
     ConvertRequest convert;
     const std::span<const std::string_view> models = FitTargets();
-    message.Text("convert", &convert.pointer);
+    ReadPointer("convert", &message, &convert.pointer);
     size_t model = 0;
     message.Choice("model", models, &model);
     convert.model = models[model];
@@ -101,39 +122,62 @@ Request ReadRequest(ClientId client, std::string_view text) {
   } else if (message.Find("history") != nullptr) {
     message.Choice("history", kSteps, &step);
     request.what = static_cast<HistoryRequest>(step);
+  } else if (message.Find("offered") != nullptr) {
+    message.Choice("offered", kOffered, &step);
+    request.what = static_cast<OfferedRequest>(step);
   } else {
     faults.Add("", "asks for nothing known",
-               "it has one of set, look, samples, explain, convert, keep, take, history");
+               "it has one of set, look, samples, explain, convert, keep, take, history, offered");
   }
   message.RefuseOthers();
   ThrowFaults(faults, file);
   return request;
 }
 
+// The change that need not be made, because of this newer value of the same place; or the end.
+std::vector<Request>::iterator Mailbox::Outdated(const SetRequest& set, bool crowded) {
+  for (auto at = waiting_.end(); at != waiting_.begin();) {
+    --at;
+    const auto* other = std::get_if<SetRequest>(&at->what);
+    if (other == nullptr && at->ChangesScene()) break;  // it may depend on it
+    if (other == nullptr || !Overlap(other->pointer, set.pointer)) continue;
+    if (other->pointer != set.pointer) break;
+    return other->gesture == set.gesture || crowded ? at : waiting_.end();
+  }
+  return waiting_.end();
+}
+
 void Mailbox::Add(Request request) {
-  if (const auto* set = std::get_if<SetRequest>(&request.what)) {
-    // An older value of the same place need never be made, unless something between depends on it.
-    for (size_t i = waiting_.size(); i-- > 0;) {
-      const auto* other = std::get_if<SetRequest>(&waiting_[i].what);
-      if (other == nullptr && waiting_[i].ChangesPicture() &&
-          !std::holds_alternative<LookRequest>(waiting_[i].what)) {
-        break;
-      }
-      if (other == nullptr || !Overlap(other->pointer, set->pointer)) continue;
-      if (other->pointer == set->pointer && other->gesture == set->gesture) {
-        waiting_.erase(waiting_.begin() + static_cast<std::ptrdiff_t>(i));
-      }
-      break;
-    }
-  } else if (!request.ChangesPicture() || std::holds_alternative<LookRequest>(request.what)) {
+  if (!request.ChangesScene()) {
     std::erase_if(waiting_, [&](const Request& other) {
       return other.client == request.client && other.what.index() == request.what.index();
     });
+    waiting_.push_back(std::move(request));
+    return;
   }
-  if (waiting_.size() >= kMaxWaiting) {
+  size_t changes = 1, bytes = request.bytes;
+  for (const Request& other : waiting_) {
+    if (!other.ChangesScene()) continue;
+    ++changes;
+    bytes += other.bytes;
+  }
+  const auto* const set = std::get_if<SetRequest>(&request.what);
+  const auto outdated = set != nullptr ? Outdated(*set, changes > kCrowded) : waiting_.end();
+  if (outdated != waiting_.end()) {
+    --changes;
+    bytes -= outdated->bytes;
+  }
+  if (changes > kMaxWaiting || bytes > kMaxWaitingBytes) {
     throw Error(ExitCode::kUsage, "", "too many changes wait", "send them more slowly");
   }
+  if (outdated != waiting_.end()) waiting_.erase(outdated);
   waiting_.push_back(std::move(request));
+}
+
+void Mailbox::Forget(ClientId client) {
+  std::erase_if(waiting_, [&](const Request& request) {
+    return request.client == client && !request.ChangesScene();
+  });
 }
 
 std::vector<Request> Mailbox::Take() { return std::exchange(waiting_, {}); }

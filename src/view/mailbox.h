@@ -49,29 +49,47 @@ struct KeepRequest {
 // A file to take away: the picture with all layers, or a report of A and the present picture.
 enum class TakeRequest : uint8_t { kExr, kReport };
 struct WelcomeRequest {};  // a page that has just connected: it is told all
+// What becomes of the edits that an earlier server had when it ended.
+enum class OfferedRequest : uint8_t { kRestore, kDiscard };
 
 struct Request {
   ClientId client = 0;
   std::variant<SetRequest, HistoryRequest, LookRequest, SamplesRequest, ExplainRequest,
-               ConvertRequest, KeepRequest, TakeRequest, WelcomeRequest>
+               ConvertRequest, KeepRequest, TakeRequest, WelcomeRequest, OfferedRequest>
       what;
+  size_t bytes = 0;  // of the message
   // Whether it changes what the picture shows, or how: a render for what was before may end.
   bool ChangesPicture() const;
+  // Whether it changes the scene: each does, in turn. Of others a page's newest is enough.
+  bool ChangesScene() const;
 };
+
+// Of pointers in messages: no scene's names are as long.
+inline constexpr size_t kMaxPointerBytes = 4096;
 
 // What a message of a page asks for. Throws Error (kBadInput) for one that asks for nothing known.
 Request ReadRequest(ClientId client, std::string_view text);
 
+// What waits is bounded: of each page its newest request of every kind, and changes of the scene by
+// number and size.
 class Mailbox {
  public:
   static constexpr size_t kMaxWaiting = 1024;
+  // From here on drags of the same value are no steps of their own any more.
+  static constexpr size_t kCrowded = kMaxWaiting / 2;
+  // Of messages. Their trees take some twenty times as much.
+  static constexpr size_t kMaxWaitingBytes = size_t{8} << 20;
 
-  // Throws Error (kUsage) if too much waits already.
+  // Throws Error (kUsage) for a change of the scene if too many wait already.
   void Add(Request request);
+  // The page has gone: it needs no answers.
+  void Forget(ClientId client);
   std::vector<Request> Take();
   bool empty() const { return waiting_.empty(); }
 
  private:
+  std::vector<Request>::iterator Outdated(const SetRequest& set, bool crowded);
+
   std::vector<Request> waiting_;
 };
 

@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <chrono>
 #include <deque>
+#include <list>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
-#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
@@ -34,59 +35,94 @@ using Clock = std::chrono::steady_clock;
 using HttpRequest = http::request<http::empty_body>;
 using HttpResponse = http::response<http::string_body>;
 
-constexpr size_t kMaxConnections = 64;  // all together; more are closed at once
-constexpr size_t kMaxPages = 16;        // of these, with a socket
+// Connections that have not shown the token: one more, and the oldest is closed. They keep nobody
+// out who has it.
+constexpr size_t kMaxStrangers = 64;
+constexpr size_t kMaxPages = 16;  // with a socket
 constexpr uint32_t kMaxHeaderBytes = 8 << 10;
 constexpr size_t kMaxMessageBytes = 1 << 20;
-// A request is small, and comes from this machine.
+// A request is small, and comes at once.
 constexpr std::chrono::seconds kRequestTime(5);
 // A page that takes nothing for so long is gone, or asleep: it will connect again.
 constexpr std::chrono::seconds kIdleTime(60);
-// What may wait for a page that is slow.
-constexpr size_t kMaxWaitingBytes = size_t{192} << 20;
+// What may wait for pages that are slow, all together: a file or two. The slowest is closed then.
+constexpr size_t kMaxWaitingBytes = size_t{384} << 20;
 constexpr std::chrono::milliseconds kTick(50);
 // Pictures go out in pieces, so many ahead of what a page has taken: of one that is refined, and
 // that a change overtakes, the rest need not be sent.
 constexpr size_t kPieceBytes = size_t{512} << 10;
 constexpr int kPiecesAhead = 2;
 
+// What who comes by another name, but with the token, is told.
+constexpr char kOtherName[] =
+    "nacre view: the browser calls this server {0}, and that is not its own name.\n"
+    "Through a tunnel (ssh -L) or a proxy, start it with\n\n    nacre view --origin {0} ...\n\n"
+    "(https:// behind a proxy with TLS) and open the address that it prints then.\n";
+
 std::string_view View(beast::string_view text) { return {text.data(), text.size()}; }
 
 }  // namespace
 
 class PageSocket;
+class HttpConnection;
 
 struct Server::Impl {
   Impl(ServerOptions server_options, ServedPage served, ServerEvents server_events)
       : options(std::move(server_options)),
         page(std::move(served)),
         events(std::move(server_events)),
-        acceptor(context),
-        timer(context),
-        accept_timer(context) {}
+        acceptor(context) {}
 
   void Listen();
   void Accept();
-  void Tick();
   std::string HostName() const;
   bool IsOwnHost(std::string_view host) const;
   bool IsOwnOrigin(std::string_view origin) const;
   // The token is right, and so are the names that the request calls the server by.
   unsigned Judge(const HttpRequest& request) const;
+  bool HasToken(const HttpRequest& request) const;
+  // How a browser calls the server that comes with the token by another name; empty: it does not.
+  std::string OtherName(const HttpRequest& request) const;
   HttpResponse Answer(const HttpRequest& request, unsigned status) const;
 
   ServerOptions options;
   ServedPage page;
   ServerEvents events;
-  size_t connections = 0;  // outlives the context, whose handlers hold connections
+  std::list<HttpConnection*> strangers;  // outlives the context, whose handlers hold connections
   asio::io_context context{1};
   Tcp::acceptor acceptor;
-  asio::steady_timer timer, accept_timer;
+  bool accepting = false;
   uint16_t port = 0;
+  std::set<std::string> other_names;  // that have been told
   ClientId last_client = 0;
   std::map<ClientId, std::shared_ptr<PageSocket>> pages;
+  size_t waiting_bytes = 0;  // for all of them
   SharedBytes latest;
 };
+
+namespace {
+
+// Does work of a connection. What it throws closes the connection.
+template <class Connection, class Work>
+void DoFor(Connection* connection, const Work& work) {
+  try {
+    work();
+  } catch (...) {
+    connection->Close();
+  }
+}
+
+// A handler of the connection's, which an error closes as well.
+template <class Connection, class Work>
+auto HandlerOf(std::shared_ptr<Connection> connection, Work work) {
+  return [connection = std::move(connection), work = std::move(work)](error_code error,
+                                                                      size_t /*bytes*/ = 0) {
+    if (error) return connection->Close();
+    DoFor(connection.get(), work);
+  };
+}
+
+}  // namespace
 
 // ---- A page's WebSocket -------------------------------------------------------------------------
 
@@ -95,10 +131,7 @@ struct Server::Impl {
 class PageSocket : public std::enable_shared_from_this<PageSocket> {
  public:
   PageSocket(Server::Impl* server, Tcp::socket socket, ClientId id)
-      : server_(server), socket_(std::move(socket)), id_(id) {
-    ++server_->connections;
-  }
-  ~PageSocket() { --server_->connections; }
+      : server_(server), socket_(std::move(socket)), id_(id) {}
 
   void Accept(const HttpRequest& request) {
     websocket::stream_base::timeout limits{};
@@ -109,14 +142,22 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
     socket_.read_message_max(kMaxMessageBytes);
     socket_.auto_fragment(false);  // a picture is one frame, not nine hundred
     socket_.binary(true);
-    socket_.async_accept(request, [self = shared_from_this()](error_code error) {
-      if (error) return;
-      self->open_ = true;
-      self->server_->pages[self->id_] = self;
-      self->server_->events.opened(self->id_);
-      self->server_->events.ready(0, 0);
-      self->Read();
-    });
+    socket_.async_accept(request, HandlerOf(shared_from_this(), [this] {
+                           server_->pages[id_] = shared_from_this();
+                           open_ = true;
+                           server_->events.opened(id_);
+                           server_->events.ready(0, 0);
+                           Read();
+                         }));
+  }
+
+  // It is served no more. Throws nothing.
+  void Close() {
+    beast::close_socket(beast::get_lowest_layer(socket_));
+    if (!std::exchange(open_, false)) return;
+    server_->waiting_bytes -= std::exchange(waiting_bytes_, 0);
+    server_->events.closed(id_);
+    server_->pages.erase(id_);
   }
 
   void Say(std::shared_ptr<const std::string> text) { Add({std::move(text), nullptr}); }
@@ -167,49 +208,51 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
   }
 
   void Read() {
-    socket_.async_read(buffer_, [self = shared_from_this()](error_code error, size_t) {
-      if (error) return self->Close();
-      if (!self->socket_.got_text()) return self->Close();
-      const std::string text = beast::buffers_to_string(self->buffer_.data());
-      self->buffer_.consume(self->buffer_.size());
-      self->Received(text);
-      if (self->open_) self->Read();
-    });
+    socket_.async_read(buffer_, HandlerOf(shared_from_this(), [this] {
+                         if (!socket_.got_text()) return Close();
+                         const std::string text = beast::buffers_to_string(buffer_.data());
+                         buffer_.consume(buffer_.size());
+                         Received(text);
+                         if (open_) Read();
+                       }));
   }
 
   void Received(const std::string& text) {
     if (text == "taken") return Taken();
     try {
       server_->events.message(id_, text);
-    } catch (const Error& error) {
-      Say(std::make_shared<const std::string>(FaultMessage("", error)));
+    } catch (...) {
+      Say(std::make_shared<const std::string>(CaughtFault("")));
     }
   }
 
   void Add(Outgoing message) {
-    waiting_bytes_ += message.size();
-    if (waiting_bytes_ > kMaxWaitingBytes) return Close();
+    if (!open_) return;
+    const size_t bytes = message.size();
     waiting_.push_back(std::move(message));
+    waiting_bytes_ += bytes;
+    server_->waiting_bytes += bytes;
     if (waiting_.size() == 1) Write();
+    if (server_->waiting_bytes <= kMaxWaitingBytes) return;
+    const auto slowest = std::max_element(
+        server_->pages.begin(), server_->pages.end(), [](const auto& a, const auto& b) {
+          return a.second->waiting_bytes_ < b.second->waiting_bytes_;
+        });
+    const auto page = slowest->second;  // which closing takes away
+    page->Close();
   }
 
   void Write() {
     const Outgoing& next = waiting_.front();
     socket_.text(next.text != nullptr);
     const auto data = next.text ? asio::buffer(*next.text) : asio::buffer(*next.bytes);
-    socket_.async_write(data, [self = shared_from_this()](error_code error, size_t) {
-      if (error) return self->Close();
-      self->waiting_bytes_ -= self->waiting_.front().size();
-      self->waiting_.pop_front();
-      if (!self->waiting_.empty() && self->open_) self->Write();
-    });
-  }
-
-  void Close() {
-    if (!std::exchange(open_, false)) return;
-    beast::close_socket(beast::get_lowest_layer(socket_));
-    server_->events.closed(id_);
-    server_->pages.erase(id_);
+    socket_.async_write(data, HandlerOf(shared_from_this(), [this] {
+                          if (!open_) return;
+                          waiting_bytes_ -= waiting_.front().size();
+                          server_->waiting_bytes -= waiting_.front().size();
+                          waiting_.pop_front();
+                          if (!waiting_.empty()) Write();
+                        }));
   }
 
   Server::Impl* server_;
@@ -229,37 +272,51 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
 
 // ---- An HTTP connection -------------------------------------------------------------------------
 
-namespace {
-
 // One request, one answer, and the connection is closed or becomes a page's socket.
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
  public:
   HttpConnection(Server::Impl* server, Tcp::socket socket)
-      : server_(server), stream_(std::move(socket)) {
-    ++server_->connections;
-  }
-  ~HttpConnection() { --server_->connections; }
+      : server_(server),
+        stream_(std::move(socket)),
+        place_(server->strangers.insert(server->strangers.end(), this)) {}
+  ~HttpConnection() { BeKnown(); }
 
   void Start() {
     parser_.header_limit(kMaxHeaderBytes);
     parser_.body_limit(0);
     stream_.expires_after(kRequestTime);
-    http::async_read(stream_, buffer_, parser_,
-                     [self = shared_from_this()](error_code error, size_t) {
-                       if (!error) self->Serve();
-                     });
+    http::async_read(stream_, buffer_, parser_, HandlerOf(shared_from_this(), [this] { Serve(); }));
+  }
+
+  // Throws nothing.
+  void Close() {
+    BeKnown();
+    stream_.close();
   }
 
  private:
+  // No stranger any more, if it was one.
+  void BeKnown() {
+    if (!std::exchange(is_stranger_, false)) return;
+    server_->strangers.erase(place_);
+  }
+
   void Serve() {
     const HttpRequest& request = parser_.get();
     const unsigned status = server_->Judge(request);
+    if (status == 200) BeKnown();
     if (status == 200 && websocket::is_upgrade(request)) {
       stream_.expires_never();
       if (server_->pages.size() >= kMaxPages) return Write(server_->Answer(request, 503));
       const auto page =
           std::make_shared<PageSocket>(server_, stream_.release_socket(), ++server_->last_client);
-      return page->Accept(request);
+      return DoFor(page.get(), [&] { page->Accept(request); });
+    }
+    const std::string other = server_->OtherName(request);
+    constexpr size_t kMaxNames = 8;
+    if (!other.empty() && server_->other_names.size() < kMaxNames &&
+        server_->other_names.insert(other).second) {
+      server_->events.other_name(other);
     }
     Write(server_->Answer(request, status));
   }
@@ -267,20 +324,20 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   void Write(HttpResponse answer) {
     answer_ = std::move(answer);
     stream_.expires_after(kRequestTime);
-    http::async_write(stream_, *answer_, [self = shared_from_this()](error_code, size_t) {
-      error_code ignored;
-      self->stream_.socket().shutdown(Tcp::socket::shutdown_send, ignored);
-    });
+    http::async_write(stream_, *answer_, HandlerOf(shared_from_this(), [this] {
+                        error_code ignored;
+                        stream_.socket().shutdown(Tcp::socket::shutdown_send, ignored);
+                      }));
   }
 
   Server::Impl* server_;
   beast::tcp_stream stream_;
+  std::list<HttpConnection*>::iterator place_;  // among the strangers
+  bool is_stranger_ = true;
   beast::flat_buffer buffer_{kMaxHeaderBytes};
   http::request_parser<http::empty_body> parser_;
   std::optional<HttpResponse> answer_;
 };
-
-}  // namespace
 
 // ---- The server ---------------------------------------------------------------------------------
 
@@ -329,25 +386,17 @@ void Server::Impl::Listen() {
 
 void Server::Impl::Accept() {
   acceptor.async_accept([this](error_code error, Tcp::socket socket) {
-    if (!error && connections < kMaxConnections) {
-      error_code ignored;
-      socket.set_option(Tcp::no_delay(true), ignored);
-      std::make_shared<HttpConnection>(this, std::move(socket))->Start();
-    }
-    if (error == asio::error::operation_aborted) return;
-    if (!error) return Accept();
-    // No more files may be open: connections that end make room.
-    accept_timer.expires_after(kTick);
-    accept_timer.async_wait([this](error_code) { Accept(); });
+    accepting = false;
+    // Where no more files may be open, the next tick tries again.
+    if (error) return;
+    error_code ignored;
+    socket.set_option(Tcp::no_delay(true), ignored);
+    if (strangers.size() >= kMaxStrangers) strangers.front()->Close();
+    const auto connection = std::make_shared<HttpConnection>(this, std::move(socket));
+    DoFor(connection.get(), [&] { connection->Start(); });
+    Accept();
   });
-}
-
-void Server::Impl::Tick() {
-  timer.expires_after(kTick);
-  timer.async_wait([this](error_code) {
-    events.tick();
-    Tick();
-  });
+  accepting = true;
 }
 
 std::string Server::Impl::HostName() const {
@@ -365,6 +414,25 @@ bool Server::Impl::IsOwnOrigin(std::string_view origin) const {
          (!options.origin.empty() && origin == options.origin);
 }
 
+namespace {
+
+// The first segment of the path "/TOKEN/...", and what follows, with its slash.
+struct TargetParts {
+  std::string_view token, path;
+};
+TargetParts PartsOf(const HttpRequest& request) {
+  const std::string_view target = View(request.target());
+  const size_t slash = target.find('/', 1);
+  if (target.empty() || target[0] != '/' || slash == std::string_view::npos) return {};
+  return {target.substr(1, slash - 1), target.substr(slash)};
+}
+
+}  // namespace
+
+bool Server::Impl::HasToken(const HttpRequest& request) const {
+  return SameToken(options.token, PartsOf(request).token);
+}
+
 unsigned Server::Impl::Judge(const HttpRequest& request) const {
   // A page of elsewhere whose name leads here (DNS rebinding) calls the server by that name.
   if (!IsOwnHost(View(request[http::field::host]))) return 403;
@@ -372,12 +440,18 @@ unsigned Server::Impl::Judge(const HttpRequest& request) const {
   const bool upgrade = websocket::is_upgrade(request);
   if ((upgrade || !origin.empty()) && !IsOwnOrigin(origin)) return 403;
   if (request.method() != http::verb::get) return 405;
-  const std::string_view target = View(request.target());
-  const size_t slash = target.find('/', 1);
-  if (target.empty() || target[0] != '/' || slash == std::string_view::npos) return 404;
-  if (!SameToken(options.token, target.substr(1, slash - 1))) return 403;
-  const std::string_view path = target.substr(slash);
+  const std::string_view path = PartsOf(request).path;
+  if (path.empty()) return 404;
+  if (!HasToken(request)) return 403;
   return path == (upgrade ? "/socket" : "/") ? 200 : 404;
+}
+
+std::string Server::Impl::OtherName(const HttpRequest& request) const {
+  if (!HasToken(request)) return "";
+  const std::string_view host = View(request[http::field::host]);
+  std::string name(View(request[http::field::origin]));
+  if (name.empty() || IsOwnOrigin(name)) name = fmt::format("http://{}", host);
+  return IsOrigin(name) && !IsOwnOrigin(name) ? name : "";
 }
 
 HttpResponse Server::Impl::Answer(const HttpRequest& request, unsigned status) const {
@@ -400,10 +474,12 @@ HttpResponse Server::Impl::Answer(const HttpRequest& request, unsigned status) c
           : "default-src 'none'; frame-ancestors 'none'");
   answer.set(http::field::content_type,
              status == 200 ? "text/html; charset=utf-8" : "text/plain; charset=utf-8");
-  answer.body() = status == 200   ? page.html
-                  : status == 403 ? "nacre view: this is not the address that it has printed\n"
-                  : status == 503 ? "nacre view: too many pages are open\n"
-                                  : "nacre view: there is nothing here\n";
+  const std::string other = OtherName(request);
+  answer.body() = status == 200    ? page.html
+                  : !other.empty() ? fmt::format(kOtherName, other)
+                  : status == 403  ? "nacre view: this is not the address that it has printed\n"
+                  : status == 503  ? "nacre view: too many pages are open\n"
+                                   : "nacre view: there is nothing here\n";
   answer.prepare_payload();
   return answer;
 }
@@ -421,17 +497,25 @@ std::string Server::url() const {
   return fmt::format("http://{}/{}/", impl_->HostName(), options.token);
 }
 
-void Server::Run() {
-  impl_->Accept();
-  impl_->Tick();
-  impl_->context.run();
+void Server::Run(const std::function<bool()>& stopped) {
+  const auto work = asio::make_work_guard(impl_->context);  // it waits whether it accepts or not
+  while (!stopped()) {
+    try {
+      if (!impl_->accepting) impl_->Accept();
+      impl_->context.run_for(kTick);
+      impl_->events.tick();
+    } catch (...) {  // of one handler, whose connection has been closed: the others go on
+    }
+  }
 }
 
 void Server::Show(SharedBytes frame) {
   asio::post(impl_->context, [impl = impl_.get(), frame = std::move(frame)] {
     impl->latest = frame;
     const auto pages = impl->pages;  // a page that fails leaves
-    for (const auto& [id, page] : pages) page->Show();
+    for (const auto& [id, page] : pages) {
+      DoFor(page.get(), [&page = page] { page->Show(); });
+    }
   });
 }
 
@@ -440,7 +524,8 @@ void Server::Say(ClientId client, std::string text) {
                               text = std::make_shared<const std::string>(std::move(text))] {
     const auto pages = impl->pages;
     for (const auto& [id, page] : pages) {
-      if (client == 0 || id == client) page->Say(text);
+      if (client != 0 && id != client) continue;
+      DoFor(page.get(), [&text, &page = page] { page->Say(text); });
     }
   });
 }
@@ -452,7 +537,9 @@ void Server::Serve(ServedPage page) {
 void Server::Send(ClientId client, SharedBytes bytes) {
   asio::post(impl_->context, [impl = impl_.get(), client, bytes = std::move(bytes)] {
     const auto page = impl->pages.find(client);
-    if (page != impl->pages.end()) page->second->Send(bytes);
+    if (page == impl->pages.end()) return;
+    const auto socket = page->second;  // which closing takes away
+    DoFor(socket.get(), [&] { socket->Send(bytes); });
   });
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // view/server.h: one page and its connections over HTTP and WebSocket, both by Boost.Beast. Whoever
-// does not name the token, or comes by another name than the server's own, gets nothing.
+// does not name the token, or comes by another name than the server's own, gets nothing. Whatever
+// goes wrong with a connection closes that one, and ends nothing else.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +36,10 @@ struct ServerEvents {
   // A page could take a picture. It took `ms` to have what was new of the last one, which is of so
   // many bytes in all; 0: that is no measure for one that is made while things move.
   std::function<void(double ms, size_t bytes)> ready;
-  std::function<void()> tick;  // twenty times a second; what it throws comes out of Run
+  std::function<void()> tick;  // twenty times a second
+  // A page knows the token, but calls the server by another name than its own: as browsers call it
+  // at the other end of a tunnel. Told once of each.
+  std::function<void(const std::string& origin)> other_name;
 };
 
 class Server {
@@ -48,8 +52,8 @@ class Server {
 
   std::string url() const;  // with the token
 
-  // Serves until the tick throws.
-  void Run();
+  // Serves until it is stopped, which it asks twenty times a second.
+  void Run(const std::function<bool()>& stopped);
 
   // From any thread. Pages that have not taken the last picture are sent the newest then.
   void Show(SharedBytes frame);

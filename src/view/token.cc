@@ -3,20 +3,24 @@
 
 #include <array>
 #include <cerrno>
+#include <cstddef>
 #include <cstdint>
-#include <cstdlib>
+#include <optional>
 
-#include <fcntl.h>
 #include <sys/random.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "base/error.h"
+#include "view/private_file.h"
 
 namespace nacre {
+namespace {
+
+constexpr size_t kTokenBytes = 16;
+
+}  // namespace
 
 std::string MakeToken() {
-  std::array<uint8_t, 16> bytes;
+  std::array<uint8_t, kTokenBytes> bytes;
   // The kernel gives so few at once, or none before it has begun to gather them.
   ssize_t got = -1;
   do {
@@ -34,26 +38,16 @@ std::string MakeToken() {
 }
 
 std::string KeptToken(unsigned port) {
-  std::string token = MakeToken();
-  const char* const folder = std::getenv("XDG_RUNTIME_DIR");
-  if (folder == nullptr || folder[0] != '/') return token;
-  const std::string path = std::string(folder) + "/nacre-view-" + std::to_string(port);
-  const int file = open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, S_IRUSR | S_IWUSR);
-  if (file < 0) return token;
-  struct stat status = {};
-  const bool own = fstat(file, &status) == 0 && S_ISREG(status.st_mode) &&
-                   status.st_uid == geteuid() && (status.st_mode & (S_IRWXG | S_IRWXO)) == 0;
-  std::array<char, 33> text;
-  const ssize_t got = own ? pread(file, text.data(), text.size(), 0) : -1;
-  const std::string_view kept(text.data(), got > 0 ? static_cast<size_t>(got) : 0);
-  if (kept.size() == token.size() &&
-      kept.find_first_not_of("0123456789abcdef") == std::string_view::npos) {
-    token = kept;
-  } else if (own && ftruncate(file, 0) == 0) {
-    // If it cannot be kept, the next one is another.
-    [[maybe_unused]] const ssize_t written = pwrite(file, token.data(), token.size(), 0);
+  const std::string folder = SessionFolder();
+  if (folder.empty()) return MakeToken();
+  const std::string path = folder + "/nacre-view-" + std::to_string(port);
+  const std::optional<std::string> kept = ReadPrivateFile(path, 2 * kTokenBytes);
+  if (kept && kept->size() == 2 * kTokenBytes &&
+      kept->find_first_not_of("0123456789abcdef") == std::string::npos) {
+    return *kept;
   }
-  close(file);
+  std::string token = MakeToken();
+  WritePrivateFile(path, token);  // if it cannot be kept, the next one is another
   return token;
 }
 

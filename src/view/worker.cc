@@ -5,7 +5,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <new>
 #include <utility>
 
 #include "base/printable.h"
@@ -43,6 +42,11 @@ constexpr size_t kMaxKeptBytes = size_t{200} << 20;
 constexpr std::array<int, 8> kDivisors = {1, 2, 3, 4, 6, 8, 12, 16};
 // Pixels that a page is sent at most: 33 MB. Larger pictures are shown smaller.
 constexpr double kMaxPixels = 3840.0 * 2160;
+// Between two writes of the file of edits; and as many times what finding them takes.
+constexpr std::chrono::milliseconds kKeepEvery(250);
+constexpr int kKeepShare = 20;
+// For changes that still wait when the server ends.
+constexpr std::chrono::milliseconds kLastChanges(300);
 // Scenes longer than this are told without their shapes: no page has controls for so many.
 constexpr size_t kMaxSceneText = size_t{2} << 20;
 
@@ -132,8 +136,9 @@ void Worker::Stop() {
   if (thread_.joinable()) thread_.join();
 }
 
-void Worker::Start(WorkerSinks sinks) {
+void Worker::Start(WorkerSinks sinks, std::unique_ptr<EditsFile> edits) {
   sinks_ = std::move(sinks);
+  edits_ = std::move(edits);
   thread_ = std::thread([this] { Run(); });
 }
 
@@ -162,6 +167,7 @@ void Worker::Opened(ClientId client) {
 void Worker::Closed(ClientId client) {
   const std::lock_guard lock(mutex_);
   std::erase(clients_, client);
+  mailbox_.Forget(client);
 }
 
 void Worker::Ready(double ms, size_t bytes) {
@@ -175,126 +181,177 @@ void Worker::Ready(double ms, size_t bytes) {
 }
 
 void Worker::Run() {
-  Clock::time_point last_change = Clock::now(), last_files = Clock::now();
-  while (true) {
-    std::vector<Request> requests;
-    Next next = Next::kNothing;
-    {
-      std::unique_lock lock(mutex_);
-      refining_ = false;
-      std::erase_if(kept_, [&](const auto& kept) {
-        return std::find(clients_.begin(), clients_.end(), kept.first) == clients_.end();
-      });
-      const auto since_change = [&] { return Clock::now() - last_change; };
-      const bool to_measure = AnyToMeasure();
-      const auto has_work = [&] {
-        if (stop_ || !mailbox_.empty()) return true;
-        if (clients_.empty()) return false;
-        return moved_ || (!done_ && since_change() >= kRest) ||
-               (to_measure && since_change() >= kMeasureAfter);
-      };
-      if (!has_work()) {
-        // Until there is a request, or until it is time to refine or to look at the files.
-        const auto until = clients_.empty() || moved_ ? Clock::now() + kFilesEvery
-                           : !done_                   ? last_change + kRest
-                           : to_measure               ? last_change + kMeasureAfter
-                                                      : Clock::now() + kFilesEvery;
-        woken_.wait_until(lock, until, has_work);
-      }
-      // A picture that nobody can take yet would be old when it is sent: newer values may come.
-      if (!stop_ && (moved_ || !mailbox_.empty()) && !clients_.empty()) {
-        woken_.wait_for(lock, kPatience, [&] { return stop_ || ready_; });
-      }
-      if (stop_) return;
-      requests = mailbox_.Take();
-      cancel_ = false;
-    }
-    const bool was_moved = std::exchange(moved_, false);
-    for (const Request& request : requests) Serve(request);
-    const auto changes = [](const Request& request) { return request.ChangesPicture(); };
-    if (moved_ || std::any_of(requests.begin(), requests.end(), changes)) {
-      last_change = Clock::now();
-    }
-    moved_ |= was_moved;
-    if (requests.empty() && Clock::now() - last_files >= kFilesEvery) {
-      last_files = Clock::now();
-      CheckFiles();
-    }
-    {
-      const std::lock_guard lock(mutex_);
-      if (clients_.empty()) continue;
-      next = moved_                                                          ? Next::kMoving
-             : !done_ && Clock::now() - last_change >= kRest                 ? Next::kRefine
-             : AnyToMeasure() && Clock::now() - last_change >= kMeasureAfter ? Next::kMeasure
-                                                                             : Next::kNothing;
-      // What came meanwhile ends it at once; a request before this line has set no flag.
-      refining_ = next == Next::kRefine && mailbox_.empty();
-      if (next == Next::kRefine && !mailbox_.empty()) continue;
-      if (next == Next::kMoving) ready_ = false;
-    }
+  last_change_ = last_files_ = Clock::now();
+  bool runs = true;
+  while (runs) {
     try {
-      if (next == Next::kMoving) RenderMoving();
-      if (next == Next::kRefine) Refine();
-      if (next == Next::kMeasure) Measure();
+      runs = Step();
     } catch (const Cancelled&) {
       plan_.reset();  // its film is of no use any more
-    } catch (const Error& error) {
+    } catch (...) {
+      // The picture that was being made is not tried again before something changes.
       done_ = true;
       moved_ = false;
       plan_.reset();
-      SayFault(0, "", error);
-    } catch (const std::bad_alloc&) {
-      done_ = true;
-      moved_ = false;
-      plan_.reset();
-      SayFault(0, "",
-               Error(ExitCode::kInternal, "", "out of memory", "a smaller picture needs less"));
+      sinks_.say(0, CaughtFault(""));
     }
+  }
+  Finish();
+}
+
+// Waits for something to do, and does it. Returns whether there is to be another.
+bool Worker::Step() {
+  std::vector<Request> requests;
+  Next next = Next::kNothing;
+  {
+    std::unique_lock lock(mutex_);
+    refining_ = false;
+    std::erase_if(kept_, [&](const auto& kept) {
+      return std::find(clients_.begin(), clients_.end(), kept.first) == clients_.end();
+    });
+    const auto since_change = [&] { return Clock::now() - last_change_; };
+    const bool to_measure = AnyToMeasure();
+    const auto has_work = [&] {
+      if (stop_ || !mailbox_.empty()) return true;
+      if (clients_.empty()) return false;
+      return moved_ || (!done_ && since_change() >= kRest) ||
+             (to_measure && since_change() >= kMeasureAfter);
+    };
+    if (!has_work()) {
+      // Until there is a request, or until it is time to refine or to look at the files.
+      const auto until = clients_.empty() || moved_ ? Clock::now() + kFilesEvery
+                         : !done_                   ? last_change_ + kRest
+                         : to_measure               ? last_change_ + kMeasureAfter
+                                                    : Clock::now() + kFilesEvery;
+      woken_.wait_until(lock, until, has_work);
+    }
+    // A picture that nobody can take yet would be old when it is sent: newer values may come.
+    if (!stop_ && (moved_ || !mailbox_.empty()) && !clients_.empty()) {
+      woken_.wait_for(lock, kPatience, [&] { return stop_ || ready_; });
+    }
+    if (stop_) return false;
+    requests = mailbox_.Take();
+    cancel_ = false;
+  }
+  const bool was_moved = std::exchange(moved_, false);
+  for (const Request& request : requests) {
+    Serve(request);
+    KeepEdits(false);
+  }
+  const auto changes = [](const Request& request) { return request.ChangesPicture(); };
+  if (moved_ || std::any_of(requests.begin(), requests.end(), changes)) {
+    last_change_ = Clock::now();
+  }
+  moved_ |= was_moved;
+  KeepEdits(false);
+  if (requests.empty() && Clock::now() - last_files_ >= kFilesEvery) {
+    last_files_ = Clock::now();
+    CheckFiles();
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    if (clients_.empty()) return true;
+    next = moved_                                                           ? Next::kMoving
+           : !done_ && Clock::now() - last_change_ >= kRest                 ? Next::kRefine
+           : AnyToMeasure() && Clock::now() - last_change_ >= kMeasureAfter ? Next::kMeasure
+                                                                            : Next::kNothing;
+    // What came meanwhile ends it at once; a request before this line has set no flag.
+    refining_ = next == Next::kRefine && mailbox_.empty();
+    if (next == Next::kRefine && !mailbox_.empty()) return true;
+    if (next == Next::kMoving) ready_ = false;
+  }
+  if (next == Next::kMoving) RenderMoving();
+  if (next == Next::kRefine) Refine();
+  if (next == Next::kMeasure) Measure();
+  return true;
+}
+
+// The server ends. What pages have asked for is not lost: it is done as far as there is time, and
+// kept.
+void Worker::Finish() {
+  try {
+    KeepEdits(true);
+    std::vector<Request> requests;
+    {
+      const std::lock_guard lock(mutex_);
+      requests = mailbox_.Take();
+    }
+    const auto start = Clock::now();
+    for (const Request& request : requests) {
+      if (request.ChangesScene() && Clock::now() - start < kLastChanges) Serve(request);
+    }
+    KeepEdits(true);
+  } catch (...) {  // what was kept last is still there
   }
 }
 
+// Keeps what has been changed since the last time, unless that is only a moment ago.
+void Worker::KeepEdits(bool at_once) {
+  const auto start = Clock::now();
+  if (!edits_ || !edits_to_keep_ || (start < keep_edits_at_ && !at_once)) return;
+  bool kept = false;
+  try {
+    kept = edits_->Keep(document_->Edits());
+  } catch (const std::exception&) {  // no memory for it
+  }
+  edits_to_keep_ = !kept;
+  const Clock::duration took = Clock::now() - start;
+  keep_edits_at_ = start + std::max<Clock::duration>(kKeepEvery, kKeepShare * took);
+  if (kept || std::exchange(edits_failed_, !kept)) return;
+  sinks_.say(0, FaultMessage("", Error(ExitCode::kCannotWrite, "",
+                                       "edits cannot be kept for the case that the server ends",
+                                       "take the scene away before it does")));
+}
+
+// One at a time, whatever one of them throws.
 void Worker::Serve(const Request& request) {
   try {
-    if (const auto* set = std::get_if<SetRequest>(&request.what)) {
-      ServeSet(request.client, *set);
-    } else if (const auto* step = std::get_if<HistoryRequest>(&request.what)) {
-      ServeHistory(*step);
-    } else if (const auto* look = std::get_if<LookRequest>(&request.what)) {
-      display_.tone = ParseToneOperator(look->tone);
-      display_.exposure_ev = look->exposure;
-      for (auto& [id, kept] : kept_) kept.measured = false;  // SSIM and FLIP are of what is seen
-      const std::string layer = std::exchange(layer_, look->layer);
-      try {
-        ParseLayers({"all", look->layer.empty() ? "albedo" : look->layer}, document_->scene());
-      } catch (const Error&) {
-        layer_ = layer;
-        throw;
-      }
-      if (layer != layer_) {
-        Changed();
-      } else if (!image_.channels.empty()) {
-        Publish(done_);
-      }
-    } else if (const auto* samples = std::get_if<SamplesRequest>(&request.what)) {
-      SendSamples(request.client, *samples);
-    } else if (const auto* explain = std::get_if<ExplainRequest>(&request.what)) {
-      Explain(request.client, *explain);
-    } else if (const auto* convert = std::get_if<ConvertRequest>(&request.what)) {
-      ServeConvert(request.client, *convert);
-    } else if (const auto* keep = std::get_if<KeepRequest>(&request.what)) {
-      Keep(request.client, keep->keep);
-    } else if (const auto* take = std::get_if<TakeRequest>(&request.what)) {
-      Take(request.client, *take);
-    } else {
-      SayScene(request.client);
-      if (image_.channels.empty()) {
-        moved_ = true;
-      } else {
-        Publish(done_);
-      }
+    Answer(request);
+  } catch (...) {
+    sinks_.say(request.client, CaughtFault(""));
+  }
+}
+
+void Worker::Answer(const Request& request) {
+  if (const auto* set = std::get_if<SetRequest>(&request.what)) {
+    ServeSet(request.client, *set);
+  } else if (const auto* step = std::get_if<HistoryRequest>(&request.what)) {
+    ServeHistory(*step);
+  } else if (const auto* look = std::get_if<LookRequest>(&request.what)) {
+    display_.tone = ParseToneOperator(look->tone);
+    display_.exposure_ev = look->exposure;
+    for (auto& [id, kept] : kept_) kept.measured = false;  // SSIM and FLIP are of what is seen
+    const std::string layer = std::exchange(layer_, look->layer);
+    try {
+      ParseLayers({"all", look->layer.empty() ? "albedo" : look->layer}, document_->scene());
+    } catch (const Error&) {
+      layer_ = layer;
+      throw;
     }
-  } catch (const Error& error) {
-    SayFault(request.client, "", error);
+    if (layer != layer_) {
+      Changed();
+    } else if (!image_.channels.empty()) {
+      Publish(done_);
+    }
+  } else if (const auto* samples = std::get_if<SamplesRequest>(&request.what)) {
+    SendSamples(request.client, *samples);
+  } else if (const auto* explain = std::get_if<ExplainRequest>(&request.what)) {
+    Explain(request.client, *explain);
+  } else if (const auto* convert = std::get_if<ConvertRequest>(&request.what)) {
+    ServeConvert(request.client, *convert);
+  } else if (const auto* keep = std::get_if<KeepRequest>(&request.what)) {
+    Keep(request.client, keep->keep);
+  } else if (const auto* take = std::get_if<TakeRequest>(&request.what)) {
+    Take(request.client, *take);
+  } else if (const auto* offered = std::get_if<OfferedRequest>(&request.what)) {
+    ServeOffered(request.client, *offered);
+  } else {
+    SayScene(request.client);
+    if (image_.channels.empty()) {
+      moved_ = true;
+    } else {
+      Publish(done_);
+    }
   }
 }
 
@@ -302,12 +359,13 @@ void Worker::ServeSet(ClientId client, const SetRequest& set) {
   plan_.reset();  // it refers to the scene
   try {
     document_->Set(set.pointer, set.value, set.gesture);
-  } catch (const Error& error) {
+  } catch (...) {
     moved_ = true;  // the picture that was being made is gone
-    SayFault(client, set.pointer, error);
+    sinks_.say(client, CaughtFault(set.pointer));
     return;
   }
   Changed();
+  edits_to_keep_ = true;
   Json told = {{"changed", set.pointer},         {"value", set.value},
                {"revision", revision_},          {"client", client},
                {"serial", set.serial},           {"camera", document_->Camera()},
@@ -338,11 +396,29 @@ void Worker::ServeConvert(ClientId client, const ConvertRequest& convert) {
     for (const std::string& note : fit.notes) notes.push_back(Printable(note));
     sinks_.say(client, JsonText({{"not_kept", std::move(notes)}, {"convert", convert.pointer}}));
   } catch (const Json::exception&) {
-    SayFault(client, convert.pointer,
-             Error(ExitCode::kUsage, convert.pointer, "is no JSON pointer"));
-  } catch (const Error& error) {
-    SayFault(client, convert.pointer, error);
+    sinks_.say(client, FaultMessage(convert.pointer, Error(ExitCode::kUsage, convert.pointer,
+                                                           "is no JSON pointer")));
+  } catch (...) {
+    sinks_.say(client, CaughtFault(convert.pointer));
   }
+}
+
+void Worker::ServeOffered(ClientId client, OfferedRequest what) {
+  if (!edits_ || edits_->offered().empty()) return SayScene(client);  // another page was faster
+  const std::vector<Edit> offered = edits_->offered();
+  plan_.reset();  // it refers to the scene
+  std::vector<std::string> unfit;
+  if (what == OfferedRequest::kRestore) unfit = document_->Restore(offered);
+  edits_->ForgetOffered();
+  edits_to_keep_ = true;
+  Changed();
+  SayScene(0);
+  if (unfit.empty()) return;
+  std::vector<Fault> faults;
+  for (const std::string& pointer : unfit) {
+    faults.push_back({pointer, "is not in the scene as it is now: this edit was left out", ""});
+  }
+  sinks_.say(client, FaultMessage("", Error(ExitCode::kUsage, std::move(faults))));
 }
 
 void Worker::Explain(ClientId client, const ExplainRequest& request) {
@@ -362,7 +438,6 @@ void Worker::Explain(ClientId client, const ExplainRequest& request) {
   image.spp = sampled ? kSamples : 1;
   document_->UseImage(image);
   RenderSettings settings = Settings();
-  settings.cancel = nullptr;
   settings.layers = {"all"};
   const int x = std::min(request.x / divisor, image.width - 1);
   const int y = std::min(request.y / divisor, image.height - 1);
@@ -395,7 +470,9 @@ void Worker::ServeHistory(HistoryRequest step) {
                    : step == HistoryRequest::kRedo ? document_->Redo()
                                                    : document_->Reset();
   Changed();
-  if (did) SayScene(0);
+  if (!did) return;
+  edits_to_keep_ = true;
+  SayScene(0);
 }
 
 void Worker::Changed() {
@@ -417,6 +494,10 @@ void Worker::SayScene(ClientId client) {
   for (const Layer& layer : ParseLayers({"all"}, document_->scene())) {
     if (layer.kind != LayerKind::kAlpha) layers.push_back(layer.name);
   }
+  Json offered;
+  if (edits_ && !edits_->offered().empty()) {
+    offered = {{"edits", edits_->offered().size()}, {"time", edits_->offered_time()}};
+  }
   Json given = Json::array();
   for (const std::string& word : options_.given) given.push_back(Printable(word));
   sinks_.say(client, JsonText({{"scene", std::move(tree)},
@@ -434,13 +515,10 @@ void Worker::SayScene(ClientId client) {
                                {"revision", revision_},
                                {"client", client},
                                {"banner", banner_},
+                               {"offered", std::move(offered)},
                                {"undo", document_->can_undo()},
                                {"redo", document_->can_redo()},
                                {"reset", document_->can_reset()}}));
-}
-
-void Worker::SayFault(ClientId client, const std::string& pointer, const Error& error) {
-  sinks_.say(client, FaultMessage(pointer, error));
 }
 
 void Worker::CheckFiles() {
@@ -449,11 +527,12 @@ void Worker::CheckFiles() {
     plan_.reset();  // it refers to the scene
     document_->ReadChangedFiles();
     banner_.clear();
+    edits_to_keep_ = true;
     Changed();
     SayScene(0);
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {
     // The picture stays: it is the last good one.
-    banner_ = error.what();
+    banner_ = PrintableLines(error.what());
     sinks_.say(0, JsonText({{"banner", banner_}}));
   }
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <map>
@@ -17,6 +18,7 @@
 #include "color/display.h"
 #include "render/render.h"
 #include "view/document.h"
+#include "view/edits.h"
 #include "view/frame.h"
 #include "view/mailbox.h"
 
@@ -53,8 +55,9 @@ class Worker {
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
-  void Start(WorkerSinks sinks);
-  // The sinks are not called any more.
+  // `edits`, if any: where edits are kept beyond the server's end.
+  void Start(WorkerSinks sinks, std::unique_ptr<EditsFile> edits);
+  // The sinks are not called any more, and edits have been kept.
   void Stop();
 
   // From any thread. Throws Error for a message that is not understood.
@@ -74,10 +77,15 @@ class Worker {
 
   void Add(Request request);
   void Run();
+  bool Step();
+  void Finish();
   void Serve(const Request& request);
+  void Answer(const Request& request);
   void ServeSet(ClientId client, const SetRequest& set);
   void ServeHistory(HistoryRequest step);
   void ServeConvert(ClientId client, const ConvertRequest& convert);
+  void ServeOffered(ClientId client, OfferedRequest what);
+  void KeepEdits(bool at_once);
   void Explain(ClientId client, const ExplainRequest& request);
   void SendSamples(ClientId client, const SamplesRequest& request);
   void Keep(ClientId client, bool keep);
@@ -87,7 +95,6 @@ class Worker {
   bool AnyToMeasure() const;
   void Measure();
   void SayScene(ClientId client);
-  void SayFault(ClientId client, const std::string& pointer, const Error& error);
   void Changed();
   void CheckFiles();
   ImageSettings FullImage() const;
@@ -126,6 +133,11 @@ class Worker {
   std::map<ClientId, KeptPicture> kept_;
   double render_ms_ = 0;
   std::string banner_;
+  std::chrono::steady_clock::time_point last_change_, last_files_;
+  std::unique_ptr<EditsFile> edits_;
+  bool edits_to_keep_ = false;  // there are newer ones than in the file
+  bool edits_failed_ = false;   // which pages have been told
+  std::chrono::steady_clock::time_point keep_edits_at_;
   std::thread thread_;
 };
 

@@ -199,6 +199,41 @@ class WatchTest(unittest.TestCase):
         self.check_picture()
         self.check_ends(watch)
 
+    def test_links_that_are_pointed_elsewhere(self):
+        """To files, to folders, of scenes, models and environments."""
+        def point(link, target):
+            new = self.out / 'new'
+            new.symlink_to(target)
+            new.rename(self.out / link)
+
+        for number, texture in ((1, 'tiles'), (2, 'waves')):
+            version = self.out / f'v{number}'
+            version.mkdir()
+            shutil.copy(SOURCE / f'scenes/textures/{texture}.png', version / 'a.png')
+            subprocess.run([PROGRAM, 'render', SOURCE / 'scenes/first_scene.json', '-o', version / 'sky.exr', '--size', '64x32',
+                            '--spp', str(number), '--quiet'], check=True, timeout=SECONDS)
+            (version / 'm.mtl').write_text(f'newmtl a\nKd 0 {number / 4} 1\n')
+        (self.out / 'm.obj').write_text('mtllib now/m.mtl\nusemtl a\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n')
+        self.write(textures={'t': {'file': 'now/a.png'}}, materials={'red': {'model': 'lambert', 'albedo_map': 't'}})
+        for link, targets, file, options in (
+                ('now', ('v1', 'v2'), self.file, []), ('now', ('v1', 'v2'), self.out / 'm.obj', []),
+                ('sky.exr', ('v1/sky.exr', 'v2/sky.exr'), self.file, ['--environment', self.out / 'sky.exr']),
+                ('s2.json', ('s.json', 'other.json'), self.out / 's2.json', [])):
+            with self.subTest(link=link, file=file.name):
+                (self.out / 'other.json').write_text(json.dumps(scene(background=1)))
+                for other in {'now', 'sky.exr'} - {link}:
+                    (self.out / other).unlink(missing_ok=True)
+                    (self.out / other).symlink_to('v1' if other == 'now' else 'v1/sky.exr')
+                (self.out / link).unlink(missing_ok=True)
+                (self.out / link).symlink_to(targets[0])
+                watch = self.watch(*options, file=file)
+                before = self.png.read_bytes()
+                point(link, targets[1])
+                watch.picture()
+                self.check_picture(*options, file=file)
+                self.assertNotEqual(self.png.read_bytes(), before)
+                self.check_ends(watch)
+
     def test_meshes_of_scenes(self):
         shutil.copy(SOURCE / 'scenes/meshes/torus_knot.obj', self.out / 'm.obj')
         self.write(shapes=[{'type': 'mesh', 'file': 'm.obj', 'material': 'red'}])

@@ -294,6 +294,90 @@ TEST_CASE("Models that have changed are read again", "[live_scene]") {
   CHECK(live.scene().meshes.size() == 1);
 }
 
+TEST_CASE("Links are followed anew, wherever on the way to a file they are", "[live_scene]") {
+  namespace fs = std::filesystem;
+  const WatchedFolder folder;
+  for (const char* const version : {"v1", "v2"}) fs::create_directories(folder.path / version);
+  const auto triangle = [](int top) {
+    return "v -1 -1 0\nv 1 -1 0\nv 0 " + std::to_string(top) + " 0\nf 1 2 3\n";
+  };
+  folder.Write("v1/m.obj", triangle(1));
+  folder.Write("v2/m.obj", triangle(2));
+  folder.Write("v2/other.obj", triangle(3));
+  // As deployments and editors do it: a new link takes the old one's name.
+  const auto point = [&](const char* link, const char* target) {
+    fs::create_symlink(target, folder.path / "new");
+    fs::rename(folder.path / "new", folder.path / link);
+  };
+  // A link to the file, a folder that is a link, and a link to a link.
+  const auto [link, name] = GENERATE(
+      table<const char*, const char*>({{"m.obj", "m.obj"}, {"now", "now/m.obj"}, {"a", "b"}}));
+  CAPTURE(link, name);
+  const bool to_folder = link == std::string("now");
+  const auto target = [&](int version) {
+    return "v" + std::to_string(version) + (to_folder ? "" : "/m.obj");
+  };
+  point(link, target(1).c_str());
+  if (name == std::string("b")) point("b", "a");
+  folder.Write("s.json", R"({"nacre": 1, "materials": {"a": {"model": "lambert"}},
+                             "shapes": [{"type": "mesh", "material": "a", "file": ")" +
+                             std::string(name) + "\"}]}");
+  // The scene, too, is named by a link, of another folder's.
+  point("scene.json", "s.json");
+  LiveScene live(folder.path / "scene.json", {});
+  const auto top = [&] { return live.scene().meshes[0].positions[2].y; };
+  const auto check_read = [&](double expected) {
+    REQUIRE(SoonChanged(&live));
+    CHECK(live.ReadChangedFiles().Has(ScenePart::kShapes));
+    CHECK(top() == expected);
+    CHECK_FALSE(live.FilesChanged());
+  };
+  REQUIRE(top() == 1);
+  point(link, target(2).c_str());
+  check_read(2);
+  // What is behind the new target, and no longer what is behind the old one.
+  folder.Write("v2/m.obj", triangle(4));
+  check_read(4);
+  folder.Write("v1/m.obj", triangle(5));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  CHECK_FALSE(live.FilesChanged());
+  // A link that leads nowhere, or out of the folder, is waited for.
+  for (const char* const nowhere : {"none", "/dev/null"}) {
+    point(link, nowhere);
+    REQUIRE(SoonChanged(&live));
+    CHECK_THROWS_AS(live.ReadChangedFiles(), Error);
+    CHECK(top() == 4);
+    point(link, target(2).c_str());
+    REQUIRE(SoonChanged(&live));
+    live.ReadChangedFiles();
+    CHECK(top() == 4);
+  }
+  // A folder that is moved away, and another in its place.
+  fs::rename(folder.path / "v2", folder.path / "v0");
+  fs::rename(folder.path / "v1", folder.path / "v2");
+  check_read(5);
+  // Another file of the same size and time of writing, as a second name of it.
+  const auto time = fs::last_write_time(folder.path / "v2/m.obj");
+  folder.Write("v0/other.obj", triangle(6));
+  fs::last_write_time(folder.path / "v0/other.obj", time);
+  fs::create_hard_link(folder.path / "v0/other.obj", folder.path / "new.obj");
+  fs::rename(folder.path / "new.obj", folder.path / "v2/m.obj");
+  check_read(6);
+  // Its other name is written to; and the clock may go backwards.
+  folder.Write("v0/other.obj", triangle(7));
+  fs::last_write_time(folder.path / "v0/other.obj", time - std::chrono::hours(1000));
+  check_read(7);
+  fs::remove(folder.path / "v2/m.obj");
+  folder.Write("v2/m.obj", triangle(8));
+  check_read(8);
+  // The scene's own link.
+  folder.Write("t.json", R"({"nacre": 1, "background": 1})");
+  point("scene.json", "t.json");
+  REQUIRE(SoonChanged(&live));
+  live.ReadChangedFiles();
+  CHECK(live.scene().background == Rgb(1));
+}
+
 TEST_CASE("Files change once they have come to rest", "[live_scene]") {
   const WatchedFolder folder;
   const std::filesystem::path file = folder.path / "f";

@@ -8,6 +8,7 @@ import json
 import os
 import pathlib
 import random
+import shutil
 import signal
 import socket
 import subprocess
@@ -15,6 +16,7 @@ import sys
 import tempfile
 import time
 import unittest
+import urllib.parse
 
 from server import Server
 
@@ -116,6 +118,28 @@ class AttackTest(unittest.TestCase):
             page.close()
         time.sleep(0.2)
 
+    def test_strangers_keep_nobody_out_who_has_the_token(self):
+        """Half-open connections, however many, and while they stay."""
+        strangers = []
+        try:
+            for i in range(300):
+                strangers.append(self.server.connect())
+                if i % 3:
+                    strangers[-1].sendall(b'GET /' if i % 3 == 1 else b'GET / HTTP/1.1\r\nHost: ')
+            # At once: their time is not over for seconds.
+            start = time.monotonic()
+            pages = [self.page() for _ in range(3)]
+            self.assertEqual(self.server.request(f'/{self.server.token}/')[0], 200)
+            self.assertLess(time.monotonic() - start, 4)
+            for page in pages:
+                page.close()
+            # The oldest have gone.
+            self.assertEqual(strangers[0].recv(1), b'')
+        finally:
+            for stranger in strangers:
+                stranger.close()
+        time.sleep(0.3)
+
     def test_half_and_slow_requests_are_dropped(self):
         with self.server.connect() as half, self.server.connect() as slow:
             half.sendall(b'GET / HTTP/1.1\r\nHost: ')
@@ -205,6 +229,97 @@ class AttackTest(unittest.TestCase):
                 self.assertTrue(answer['faults'], name)
             page.close()
 
+    def test_links_that_lead_out_of_the_folder(self):
+        with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as other:
+            shutil.copy(SOURCE / 'scenes/textures/tiles.png', pathlib.Path(other, 'secret.png'))
+            shutil.copy(SCENE, pathlib.Path(folder, 's.json'))
+            shutil.copy(SOURCE / 'scenes/textures/tiles.png', pathlib.Path(folder, 'own.png'))
+            pathlib.Path(folder, 'out.png').symlink_to(pathlib.Path(other, 'secret.png'))
+            pathlib.Path(folder, 'in.png').symlink_to('own.png')
+            with Server(PROGRAM, pathlib.Path(folder, 's.json'), *SMALL) as server:
+                page = server.upgrade()
+                self.assertEqual(page.until(lambda m: 'scene' in m)['files'], ['in.png', 'own.png'])
+                page.until(done)
+                answer = self.fault_of(page, {'set': '/textures/t', 'value': {'file': 'out.png'}})
+                self.assertIn('outside the scene', answer['faults'][0]['what'])
+                page.close()
+
+    # ---- Floods ----
+
+    def test_more_changes_than_may_wait(self):
+        """Of as many values as one likes; a page that opens meanwhile is served."""
+        with Server(PROGRAM, SCENE, *SMALL) as server:
+            page = server.upgrade()
+            page.until(done)
+            for i in range(4000):
+                page.send({'set': f'/materials/m{i}', 'value': {'model': 'lambert'}, 'serial': i + 1})
+            other = server.upgrade()
+            other.until(done)
+            # Of each change the page is told what became of it.
+            told = set()
+            while len(told) < 4000 and 4000 not in told:
+                message = page.message()
+                if message.get('kind') == 1:
+                    page.send('taken')
+                elif 'changed' in message:
+                    told.add(message['serial'])
+                elif 'fault' in message:
+                    self.assertIn('too many changes wait', message['faults'][0]['what'])
+                    break
+            page.close()
+            other.close()
+            last = server.upgrade()
+            last.until(done)
+            last.close()
+            self.assertIsNone(server.process.poll())
+
+    def test_thousands_of_drags_of_one_slider(self):
+        with Server(PROGRAM, SCENE, *SMALL) as server:
+            page, other = server.upgrade(), server.upgrade()
+            page.until(done)
+            for i in range(5000):
+                page.send({'set': '/materials/red/roughness', 'value': 0.2 + 0.0001 * i, 'gesture': i + 1, 'serial': i + 1})
+                if i % 500 == 0:
+                    other.close()
+                    other = server.upgrade()
+                    other.until(lambda m: 'scene' in m)
+            answer = page.until(lambda m: 'fault' in m or m.get('serial') == 5000)
+            self.assertEqual(answer.get('value'), 0.2 + 0.0001 * 4999)
+            self.assertIsNone(server.process.poll())
+            page.close()
+            other.close()
+
+    def test_large_messages_take_bounded_memory(self):
+        with Server(PROGRAM, SCENE, *SMALL) as server:
+            page = server.upgrade()
+            page.until(done)
+            before = server.memory_mib()
+            # Trees of many small parts, of which the text is but a twentieth.
+            for i in range(200):
+                page.send('{"set": "/x%d", "value": [%s]}' % (i, ','.join(['[]'] * 300000)))
+            page.send({'set': '/materials/red/roughness', 'value': 0.25, 'serial': 1})
+            page.until(lambda m: m.get('serial') == 1 or 'too many' in str(m.get('faults')))
+            # 8 MiB of messages, twenty times as much as trees, and a tree or two at work.
+            self.assertLess(server.memory_mib() - before, 500)
+            page.close()
+            self.assertIsNone(server.process.poll())
+
+    def test_steps_take_bounded_memory(self):
+        with Server(PROGRAM, SCENE, *SMALL) as server:
+            page = server.upgrade()
+            materials = page.until(lambda m: 'scene' in m)['scene']['materials']
+            page.until(done)
+            sizes = []
+            # 130 kB of text each before and after: 80 MB, and ten times as much as trees.
+            for i in range(300):
+                many = {f'm{k}': {'model': 'lambert', 'albedo': i / 300} for k in range(3000)}
+                page.send({'set': '/materials', 'value': {**materials, **many}, 'serial': i + 1})
+                page.until(lambda m, i=i: m.get('serial') == i + 1)
+                sizes.append(server.memory_mib())
+            self.assertLess(sizes[-1] - sizes[20], 150)
+            self.assertLess(sizes[-1] - sizes[-40], 30)
+            page.close()
+
     def test_a_scene_too_large(self):
         page, before = self.page(), self.server.memory_mib()
         cloud = {'type': 'cloud', 'count': 1e8, 'material': 'red', 'box': [[-1, -1, -1], [1, 1, 1]], 'radius': 0.01}
@@ -269,6 +384,35 @@ class EndTest(unittest.TestCase):
             page.close()
             server.close()
 
+    def test_a_signal_ends_it_whatever_the_worker_does(self):
+        """In what the worker does not leave by itself: it reads, plans, fits, measures, explains."""
+        cloud = {'type': 'cloud', 'count': 3e6, 'material': 'red', 'box': [[-9, -9, -9], [9, 9, 9]], 'radius': 0.01}
+        grid = {'type': 'uv_sphere', 'center': [0, 0, 0], 'radius': 1, 'rings': 1500, 'segments': 3000, 'material': 'red'}
+        long_works = [({'set': '/shapes', 'value': [cloud]}, 0.3), ({'set': '/shapes', 'value': [cloud]}, 2), ({'set': '/shapes', 'value': [grid]}, 0.3),
+                      ({'set': '/a' * 60000, 'value': 1}, 0.3), ({'explain': 1000, 'y': 500}, 0.1), ({'keep': True}, 1)]
+        for i, (message, wait) in enumerate(long_works):
+            number, code = ((signal.SIGINT, 130), (signal.SIGTERM, 143))[i % 2]
+            with tempfile.TemporaryDirectory() as state:
+                server = Server(PROGRAM, SCENE, '--size', '1920x1080', '--spp', '1', '--quiet', state=state)
+                page = server.upgrade()
+                page.until(done)
+                page.send({'set': '/materials/red/roughness', 'value': 0.77, 'serial': 1})
+                page.until(lambda m: m.get('serial') == 1)
+                page.send(message)
+                if 'keep' in message:
+                    page.send({'set': '/materials/red/roughness', 'value': 0.78})
+                time.sleep(wait)
+                start = time.monotonic()
+                server.process.send_signal(number)
+                self.assertEqual(server.process.wait(20), code)
+                took = time.monotonic() - start
+                page.close()
+                server.close()
+                # A second, and what a busy machine may add.
+                self.assertLess(took, 2.5, message)
+                kept, = pathlib.Path(state, 'nacre').glob('*.json')
+                self.assertIn('"/materials/red/roughness"', kept.read_text(encoding='utf-8'))
+
     def test_the_port_is_free_again_and_taken_ports_are_told(self):
         with Server(PROGRAM, SCENE, *SMALL) as server:
             port = server.port
@@ -296,8 +440,41 @@ class EndTest(unittest.TestCase):
             self.assertTrue(server.url.startswith('https://nacre.example/'))
             self.assertIn('TLS', server.process.stderr.readline())
 
+    def test_another_name_is_told_with_what_mends_it(self):
+        """Through ssh -L browsers call it by another port; a proxy may leave that to the Origin."""
+        with Server(PROGRAM, SCENE, '--size', '64x36', '--spp', '4') as server:
+            path = f'/{server.token}/'
+            status, _, body = server.request(path, Host='localhost:9999')
+            self.assertEqual(status, 403)
+            self.assertIn(b'--origin http://localhost:9999', body)
+            self.assertEqual(server.request(path, Host='localhost:9999')[0], 403)
+            self.assertEqual(server.upgrade(Origin='https://proxy.example'), 403)
+            # Who has not got the token is told nothing, and the terminal no word of it; nor of what is no name.
+            for host, other in (('strange.example', '/x/'), ('a b"<script>', path), ('evil.example\x1b[2J', path)):
+                body = server.request(other, Host=host)[2]
+                self.assertNotIn(b'--origin', body, host)
+            server.process.send_signal(signal.SIGINT)
+            _, errors = server.process.communicate(timeout=20)
+            self.assertEqual(errors.count('--origin http://localhost:9999'), 1)
+            self.assertEqual(errors.count('--origin https://proxy.example'), 1)
+            self.assertEqual(errors.count('--origin'), 2)
+        with Server(PROGRAM, SCENE, *SMALL, '--origin', 'http://localhost:9999') as server:
+            self.assertTrue(server.url.startswith('http://localhost:9999/'))
+            server.address, server.host = '127.0.0.1', 'localhost:9999'
+            with open(f'/proc/{server.process.pid}/net/tcp', encoding='ascii') as table:
+                inodes = {os.readlink(f'/proc/{server.process.pid}/fd/{fd}') for fd in os.listdir(f'/proc/{server.process.pid}/fd')}
+                rows = [row.split() for row in table.readlines()[1:]]
+            server.port = next(int(row[1].split(':')[1], 16) for row in rows if row[3] == '0A' and f'socket:[{row[9]}]' in inodes)
+            self.assertEqual(server.request(f'/{server.token}/')[0], 200)
+            page = server.upgrade(Origin='http://localhost:9999')
+            page.until(done)
+            page.close()
+
     def test_a_display_opens_a_browser(self):
+        """By a file of the user's own: every user of the machine sees a program's arguments."""
         with tempfile.TemporaryDirectory() as folder:
+            session = pathlib.Path(folder, 'session ü')
+            session.mkdir(mode=0o700)
             opened, opener = pathlib.Path(folder, 'opened'), pathlib.Path(folder, 'xdg-open')
             opener.write_text(f'#!/bin/sh\necho noise\necho "$1" > {opened}.new\nmv {opened}.new {opened}\n', encoding='utf-8')
             opener.chmod(0o755)
@@ -306,19 +483,25 @@ class EndTest(unittest.TestCase):
                 if path == folder:
                     opener.unlink()
                 environment = {k: v for k, v in os.environ.items() if k not in ('DISPLAY', 'WAYLAND_DISPLAY')}
-                environment.update({'PATH': path}, **({'DISPLAY': display} if display else {}))
+                environment.update({'PATH': path, 'XDG_RUNTIME_DIR': str(session), 'XDG_STATE_HOME': folder}, **({'DISPLAY': display} if display else {}))
                 process = subprocess.Popen([PROGRAM, 'view', SCENE, *SMALL], env=environment, stdout=subprocess.PIPE,
                                            stderr=subprocess.PIPE, text=True)
                 url = process.stdout.readline().strip()
                 end = time.monotonic() + (20 if display and path != folder else 0.5)
                 while not opened.exists() and time.monotonic() < end:
                     time.sleep(0.05)
+                if opened.exists():
+                    argument = opened.read_text(encoding='utf-8').strip()
+                    self.assertNotIn(url.split('/')[3], argument)
+                    page = pathlib.Path(urllib.parse.unquote(argument.removeprefix('file://')))
+                    self.assertEqual(page.parent, session)
+                    self.assertEqual(page.stat().st_mode & 0o777, 0o600)
+                    self.assertIn(f'url={url}"', page.read_text(encoding='utf-8'))
                 process.send_signal(signal.SIGINT)
                 out, errors = process.communicate(timeout=20)
                 self.assertEqual((process.returncode, out), (130, ''))
                 self.assertEqual(opened.exists(), bool(display) and path != folder)
-                if opened.exists():
-                    self.assertEqual(opened.read_text(encoding='utf-8').strip(), url)
+                self.assertEqual(list(session.iterdir()), [])
                 self.assertEqual('no xdg-open' in errors, path == folder)
 
     def test_broken_scenes(self):

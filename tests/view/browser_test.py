@@ -10,6 +10,7 @@ import json
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -351,15 +352,36 @@ class ViewTest(unittest.TestCase):
                 server = self.view(*arguments)
                 before_change = self.pixel()
                 self.slide('/materials/red/roughness', 900)
+                # A change that the server has not looked at when it ends is made again.
+                server.process.send_signal(signal.SIGSTOP)
+                self.browser.script("""
+                    const slider = document.querySelector('[data-pointer="/materials/red/metallic"] input[type=range]');
+                    slider.value = 600;
+                    slider.dispatchEvent(new Event('input'));
+                    slider.dispatchEvent(new Event('change'));""")
                 server.process.kill()
                 server.close()
                 self.browser.wait('return VIEW.status.textContent.startsWith("no connection")')
+                # It is told where nobody overlooks it, and nothing can be changed that would be lost.
+                self.assertIn('server has gone', self.browser.wait('return VIEW.lost.checkVisibility() && VIEW.lost.textContent'))
+                self.assertTrue(self.browser.script("""
+                    const all = [VIEW.panel.element, VIEW.viewer.stage, VIEW.steps.undo, VIEW.steps.reset, VIEW.both];
+                    return all.every(element => element.inert)"""))
+                self.browser.script('takeAway(VIEW)')
+                self.assertEqual(self.browser.script('return [...document.querySelectorAll("dialog button")].map(b => b.disabled)'),
+                                 [False, False, True, True, False, False])
+                self.browser.script('document.querySelector("dialog").close()')
                 again = Server(PROGRAM, *arguments)
                 self.addCleanup(again.close)
                 self.assertEqual(again.url, server.url)
-                self.browser.wait('return VIEW.scene.materials.red.roughness === 0.3')
+                self.browser.wait('return VIEW.scene.materials.red.roughness === 0.3 && VIEW.scene.materials.red.metallic === 0.6')
                 self.rest()
                 self.browser.wait('return !VIEW.status.textContent.startsWith("no connection")')
+                self.assertFalse(self.browser.script('return VIEW.lost.checkVisibility() || VIEW.panel.element.inert'))
+                self.click('[aria-label="Undo"]')
+                self.browser.wait('return VIEW.scene.materials.red.metallic !== 0.6')
+                self.browser.wait('return VIEW.steps.undo.disabled')
+                self.rest()
                 self.assertEqual(self.pixel(), before_change)
                 self.slide('/materials/red/roughness', 900)
                 self.assertNotEqual(self.pixel(), before_change)
@@ -368,6 +390,109 @@ class ViewTest(unittest.TestCase):
                     del os.environ['XDG_RUNTIME_DIR']
                 else:
                     os.environ['XDG_RUNTIME_DIR'] = before
+
+    def test_edits_of_a_server_that_has_ended_are_offered(self):
+        with tempfile.TemporaryDirectory() as state:
+            shutil.copy(SOURCE / 'scenes/first_scene.json', self.scene)
+            arguments = (self.scene, *QUICK)
+            first = Server(PROGRAM, *arguments, state=state)
+            self.addCleanup(first.close)
+            self.show(first)
+            self.assertFalse(self.browser.script('return VIEW.offer.checkVisibility()'))
+            before = self.pixel()
+            self.slide('/materials/red/roughness', 900)
+            rough = self.pixel()
+            first.process.terminate()
+            first.process.wait(20)
+            for button, expected in (('Restore', rough), ('Discard', before)):
+                second = Server(PROGRAM, *arguments, state=state)
+                self.addCleanup(second.close)
+                self.show(second)
+                text = self.browser.wait('return VIEW.offer.checkVisibility() && VIEW.offer.textContent')
+                self.assertIn('One edit of', text)
+                self.assertEqual(self.pixel(), before)
+                self.browser.script('[...VIEW.offer.querySelectorAll("button")].find(b => b.textContent === arguments[0]).click()', button)
+                self.browser.wait('return !VIEW.offer.checkVisibility()')
+                self.browser.wait('return VIEW.scene.materials.red.roughness === arguments[0]', 0.9 if button == 'Restore' else 0.3)
+                if button == 'Restore':
+                    self.changed(before)
+                self.rest()
+                self.assertEqual(self.pixel(), expected)
+                second.process.terminate()
+                second.process.wait(20)
+
+    def test_dropped_files_do_not_lead_away(self):
+        self.view()
+        prevented = self.browser.script("""
+            const files = new DataTransfer(), text = new DataTransfer();
+            files.items.add(new File(['x'], 'a.png'));
+            text.setData('text/plain', '0.5');
+            const drop = (name, dataTransfer) => !document.querySelector('.pane canvas').dispatchEvent(
+                new DragEvent(name, {dataTransfer, bubbles: true, cancelable: true}));
+            return [drop('dragover', files), drop('drop', files), drop('drop', text)]""")
+        self.assertEqual(prevented, [True, True, False])
+        self.assertIn('nacre view FILE', self.browser.wait('return VIEW.banner.checkVisibility() && VIEW.banner.textContent'))
+
+    def test_a_choice_that_was_not_made_shows_none(self):
+        scene = json.loads((SOURCE / 'scenes/first_scene.json').read_text(encoding='utf-8'))
+        scene['materials']['red'] = {'model': 'dielectric', 'base_color': [0.8, 0.1, 0.08]}
+        path = pathlib.Path(self.folder.name, 'dielectric.json')
+        path.write_text(json.dumps(scene), encoding='utf-8')
+        self.view(path, *QUICK)
+        shown = """const select = document.querySelector('[data-pointer="/materials/red/preset"] select');
+                   return select.selectedOptions[0].textContent"""
+        self.assertEqual(self.browser.script(shown), 'none')
+        before = self.pixel()
+        self.browser.script("""
+            const select = document.querySelector('[data-pointer="/materials/red/preset"] select');
+            select.value = 'diamond';
+            select.dispatchEvent(new Event('change'));""")
+        self.changed(before)
+        self.assertEqual(self.browser.script(shown), 'diamond')
+        self.click('[aria-label="Undo"]')
+        self.browser.wait('return !("preset" in VIEW.scene.materials.red)')
+        self.assertEqual(self.browser.script(shown), 'none')
+        # Of those that have a default, that is shown.
+        self.assertEqual(self.browser.script("""return document.querySelector('[data-pointer="/materials/red/model"] select').value"""), 'dielectric')
+
+    def test_a_models_sky_has_controls(self):
+        self.view(SOURCE / 'scenes/models/pawns.glb', *QUICK)
+        before = self.pixel(0.5, 0.6)
+        self.slide('/lights/sky/scale', 0)
+        dark = self.pixel(0.5, 0.6)
+        self.assertLess(sum(dark), sum(before))
+        self.click('[aria-label="Undo"]')
+        self.changed(dark, 0.5, 0.6)
+        self.assertEqual(self.pixel(0.5, 0.6), before)
+        # Another sky in its place.
+        self.browser.script("""
+            const field = document.querySelector('[data-pointer="/lights/sky/radiance"] input[type=number]');
+            field.value = 3;
+            field.dispatchEvent(new Event('change'));""")
+        self.changed(before, 0.5, 0.6)
+        self.assertEqual(self.value('/lights/sky/radiance'), 3)
+        self.assertIsNone(self.value('/lights/sky/scale'))
+
+    def test_enlarged_pictures_are_smooth_until_pixels_are_seen(self):
+        self.view()
+        self.browser.script("""
+            const draw = CanvasRenderingContext2D.prototype.drawImage;
+            CanvasRenderingContext2D.prototype.drawImage = function(...args) {
+              window.drawn = [this.getTransform().a, this.imageSmoothingEnabled];
+              return draw.apply(this, args);
+            };""")
+        seen = {}
+        for factor in (1.5, 2, 2.9, 3.2, 8):
+            self.browser.script("""
+                const pane = VIEW.viewer.panes[0], camera = VIEW.viewer.camera, [w, h] = pane.size();
+                camera.fit();
+                window.drawn = null;
+                pane.zoomBy(arguments[0] / devicePixelRatio / camera.scaleIn(w, h), 96, 54);
+                VIEW.viewer.draw();""", factor)
+            scale, smooth = self.browser.wait('return window.drawn')
+            self.assertAlmostEqual(scale, factor, delta=0.01 * factor)
+            seen[factor] = smooth
+        self.assertEqual(seen, {1.5: True, 2: True, 2.9: True, 3.2: False, 8: False})
 
     def test_a_map_is_chosen_among_files(self):
         self.view()

@@ -8,6 +8,7 @@ import json
 import math
 import os
 import pathlib
+import signal
 import struct
 import subprocess
 import sys
@@ -438,6 +439,174 @@ class ProtocolTest(unittest.TestCase):
             page.until(lambda m: False)
         except OSError:
             page.close()
+
+    def test_edits_outlive_the_server(self):
+        """However it ends: the next one of the scene offers them, and does with them what it is told."""
+        edits = {'/materials/red/roughness': 0.75, '/camera': {'position': [2, 2, 5]}}
+        for number in (signal.SIGKILL, signal.SIGTERM, signal.SIGINT):
+            with tempfile.TemporaryDirectory() as state, self.subTest(number=number):
+                def start():
+                    server = Server(PROGRAM, SCENE, *SIZE, '--spp', 1, state=state)
+                    self.addCleanup(server.close)
+                    page = server.upgrade()
+                    self.addCleanup(page.close)
+                    return server, page, page.until(lambda m: 'scene' in m)
+
+                def end(server, number=signal.SIGTERM):
+                    server.process.send_signal(number)
+                    return server.process.communicate(timeout=20)[1]
+
+                server, page, told = start()
+                self.assertIsNone(told['offered'])
+                before = told['scene']
+                for pointer, value in edits.items():
+                    self.set(page, pointer, value)
+                if number == signal.SIGKILL:  # nothing can be done then: it was done before
+                    time.sleep(0.6)
+                else:
+                    page.send({'set': '/background', 'value': 0.5})  # kept, though it was a moment ago
+                    page.send({'samples': '', 'id': 1})
+                    page.until(lambda m: m.get('kind') == 2)
+                errors = end(server, number)
+                # Nobody decides, and there are new ones: nothing is lost.
+                server, page, told = start()
+                count = told['offered']['edits']
+                self.assertEqual(count, 2 if number == signal.SIGKILL else 3)
+                self.assertLess(abs(told['offered']['time'] - time.time()), 600)
+                self.assertEqual(told['scene'], before)
+                self.set(page, '/lights/key/intensity', 7)
+                errors = end(server)
+                self.assertIn(f'{count} edits of 20', errors)
+                # Restored, as one step.
+                server, page, told = start()
+                self.assertEqual(told['offered']['edits'], count + 1)
+                page.send({'offered': 'restore'})
+                told = page.until(lambda m: 'scene' in m)
+                self.assertIsNone(told['offered'])
+                self.assertEqual(told['scene']['materials']['red']['roughness'], 0.75)
+                self.assertEqual(told['scene']['camera'], edits['/camera'])
+                self.assertEqual(told['scene']['lights']['key']['intensity'], 7)
+                page.send({'history': 'undo'})
+                self.assertEqual(page.until(lambda m: 'scene' in m)['scene'], before)
+                page.send({'history': 'redo'})
+                self.assertEqual(page.until(lambda m: 'scene' in m)['scene'], told['scene'])
+                end(server, signal.SIGTERM)
+                # They are those of the next one, until they are undone or forgotten.
+                server, page, told = start()
+                self.assertEqual(told['offered']['edits'], count + 1)
+                page.send({'offered': 'discard'})
+                told = page.until(lambda m: 'scene' in m)
+                self.assertEqual((told['offered'], told['scene']), (None, before))
+                self.set(page, '/background', 0.25)
+                page.send({'history': 'undo'})
+                page.until(lambda m: 'scene' in m)
+                end(server)
+                self.assertEqual(os.listdir(pathlib.Path(state, 'nacre')), [])
+
+    def test_edits_that_have_been_saved_are_not_offered(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = pathlib.Path(folder, 's.json')
+            scene.write_bytes(SCENE.read_bytes())
+            with Server(PROGRAM, scene, *SIZE, '--spp', 1, '--quiet', state=folder) as server:
+                page = server.upgrade()
+                page.until(is_done)
+                self.set(page, '/materials/red/roughness', 0.75)
+                self.set(page, '/materials/new', {'model': 'lambert'})
+                page.send({'history': 'reset'})
+                page.until(lambda m: 'scene' in m)
+                page.send({'history': 'undo'})
+                tree = page.until(lambda m: 'scene' in m)['scene']
+                # Taken away as JSON, and put in the place of the file.
+                scene.write_text(json.dumps(tree), encoding='utf-8')
+                page.until(lambda m: 'scene' in m)
+                page.close()
+                server.process.terminate()
+                server.process.wait(20)
+            with Server(PROGRAM, scene, *SIZE, '--spp', 1, '--quiet', state=folder) as server:
+                page = server.upgrade()
+                told = page.until(lambda m: 'scene' in m)
+                self.assertEqual((told['offered'], told['scene']), (None, tree))
+                page.close()
+
+    def test_two_servers_of_one_scene(self):
+        """The second keeps nothing, and says so; what the first keeps stays its own."""
+        with tempfile.TemporaryDirectory() as state:
+            with Server(PROGRAM, SCENE, *SIZE, state=state) as first, Server(PROGRAM, SCENE, *SIZE, state=state) as second:
+                pages = [first.upgrade(), second.upgrade()]
+                for page, value in zip(pages, (0.6, 0.7)):
+                    page.until(is_done)
+                    self.set(page, '/materials/red/roughness', value)
+                    page.close()
+                second.process.terminate()
+                self.assertIn('another nacre view', second.process.communicate(timeout=20)[1])
+            kept, = pathlib.Path(state, 'nacre').iterdir()
+            self.assertEqual([edit['value'] for edit in json.loads(kept.read_text(encoding='utf-8'))['edits']], [0.6])
+
+    def test_pages_share_one_history(self):
+        """Changes of two pages, each with gestures of its own, go back and come again in their order, for both."""
+        server, page = self.open()
+        other = server.upgrade()
+        self.addCleanup(other.close)
+        page.until(is_done)
+        other.until(is_done)
+
+        def told(what):
+            page.send({'history': what})
+            trees = [p.until(lambda m: 'scene' in m)['scene'] for p in (page, other)]
+            self.assertEqual(*trees)
+            return trees[0]
+
+        self.set(page, '/background', 0.5)
+        told('undo')
+        # Two gestures at a time, of two pages, change by change; then one of two values.
+        for i, (who, pointer, value, gesture) in enumerate((
+                (page, '/materials/red/roughness', 0.4, 1), (other, '/materials/red/metallic', 0.5, 2),
+                (page, '/materials/red/roughness', 0.5, 1), (other, '/materials/red/metallic', 0.6, 2),
+                (page, '/materials/red/roughness', 0.6, 3), (page, '/materials/red/metallic', 0.7, 3))):
+            answer = self.set(who, pointer, value, gesture=gesture, serial=i + 1)
+            for watcher in (page, other):
+                if watcher is not who:
+                    self.assertEqual(watcher.until(lambda m: 'changed' in m)['revision'], answer['revision'])
+        seen = []
+        for _ in range(5):
+            tree = told('undo')['materials']['red']
+            seen.append((tree['roughness'], tree.get('metallic', 0)))
+        self.assertEqual(seen, [(0.5, 0.6), (0.5, 0.5), (0.4, 0.5), (0.4, 0), (0.3, 0)])
+        for expected in [(0.4, 0), (0.4, 0.5), (0.5, 0.5), (0.5, 0.6), (0.6, 0.7)]:
+            tree = told('redo')['materials']['red']
+            self.assertEqual((tree['roughness'], tree.get('metallic', 0)), expected)
+
+    def test_each_page_keeps_its_own_a(self):
+        """Measured each against its own, also after the other has dropped or kept anew."""
+        server, page = self.open()
+        other = server.upgrade()
+        self.addCleanup(other.close)
+        page.until(is_done)
+        other.until(is_done)
+
+        def rmse(who, revision):
+            return who.until(lambda m: 'metrics' in m and m['revision'] >= revision)['metrics']['rmse']
+
+        def keep(who, kept=True):
+            who.send({'keep': kept})
+            self.assertEqual(who.until(lambda m: 'kept' in m)['kept'], kept)
+
+        keep(page)
+        answer = self.set(page, '/materials/red/roughness', 0.7)
+        for who in (page, other):
+            self.rested(who, answer['revision'])
+        keep(other)
+        far = rmse(page, answer['revision'])
+        self.assertGreater(far, 0)
+        self.assertEqual(rmse(other, answer['revision']), 0)
+        answer = self.set(other, '/materials/red/roughness', 0.3)
+        self.assertEqual(rmse(page, answer['revision']), 0)
+        self.assertEqual(rmse(other, answer['revision']), far)
+        keep(other, False)
+        answer = self.set(other, '/materials/red/roughness', 0.7)
+        self.assertEqual(rmse(page, answer['revision']), far)
+        other.send({'take': 'report'})
+        self.assertIn('no A', other.until(lambda m: 'fault' in m)['faults'][0]['what'])
 
     def test_the_address_stays_where_a_port_is_asked_for(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -6,6 +6,7 @@ import os
 import socket
 import struct
 import subprocess
+import tempfile
 import time
 import urllib.parse
 
@@ -13,12 +14,14 @@ WAIT_SECONDS = 60  # for one message: machines that test are busy
 
 
 class Server:
-    def __init__(self, program, *arguments, stderr=subprocess.PIPE):
+    def __init__(self, program, *arguments, stderr=subprocess.PIPE, state=None):
+        """`state`: the folder of edits that are kept; of its own and gone with the server if not given."""
+        self.own_state = None if state else tempfile.TemporaryDirectory()
         # The address sanitizer keeps what is freed, 256 MiB of it, for a while: tests measure memory.
         sanitizer = ':'.join(filter(None, [os.environ.get('ASAN_OPTIONS'), 'quarantine_size_mb=8']))
         self.process = subprocess.Popen([program, 'view', '--no-open', *map(str, arguments)],
                                         stdout=subprocess.PIPE, stderr=stderr, text=True,
-                                        env=os.environ | {'ASAN_OPTIONS': sanitizer})
+                                        env=os.environ | {'ASAN_OPTIONS': sanitizer, 'XDG_STATE_HOME': state or self.own_state.name})
         self.url = self.process.stdout.readline().strip()
         if not self.url:
             raise RuntimeError(self.process.stderr.read())
@@ -38,6 +41,8 @@ class Server:
         for stream in self.process.stdout, self.process.stderr:
             if stream:
                 stream.close()
+        if self.own_state:
+            self.own_state.cleanup()
         return code
 
     def __enter__(self):
@@ -112,7 +117,9 @@ class WebSocket:
         if masked:
             mask = os.urandom(4)
             head += mask
-            payload = bytes(b ^ mask[i % 4] for i, b in enumerate(payload))
+            size = len(payload)
+            masked_by = (mask * (size // 4 + 1))[:size]
+            payload = (int.from_bytes(payload, 'big') ^ int.from_bytes(masked_by, 'big')).to_bytes(size, 'big')
         self.connection.sendall(head + payload)
 
     def send(self, message):

@@ -49,3 +49,15 @@ function show(value, digits = 4) {
                                           : value.toExponential(Math.max(0, digits - 1));
   return text.replace('-', '−').replace('e−', 'e-').replace('e+', 'e');
 }
+
+// A file that is dropped would be opened in the place of the page. Calls `say` instead.
+function refuseDrops(say) {
+  for (const name of ['dragover', 'drop']) {
+    document.addEventListener(name, event => {
+      if (!event.dataTransfer?.types.includes('Files')) return;
+      event.preventDefault();
+      if (name === 'drop') say();
+    });
+  }
+}
+const DROPPED = 'A page is not told where a file lies that is dropped on it: start nacre view FILE to see a scene, a model or pictures. Maps are chosen among the files of the scene’s folder.';

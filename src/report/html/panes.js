@@ -124,7 +124,8 @@ class Pane {
       context.clip();
       context.translate(w / 2 - camera.x * scale, h / 2 - camera.y * scale);
       context.scale(scale * picture.cell, scale * picture.cell);
-      context.imageSmoothingEnabled = scale * picture.cell * ratio < 1;
+      // Pixels are seen as such once they are large enough to be told apart.
+      context.imageSmoothingEnabled = scale * picture.cell * ratio <= 3 || (picture.cell > 1 && this.viewer.smoothing === 'low');
       context.imageSmoothingQuality = this.viewer.smoothing || 'high';
       context.drawImage(picture.canvas, picture.x0, picture.y0);
       context.restore();

@@ -28,6 +28,7 @@ class Following {
   constructor() {
     this.banner = el('p', {class: 'note bad', role: 'alert', hidden: true});
     document.querySelector('h1').after(this.banner);
+    refuseDrops(() => this.show(DROPPED));
     this.open(false);
   }
   show(text) {

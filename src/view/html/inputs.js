@@ -134,10 +134,16 @@ function colorInput(schema, label, edit, grey) {
   };
 }
 
+// Without a value none of them is shown: the first one would look like it.
 function choiceInput(names, label, edit) {
   const select = el('select', {'aria-label': label, onchange: () => edit(select.value, newGesture())});
   options(select, names.map(name => [name, String(name).replaceAll('_', ' ')]));
-  return {element: select, focus: select, show(now) { if (now !== undefined) select.value = now; }};
+  const none = el('option', {value: '', disabled: true, hidden: true}, 'none');
+  return {element: select, focus: select, show(now) {
+    if (now === undefined) select.prepend(none);
+    else none.remove();
+    select.value = now ?? '';
+  }};
 }
 
 function switchInput(label, edit) {

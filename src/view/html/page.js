@@ -3,7 +3,7 @@
 
 class View {
   constructor() {
-    this.last = new Map();  // the serial of the newest own change, by pointer
+    this.unanswered = new Map();  // the newest own change {value, gesture, serial} of which the server has said nothing yet, by pointer
     this.scene = {};
     const act = this.act = {
       set: (pointer, value, gesture) => this.set(pointer, value, gesture),
@@ -20,6 +20,9 @@ class View {
     this.status = el('span', {class: 'status'}, 'connecting…');
     this.spoken = el('span', {class: 'unseen', role: 'status'});
     this.banner = el('div', {class: 'banner', role: 'alert', hidden: true});
+    this.lost = el('div', {class: 'banner', role: 'alert', hidden: true},
+                   'The server has gone, or cannot be reached. What is changed now would be lost, so the controls wait until it is back, which is tried every second. The scene, as it is, and the picture can be taken away.');
+    this.offer = el('div', {class: 'banner offer', role: 'status', hidden: true});
     this.name = el('h1', {}, 'nacre view');
     const step = (what, label, text) => el('button', {'aria-label': label, title: label, disabled: true, onclick: () => this.history(what)}, text);
     this.steps = {undo: step('undo', 'Undo', '↶'), redo: step('redo', 'Redo', '↷'), reset: step('reset', 'Reset everything', 'Reset')};
@@ -29,9 +32,10 @@ class View {
     document.body.append(el('main', {class: 'app'},
         el('section', {class: 'picture', 'aria-label': 'Picture'},
            el('div', {class: 'top'}, this.name, el('div', {class: 'row tight'}, Object.values(this.steps)), el('div', {class: 'row'}, this.keep, this.both, this.drop, el('button', {onclick: () => takeAway(this)}, 'Take away')), this.status, this.spoken),
-           this.banner, this.viewer.element, this.explanation.element),
+           this.banner, this.lost, this.offer, this.viewer.element, this.explanation.element),
         this.panel.element));
     document.addEventListener('keydown', event => this.key(event));
+    refuseDrops(() => this.showBanner(DROPPED));
     this.connection = new Connection({text: message => this.received(message), frame: (head, parts) => this.frame(head, parts),
                                       file: (extension, bytes) => {
                                         save(`${baseName(this)}.${extension}`, new Blob([bytes]));
@@ -42,8 +46,11 @@ class View {
 
   connected(open) {
     this.viewer.said = undefined;
+    this.open = open;
+    this.lost.hidden = open;
+    // What is read out and looked at stays in hand.
+    for (const element of [this.panel.element, this.viewer.stage, this.keep, this.both, this.drop, ...Object.values(this.steps)]) element.inert = !open;
     if (open) {
-      this.last.clear();
       this.viewer.pending = [];
       // What this page shows is kept when the server comes back.
       this.viewer.tell();
@@ -54,8 +61,13 @@ class View {
   }
 
   set(pointer, value, gesture) {
-    this.last.set(pointer, this.connection.set(pointer, value, gesture));
+    const serial = this.connection.set(pointer, value, gesture);
+    this.unanswered.set(pointer, {value, gesture, serial});
     // A light's handle and its fields, the camera and its fields: the server's answer moves the others.
+  }
+  // Changes that went out when the server was already gone.
+  setAgain() {
+    for (const [pointer, {value, gesture}] of [...this.unanswered]) this.set(pointer, value, gesture);
   }
   history(what) { this.connection.send({history: what}); }
 
@@ -75,10 +87,10 @@ class View {
     }
   }
 
-  sceneIs({scene, original, whole, camera, name, file, given, layers, files, client, generator}) {
+  sceneIs({scene, original, whole, camera, name, file, given, layers, files, client, generator, offered}) {
     if (generator !== REPORT.generator) return location.reload();  // another nacre serves another page
     Object.assign(this, {original, whole, file, given});
-    if (client) this.client = client;
+    this.showOffer(offered);
     this.scene = scene;
     this.name.textContent = name;
     this.panel.files = files;
@@ -86,11 +98,26 @@ class View {
     this.panel.build(scene, camera);
     this.viewer.layersAre(layers);
     this.viewer.hand.show(camera, scene.lights);
+    if (!client) return;
+    this.client = client;
+    this.setAgain();
+  }
+
+  // Edits of an earlier server, which nobody has taken away before it ended.
+  showOffer(offered) {
+    this.offer.hidden = !offered;
+    if (!offered) return;
+    const choose = (what, text, title) => el('button', {title, onclick: () => this.connection.send({offered: what})}, text);
+    this.offer.replaceChildren(`${offered.edits === 1 ? 'One edit' : `${offered.edits} edits`} of ${new Date(1000 * offered.time).toLocaleString()} were kept when the server ended. `,
+                               choose('restore', 'Restore', 'Makes these edits again, as one step that can be undone'), ' ', choose('discard', 'Discard', 'Forgets them'));
   }
 
   changed({changed, value, revision, client, serial, camera, lights, original_lights: originalLights}) {
     const mine = client === this.client;
-    if (mine) this.viewer.pending.push({serial, revision});
+    if (mine) {
+      this.viewer.pending.push({serial, revision});
+      for (const [pointer, waits] of this.unanswered) if (waits.serial <= serial) this.unanswered.delete(pointer);
+    }
     this.scene = this.panel.scene = putAt(this.scene, changed, value);
     if (lights) {  // of a model: they may follow the camera
       this.scene.lights = lights;
@@ -98,13 +125,14 @@ class View {
       if (changed.startsWith('/camera')) this.panel.show('/lights');
     }
     // A newer own value is on its way: this one would move the control back under the hand.
-    if (mine && serial < this.last.get(changed)) return;
+    if (mine && this.unanswered.has(changed)) return;
     this.panel.changed(changed, value, camera);
     this.viewer.hand.show(camera, this.scene.lights);
-    if (!this.broken) this.showBanner('');
+    this.showBanner('');
   }
 
   fault({fault, faults}) {
+    this.unanswered.delete(fault);
     const text = faults.map(({what, hint}) => hint ? `${what}: ${hint}` : what).join('\n');
     if (!this.panel.fault(fault, text)) {
       this.showBanner(faults.map(({where, what, hint}) => `${where ? where + ': ' : ''}${what}${hint ? '\n  ' + hint : ''}`).join('\n'));

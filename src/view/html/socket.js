@@ -26,7 +26,7 @@ class Connection {
     socket.onopen = () => this.on.state(true);
     socket.onmessage = ({data}) => this.received(data);
     socket.onclose = () => {
-      this.on.state(false);
+      this.on.state(false);  // also of each try that fails
       for (const done of this.waiting.values()) done(null);
       this.waiting.clear();
       setTimeout(() => this.open(), 1000);
