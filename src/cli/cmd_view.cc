@@ -276,9 +276,10 @@ bool IsScene(const std::string& path) {
 }
 
 // Where the edits go that are to outlive the server, with a line about those that are there.
-std::unique_ptr<EditsFile> OpenEdits(const std::string& scene) {
+std::unique_ptr<EditsFile> OpenEdits(const std::string& scene, bool quiet) {
   std::string why_not;
   std::unique_ptr<EditsFile> edits = EditsFile::Open(scene, &why_not);
+  if (quiet) return edits;
   if (!edits) {
     PrintError("note: edits are not kept for the case that the server ends: {}\n", why_not);
   } else if (!edits->offered().empty()) {
@@ -330,7 +331,7 @@ void RunView(const ViewArguments& arguments, const CLI::App& command, int* exit_
                 {[&](ClientId id) { worker.Opened(id); }, [&](ClientId id) { worker.Closed(id); },
                  [&](ClientId id, std::string_view text) { worker.Receive(id, text); },
                  [&](double ms, size_t bytes) { worker.Ready(ms, bytes); }, [] {}, NoteOtherName});
-  std::unique_ptr<EditsFile> edits = OpenEdits(scene);
+  std::unique_ptr<EditsFile> edits = OpenEdits(scene, options.quiet);
   const auto redirect = Announce(arguments, server);
   worker.Start({[&](SharedBytes frame) { server.Show(std::move(frame)); },
                 [&](ClientId id, std::string text) { server.Say(id, std::move(text)); },
