@@ -295,7 +295,7 @@ class AttackTest(unittest.TestCase):
             page.until(done)
             before = server.memory_mib()
             # Trees of many small parts, of which the text is but a twentieth.
-            for i in range(200):
+            for i in range(40):
                 page.send('{"set": "/x%d", "value": [%s]}' % (i, ','.join(['[]'] * 300000)))
             page.send({'set': '/materials/red/roughness', 'value': 0.25, 'serial': 1})
             page.until(lambda m: m.get('serial') == 1 or 'too many' in str(m.get('faults')))
@@ -310,9 +310,9 @@ class AttackTest(unittest.TestCase):
             materials = page.until(lambda m: 'scene' in m)['scene']['materials']
             page.until(done)
             sizes = []
-            # 130 kB of text each before and after: 80 MB, and ten times as much as trees.
-            for i in range(300):
-                many = {f'm{k}': {'model': 'lambert', 'albedo': i / 300} for k in range(3000)}
+            # 130 kB of text each before and after, and ten times as much as trees.
+            for i in range(150):
+                many = {f'm{k}': {'model': 'lambert', 'albedo': i / 150} for k in range(3000)}
                 page.send({'set': '/materials', 'value': {**materials, **many}, 'serial': i + 1})
                 page.until(lambda m, i=i: m.get('serial') == i + 1)
                 sizes.append(server.memory_mib())
