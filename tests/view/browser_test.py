@@ -409,7 +409,7 @@ class ViewTest(unittest.TestCase):
                 self.addCleanup(second.close)
                 self.show(second)
                 text = self.browser.wait('return VIEW.offer.checkVisibility() && VIEW.offer.textContent')
-                self.assertIn('One edit of', text)
+                self.assertRegex(text, r'^Edits of .* \(1\) were kept')
                 self.assertEqual(self.pixel(), before)
                 self.browser.script('[...VIEW.offer.querySelectorAll("button")].find(b => b.textContent === arguments[0]).click()', button)
                 self.browser.wait('return !VIEW.offer.checkVisibility()')

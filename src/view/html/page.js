@@ -49,7 +49,7 @@ class View {
     this.open = open;
     this.lost.hidden = open;
     // What is read out and looked at stays in hand.
-    for (const element of [this.panel.element, this.viewer.stage, this.keep, this.both, this.drop, ...Object.values(this.steps)]) element.inert = !open;
+    for (const element of [this.panel.element, this.viewer.stage, this.offer, this.keep, this.both, this.drop, ...Object.values(this.steps)]) element.inert = !open;
     if (open) {
       this.viewer.pending = [];
       // What this page shows is kept when the server comes back.
@@ -108,7 +108,7 @@ class View {
     this.offer.hidden = !offered;
     if (!offered) return;
     const choose = (what, text, title) => el('button', {title, onclick: () => this.connection.send({offered: what})}, text);
-    this.offer.replaceChildren(`${offered.edits === 1 ? 'One edit' : `${offered.edits} edits`} of ${new Date(1000 * offered.time).toLocaleString()} were kept when the server ended. `,
+    this.offer.replaceChildren(`Edits of ${new Date(1000 * offered.time).toLocaleString()} (${offered.edits}) were kept when the server ended. `,
                                choose('restore', 'Restore', 'Makes these edits again, as one step that can be undone'), ' ', choose('discard', 'Discard', 'Forgets them'));
   }
 
