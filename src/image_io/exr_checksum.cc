@@ -61,7 +61,11 @@ std::string ExrChecksumDigits(uint32_t crc) { return fmt::format("{:08x}", crc);
 
 ExrChecksum CheckExrChecksum(const std::string& path) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return ExrChecksum::kNone;
+  // Files of the kernel that say they are empty may be waited for: they are refused later.
+  if (!std::filesystem::is_regular_file(path, error) ||
+      std::filesystem::file_size(path, error) == 0) {
+    return ExrChecksum::kNone;
+  }
   ForgetCachedPages(path);
   std::ifstream file(path, std::ios::binary);
   const std::optional<uint64_t> place = FindDigits(file);

@@ -2,7 +2,6 @@
 #include "image_io/image_file.h"
 
 #include <array>
-#include <filesystem>
 #include <fstream>
 #include <string_view>
 
@@ -10,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/huge_pages.h"
+#include "base/input_file.h"
 #include "base/path.h"
 #include "image_io/exr_reader.h"
 #include "image_io/hdr_reader.h"
@@ -27,12 +27,7 @@ enum class FileFormat : uint8_t { kExr, kHdr, kPng, kJpeg, kPnm, kTga, kTiff, kO
 // By its first bytes. A file named .exr is opened as EXR in any case, so that the error says what
 // is wrong with the EXR.
 FileFormat FormatOf(const std::string& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw Error(ExitCode::kBadInput, path, "no such file");
-  if (!std::filesystem::is_regular_file(status)) {
-    throw Error(ExitCode::kBadInput, path, "is not a regular file");
-  }
+  CheckInputFile(path);
   std::array<char, 4> bytes = {};
   std::ifstream(path, std::ios::binary).read(bytes.data(), bytes.size());
   const std::string_view head(bytes.data(), bytes.size());

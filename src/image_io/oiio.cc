@@ -15,6 +15,7 @@
 #include <link.h>
 
 #include "base/error.h"
+#include "base/input_file.h"
 #include "image_io/fail_to_read.h"
 #include "image_io/oiio_abi.h"
 #include "image_io/orientation.h"
@@ -171,12 +172,7 @@ class OpenFile {
 bool HasOiio() { return !ModulePath().empty(); }
 
 ImageFile OpenWithOiio(const std::string& path) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) throw Error(ExitCode::kBadInput, path, "no such file");
-  if (!fs::is_regular_file(status)) {
-    throw Error(ExitCode::kBadInput, path, "is not a regular file");
-  }
+  CheckInputFile(path);
   if (!HasOiio()) {
     throw Error(ExitCode::kBadInput, path,
                 fmt::format("cannot be read: {} is neither beside the program or library nor where "

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <fstream>
 #include <string_view>
 #include <vector>
@@ -11,6 +10,7 @@
 #include <OpenEXR/ImfCheckFile.h>
 
 #include "base/error.h"
+#include "base/input_file.h"
 #include "base/path.h"
 #include "image_io/exr_bands.h"
 #include "image_io/exr_checksum.h"
@@ -56,10 +56,7 @@ bool EndsAsPng(const std::string& path) {
 }  // namespace
 
 std::string VerifyImage(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) {
-    throw Error(ExitCode::kBadInput, path, error ? error.message() : "is not a regular file");
-  }
+  CheckInputFile(path);
   std::array<char, 4> magic{};
   std::ifstream(path, std::ios::binary).read(magic.data(), magic.size());
   const bool is_exr = std::string_view(magic.data(), magic.size()) == "\x76\x2f\x31\x01";

@@ -2,6 +2,7 @@
 #include "scene_io/text_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <system_error>
@@ -13,6 +14,7 @@
 
 #include "base/error.h"
 #include "base/excerpt.h"
+#include "base/input_file.h"
 #include "scene_io/text_lines.h"
 
 namespace nacre {
@@ -53,6 +55,9 @@ class InputFile {
     if (fstat(descriptor_.number, &status) != 0) Refuse("cannot be read");
     CheckKind(status);
     size_ = static_cast<uint64_t>(status.st_size);
+    std::array<char, kLfsPointerHead> head{};
+    const ssize_t got = pread(descriptor_.number, head.data(), size_ > 0 ? head.size() : 0, 0);
+    RefuseLfsPointer(path_, {head.data(), static_cast<size_t>(std::max<ssize_t>(got, 0))});
   }
   uint64_t size() const { return size_; }
 

@@ -74,6 +74,55 @@ class ReadingTest(unittest.TestCase):
                     self.check_refused(self.run_nacre('validate', 'a', '--allow-paths' if self.takes_paths() else '--threads=1'),
                                        2, 'is not a regular file')
 
+    def test_what_other_readers_want_is_refused_at_once_too(self):
+        os.mkfifo(self.out / 'pipe.png')
+        os.mkfifo(self.out / 'pipe.exr')
+        small = ['--size', '16x16', '--spp', '1', '-o', 'x.png']
+        for command in (['merge', 'pipe.exr', '-o', 'x.exr'], ['info', '--verify', 'pipe.exr'], ['info', '--verify', 'pipe.png'],
+                        ['grid', '--environment', 'pipe.png', *small], ['report', 'x.html', 'pipe.png']):
+            with self.subTest(command=command):
+                self.check_refused(self.run_nacre(*command), 65, 'is not a regular file')
+
+    def test_files_of_the_kernel_that_say_they_are_empty_are_not_waited_for(self):
+        """/proc/kmsg is a regular file, and whoever reads it waits for the kernel's next message."""
+        for command, code in ((['compare', '/proc/kmsg', '/proc/kmsg'], 2), (['info', '/proc/kmsg'], 65),
+                              (['tonemap', '/proc/kmsg', '-o', 'x.png'], 65), (['merge', '/proc/kmsg', '-o', 'x.exr'], 65),
+                              (['info', '--verify', '/proc/kmsg'], 65), (['report', 'x.html', '/proc/kmsg'], 65)):
+            with self.subTest(command=command):
+                self.check_refused(self.run_nacre(*command), code, 'is empty')
+
+    def test_a_pointer_of_git_lfs_is_named_as_what_it_is(self):
+        """What a clone without git-lfs has in the place of a large file, by every reader."""
+        pointer = 'version https://git-lfs.github.com/spec/v1\noid sha256:' + '0' * 64 + '\nsize 27700317\n'
+        names = ['m.gltf', 'm.glb', 'm.obj', 'm.ply', 's.json', 'i.png', 'i.jpg', 'i.hdr', 'i.exr', 'i.tif', 'i.tga', 'i.pfm',
+                 's.npy', 's.csv', 'b.bin', 'm.mtl']
+        for name in names:
+            (self.out / name).write_text(pointer)
+        said = 'is a pointer of git-lfs'
+        small = ['--size', '16x16', '--spp', '1', '-o', 'x.png']
+        for name in names[:5]:
+            self.check_refused(self.run_nacre('render', name, *small), 65, said, 'git lfs pull')
+        for name in names[5:12]:
+            self.check_refused(self.run_nacre('info', name), 65, said)
+            self.check_refused(self.run_nacre('compare', name, name), 2, said)
+            self.check_refused(self.run_nacre('tonemap', name, '-o', 'x.png'), 65, said)
+            self.check_refused(self.run_nacre('grid', '--environment', name, *small), 65, said)
+            scene = json.loads(SCENE)
+            scene['textures'] = {'t': {'file': name}}
+            scene['shapes'] = [{'type': 'sphere', 'center': [0, 0, 0], 'radius': 1,
+                                'material': {'model': 'lambert', 'albedo': 1, 'albedo_map': 't'}}]
+            (self.out / 't.json').write_text(json.dumps(scene))
+            self.check_refused(self.run_nacre('render', 't.json', *small), 65, said)
+        self.check_refused(self.run_nacre('merge', 'i.exr', '-o', 'x.exr'), 65, said)
+        for name in 's.npy', 's.csv', 'm.ply':
+            scene = dict(json.loads(SCENE), shapes=[{'type': 'spheres', 'file': name, 'material': {'model': 'lambert', 'albedo': 1}}])
+            (self.out / 't.json').write_text(json.dumps(scene))
+            self.check_refused(self.run_nacre('render', 't.json', *small), 65, said)
+        (self.out / 'b.gltf').write_text(json.dumps({'asset': {'version': '2.0'}, 'buffers': [{'uri': 'b.bin', 'byteLength': 99}]}))
+        self.check_refused(self.run_nacre('render', 'b.gltf', *small), 65, said)
+        (self.out / 'o.obj').write_text('mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n')
+        self.check_refused(self.run_nacre('render', 'o.obj', *small), 65, said)
+
     def takes_paths(self):
         return '--allow-paths' in self.run_nacre('validate', '--help-all').stdout
 

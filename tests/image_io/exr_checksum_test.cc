@@ -7,6 +7,7 @@
 
 #include <zlib.h>
 
+#include "base/error.h"
 #include "image_io/exr_bands.h"
 #include "image_io/png_writer.h"
 #include "image_io/verify_image.h"
@@ -61,6 +62,25 @@ TEST_CASE("every file that is written has the checksum of its bytes") {
       unnoticed += CheckExrChecksum(folder / "b.exr") == ExrChecksum::kRight;
     }
     CHECK(unnoticed == 0);
+  }
+}
+
+// Files are read a mebibyte at a time.
+TEST_CASE("the checksum counts what is behind the first mebibyte") {
+  const TestFolder folder;
+  WritePicture(folder / "a.exr", MakePicture(640, 480), {.compression = Compression::kNone});
+  std::vector<uint8_t> bytes = ReadBytes(folder / "a.exr");
+  constexpr size_t kMebibyte = size_t{1} << 20;
+  REQUIRE(bytes.size() > 2 * kMebibyte);
+  REQUIRE(CheckExrChecksum(folder / "a.exr") == ExrChecksum::kRight);
+  for (const size_t at : {kMebibyte - 1, kMebibyte, 3 * kMebibyte / 2, 2 * kMebibyte - 1,
+                          2 * kMebibyte, bytes.size() - 1}) {
+    CAPTURE(at);
+    bytes[at] ^= 0x10;
+    WriteBytes(folder / "b.exr", bytes);
+    bytes[at] ^= 0x10;
+    CHECK(CheckExrChecksum(folder / "b.exr") == ExrChecksum::kWrong);
+    CHECK_THROWS_AS(VerifyImage(folder / "b.exr"), Error);
   }
 }
 
