@@ -20,6 +20,7 @@
 #include "base/version.h"
 #include "cli/commands.h"
 #include "cli/help_text.h"
+#include "cli/known_environment.h"
 #include "cli/manual.h"
 #include "cli/option_values.h"
 #include "cli/print.h"
@@ -180,6 +181,7 @@ int FailPlainly(std::initializer_list<std::string_view> message) {
 // What Run lets through: exceptions before its own reports, while it makes one, and of no known
 // type.
 int main(int argc, char** argv) {
+  nacre::KeepKnownEnvironment();
   KeepFreedMemory();
   try {
     return Run(argc, argv);

@@ -21,6 +21,11 @@
 #pragma GCC visibility pop
 #include "image_io/icc_profile.h"
 
+// The library has it, its headers do not.
+OIIO_NAMESPACE_BEGIN
+ImageInput* tiff_input_imageio_create();
+OIIO_NAMESPACE_END
+
 namespace {
 
 // The first line: OpenImageIO adds what it did about it.
@@ -90,9 +95,10 @@ void DescribeImage(const OIIO::ImageSpec& spec, NacreOiioFile* file) {
 std::string Open(const char* path, uint64_t max_samples, NacreOiioFile* file) {
   OIIO::ImageSpec config;
   config["oiio:UnassociatedAlpha"] = 1;  // the file's values, not multiplied by alpha
-  // A stranger's file must not choose among the forty readers that OpenImageIO brings.
-  auto input = OIIO::ImageInput::create("tiff");
-  if (!input) return OIIO::geterror();
+  // A stranger's file must not choose among the forty readers that OpenImageIO brings. Nor is its
+  // list of them asked: to make it, OpenImageIO loads what lies in the folders that
+  // OIIO_LIBRARY_PATH and LD_LIBRARY_PATH name.
+  OIIO::ImageInput::unique_ptr input(OIIO::tiff_input_imageio_create());
   OIIO::ImageSpec spec;
   if (!input->open(path, spec, config)) return input->geterror();
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1) {

@@ -60,9 +60,11 @@ class PlantedCodeTest(SecurityTest):
         cls.traps = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.traps.cleanup)
         cls.trap = pathlib.Path(cls.traps.name) / 'trap.so'
-        source = ('#include <stdio.h>\n#include <stdlib.h>\n'
-                  'static struct Trap { Trap() { const char* path = getenv("TRAP"); '
-                  'if (path) if (FILE* f = fopen(path, "w")) fclose(f); } } trap;\n')
+        # What the process was started with: the program removes what it does not know.
+        source = ('#include <fstream>\n#include <string>\n'
+                  'static struct Trap { Trap() { std::ifstream all("/proc/self/environ"); '
+                  'for (std::string v; std::getline(all, v, char()); ) '
+                  'if (v.rfind("TRAP=", 0) == 0) std::ofstream(v.substr(5)); } } trap;\n')
         subprocess.run([COMPILER, '-shared', '-fPIC', '-x', 'c++', '-', '-o', cls.trap],
                        input=source, text=True, check=True)
 
@@ -88,6 +90,35 @@ class PlantedCodeTest(SecurityTest):
     def check_not_sprung(self, result, code=0):
         self.assertFalse(self.sprung.exists(), 'planted code ran')
         self.assertEqual(result.returncode, code, result.stderr)
+
+    def test_the_trap_springs(self):
+        run('info', env=dict(self.env, LD_PRELOAD=str(self.trap)))
+        self.assertTrue(self.sprung.exists())
+
+    def test_no_variable_of_a_library_names_code(self):
+        """OpenImageIO, oneTBB, libheif, OpenSSL, glibc, ... load what these name: plug-ins of a folder, or a file."""
+        plugins = self.folder / 'plugins'
+        plugins.mkdir()
+        for name in 'trap.imageio.so', 'libtrap.so', 'heif_trap.so', 'libopencv_core_parallel_tbb.so', 'UTF-16.so':
+            shutil.copy(self.trap, plugins / name)
+        (plugins / 'gconv-modules').write_text('module UTF-8// INTERNAL UTF-16 1\nmodule INTERNAL UTF-8// UTF-16 1\n')
+        conf = plugins / 'openssl.cnf'
+        conf.write_text('openssl_conf = a\n[a]\nproviders = b\n[b]\nc = d\n[d]\nactivate = 1\n'
+                        f'module = {plugins}/libtrap.so\n')
+        folders = ('OIIO_LIBRARY_PATH', 'LD_LIBRARY_PATH', 'LIBHEIF_PLUGIN_PATH', 'GCONV_PATH', 'OPENCV_CORE_PLUGIN_PATH',
+                   'GIO_EXTRA_MODULES', 'GIO_MODULE_DIR', 'OPENSSL_MODULES', 'OPENSSL_ENGINES', 'GDAL_DRIVER_PATH',
+                   'HDF5_PLUGIN_PATH', 'GST_PLUGIN_PATH', 'LIBVA_DRIVERS_PATH', 'QT_PLUGIN_PATH', 'GNUPLOT_LIB')
+        files = 'INTEL_LIBITTNOTIFY64', 'KMP_LIBRARY', 'GTK_MODULES', 'OCL_ICD_FILENAMES'
+        shutil.copy(SOURCE / 'tests/fuzz/corpus/texture_image/a.tif', self.folder / 'a.tif')
+        everything = {**{name: str(plugins) for name in folders}, **{name: str(self.trap) for name in files},
+                      'OPENSSL_CONF': str(conf)}
+        for variables in ({'OIIO_LIBRARY_PATH': str(plugins)}, {'INTEL_LIBITTNOTIFY64': str(self.trap)}, everything):
+            for command in (['info', 'a.tif'], ['compare', 'a.tif', 'a.tif'],
+                            ['grid', '-o', 'g.png', '--sphere-size', '8', '--rows', 'roughness=0.1,1',
+                             '--columns', 'metallic=0,1', '--spp', '1'],
+                            ['plot', 'fresnel', '-o', 'f.svg']):
+                with self.subTest(variables=list(variables), command=command):
+                    self.check_not_sprung(run(*command, cwd=self.folder, env=dict(self.env, **variables)))
 
     def test_the_module_is_not_taken_from_the_working_folder(self):
         self.plant(*self.PLACES)

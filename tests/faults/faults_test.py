@@ -304,10 +304,11 @@ class FaultsTest(unittest.TestCase):
             #include <new>
             #include <stdexcept>
             #include <fmt/format.h>
+            // Before the program removes them from its environment.
+            static int left = std::atoi(std::getenv("FAILURES"));
+            static const char* const kind = std::getenv("KIND");
             FMT_BEGIN_NAMESPACE
             std::string vformat(string_view format, format_args arguments) {
-              static int left = std::atoi(std::getenv("FAILURES"));
-              const char* const kind = std::getenv("KIND");
               if (left-- > 0) {
                 if (std::strcmp(kind, "memory") == 0) throw std::bad_alloc();
                 if (std::strcmp(kind, "number") == 0) throw 1;
