@@ -25,6 +25,7 @@ struct MergeArguments {
   std::vector<std::string> outputs;
   std::string tonemap = "neutral";
   double exposure = 0;
+  std::string target = "auto";
   bool small = false;
   bool quiet = false;
 };
@@ -125,6 +126,10 @@ void RunMerge(const MergeArguments& arguments) {
     if (arguments.quiet) break;
     PrintError("warning: {} has no checksum; all of it was decoded instead\n", path);
   }
+  const auto target = picture.whole.header.attributes.find("nacre:target");
+  const bool has_target = target != picture.whole.header.attributes.end();
+  const auto* const name = has_target ? std::get_if<std::string>(&target->second) : nullptr;
+  ApplyTargetOf(arguments.target, name != nullptr ? *name : "");
   MergedFiles files(arguments, picture.whole);
   {
     Progress progress(arguments.quiet ? ProgressForm::kNone : DefaultProgressForm(), "merging",
@@ -162,6 +167,8 @@ void AddMergeCommand(CLI::App* app, int*) {
       ->type_name("FILE")
       ->allow_extra_args(false);
   AddDisplayOptions(command, &arguments->tonemap, &arguments->exposure);
+  AddTargetOption(command, &arguments->target)
+      ->description("SIMD target that PNG files are made on; auto: that of the tiles");
   command->add_flag("--small", arguments->small,
                     "Smaller PNG files, several times slower to write");
   command->add_flag("--quiet", arguments->quiet, "Print nothing but errors");

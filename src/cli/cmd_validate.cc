@@ -83,8 +83,7 @@ void AddValidateCommand(CLI::App* app, int* exit_code) {
       ->add_option("--threads", a->references.threads,
                    "Number of threads; 0: as many as the machine has")
       ->check(WholeInRange(0, 1024));
-  command->add_option("--target", a->target, "SIMD target: auto, avx3, avx2, sse4 or scalar")
-      ->capture_default_str();
+  AddTargetOption(command, &a->target);
   command->add_flag("--allow-paths", a->references.allow_paths,
                     "Let references and their scenes name files outside their folder");
   MoveBehindHelpAll(command, {"--threads", "--target", "--allow-paths"});

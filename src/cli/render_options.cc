@@ -153,17 +153,20 @@ void AddExrOptions(CLI::App* command, RenderOptions* o) {
 
 }  // namespace
 
+CLI::Option* AddTargetOption(CLI::App* command, std::string* target) {
+  return command
+      ->add_option("--target", *target,
+                   "SIMD target: auto, avx3, avx2, sse4 or scalar; neon on arm64")
+      ->check(CLI::IsMember({"auto", "avx3", "avx2", "sse4", "scalar", "neon"}))
+      ->capture_default_str();
+}
+
 void AddMachineOptions(CLI::App* command, RenderOptions* o) {
   const std::string machine = "Machine";
   command->add_option("--threads", o->threads, "Number of threads; 0: as many as the machine has")
       ->check(WholeInRange(0, 1024))
       ->group(machine);
-  command
-      ->add_option("--target", o->target,
-                   "SIMD target: auto, avx3, avx2, sse4 or scalar; neon on arm64")
-      ->check(CLI::IsMember({"auto", "avx3", "avx2", "sse4", "scalar", "neon"}))
-      ->capture_default_str()
-      ->group(machine);
+  AddTargetOption(command, &o->target)->group(machine);
   command
       ->add_option("--intersector", o->intersector,
                    "How rays find spheres: auto, embree, tiles or shells; changes no bits")
@@ -335,6 +338,13 @@ void ApplyTarget(const std::string& name) {
   }
   throw Error(ExitCode::kUsage, "--target", "this machine cannot run " + name,
               fmt::format("it can run {}", fmt::join(supported, ", ")));
+}
+
+void ApplyTargetOf(const std::string& name, const std::string& of_file) {
+  if (name != "auto") return ApplyTarget(name);
+  for (const Target target : SupportedTargets()) {
+    if (TargetName(target) == of_file) PinTarget(target);
+  }
 }
 
 }  // namespace nacre

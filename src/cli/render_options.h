@@ -58,6 +58,7 @@ struct RenderOptions {
 void AddRenderOptions(CLI::App* command, RenderOptions* options);
 
 // The options that say how a PNG looks, for `tonemap` as well.
+CLI::Option* AddTargetOption(CLI::App* command, std::string* target);
 void AddDisplayOptions(CLI::App* command, std::string* tonemap, double* exposure);
 
 // Those of the scene's picture, and of how the machine renders it.
@@ -90,5 +91,9 @@ RenderSettings MakeRenderSettings(const RenderOptions& options);
 
 // Pins the SIMD target. Throws Error (usage) for one that this machine lacks.
 void ApplyTarget(const std::string& name);
+
+// The same for the pictures of a file that nacre rendered on the target `of_file`: "auto" is that
+// one, if this machine has it, so that they are shown with the bits of a render.
+void ApplyTargetOf(const std::string& name, const std::string& of_file);
 
 }  // namespace nacre

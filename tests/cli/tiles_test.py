@@ -308,6 +308,44 @@ class TilesTest(unittest.TestCase):
                 self.assertFalse((self.out / 'whole.exr').exists())
             self.assertEqual(taken, [], compression)
 
+    def test_a_flipped_bit_anywhere_in_a_large_tile_is_refused(self):
+        """The tiles above are smaller than what is read at a time, a mebibyte; real ones are not."""
+        rng = random.Random(44)
+        for options in (['--compression', 'none'], ['--compression', 'zip', '--layers', 'all']):
+            tiles = self.tiles(2, '--size', '560x480', '--spp', '1', '--depth', 'float', '--reproducible', *options)
+            data = bytearray(tiles[1].read_bytes())
+            mebibyte = 1 << 20
+            self.assertGreater(len(data), 3 * mebibyte // 2)
+            damaged = self.out / 'damaged.exr'
+            for place in [mebibyte - 1, mebibyte, len(data) - 1] + [rng.randrange(mebibyte, len(data)) for _ in range(9)]:
+                data[place] ^= 1 << place % 8
+                damaged.write_bytes(data)
+                data[place] ^= 1 << place % 8
+                result = run('merge', '-o', self.out / 'whole.exr', tiles[0], damaged)
+                self.assertEqual(result.returncode, 65, place)
+                self.assertIn(str(damaged), result.stderr)
+                self.assertEqual(run('info', '--verify', damaged).returncode, 65, place)
+
+    def test_the_png_is_made_on_the_target_that_was_asked_for(self):
+        """That of the tiles, unless another is given; so that it equals the one of `render` there."""
+        targets = run('info').stdout.split('SIMD targets here')[1].split('\n')[0].replace(',', ' ').split()
+        size = ['--size', '480x270', '--spp', '1', '--reproducible']
+        shown = ['--tonemap', 'agx', '--exposure', '2.37']
+        png, merged, whole = (self.out / name for name in ('a.png', 'b.png', 'whole.exr'))
+        for target in targets:
+            self.render('a.png', '--target', target, *size, *shown)
+            tiles = self.tiles(2, '--target', target, '--depth', 'float', *size)
+            self.merge('-o', merged, '-o', whole, *tiles, *shown)
+            self.assertEqual(run('compare', merged, png).returncode, 0, target)
+            result = run('tonemap', whole, '-o', merged, *shown)
+            self.assertEqual((result.returncode, run('compare', merged, png).returncode), (0, 0), target)
+            self.merge('-o', png, *tiles, *shown, '--target', targets[0])
+            result = run('tonemap', whole, '-o', merged, *shown, '--target', targets[0])
+            self.assertEqual((result.returncode, run('compare', merged, png).returncode), (0, 0), target)
+        if 'neon' not in targets:
+            self.assertEqual(run('merge', '-o', png, whole, '--target', 'neon').returncode, 64)
+            self.assertEqual(run('tonemap', whole, '-o', png, '--target', 'neon').returncode, 64)
+
     def test_a_flipped_bit_of_the_first_header_does_not_reach_the_picture(self):
         """The merged file's header is that of the first tile: alone it has nobody to differ from."""
         tile = self.render('t.exr', *SMALL)
