@@ -5,6 +5,7 @@
 
 #include "api/shown.h"
 #include "base/parallel.h"
+#include "image_io/color_channels.h"
 #include "image_io/jpeg_writer.h"
 #include "image_io/png_writer.h"
 
@@ -55,6 +56,16 @@ Shown::Shown(const Image& image, const ToneMapSettings& settings, const std::str
   for (size_t c = 0; c < 3; ++c) {
     rgb[c] = RequireChannel(image, prefix + "RGB"[c], what).samples.data();
   }
+  const ColorConversion conversion = ConversionToRec709(image.metadata);
+  if (!conversion.matrix) return;
+  const size_t pixels = image.channels[0].samples.size();
+  for (size_t c = 0; c < 3; ++c) {
+    converted_[c].assign(rgb[c], rgb[c] + pixels);
+    rgb[c] = converted_[c].data();
+  }
+  ConvertColors(*conversion.matrix,
+                {converted_[0].data(), converted_[1].data(), converted_[2].data()}, 1, pixels,
+                /*clip=*/false);
 }
 
 void EncodePixels(const Shown& shown, size_t first, size_t count, uint8_t* rgb8) {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "api/border.h"
 #include "color/display.h"
@@ -19,6 +20,9 @@ struct Shown {
   nacre::DisplaySettings display;
   bool displayed;  // the values are a display's already
   std::array<const float*, 3> rgb;
+
+ private:
+  std::array<std::vector<float>, 3> converted_;  // to Rec. 709, if the image has other primaries
 };
 
 // The codes of pixels from `first` on, row by row: R, G and B of each.

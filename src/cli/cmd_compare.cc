@@ -17,7 +17,6 @@
 #include "cli/render_options.h"
 #include "compare/perceptual.h"
 #include "compare/verdict.h"
-#include "image_io/color_channels.h"
 #include "image_io/image_file.h"
 #include "image_io/output_file.h"
 #include "scene_io/json_text.h"
@@ -72,19 +71,6 @@ void PrintPerceptual(const std::vector<PerceptualMetrics>& all) {
   }
 }
 
-// Numbers of different primaries have nothing to do with each other.
-void CheckSameColorSpace(const ImageFile& image, const ImageFile& reference) {
-  const auto primaries = [](const ImageFile& file) {
-    const auto found = file.parts.front().metadata.find("chromaticities");
-    return found == file.parts.front().metadata.end() ? std::string() : found->second;
-  };
-  const std::string a = primaries(image), b = primaries(reference);
-  if (a.empty() || b.empty() || SamePrimaries(a, b)) return;
-  throw Error(ExitCode::kCannotCompare, image.path,
-              fmt::format("its primaries are {}, those of {} {}", a, reference.path, b),
-              "convert one of them first");
-}
-
 // How the data windows of parts of a name differ, which the windows around all of them need not
 // tell; "" if they do not.
 std::string PartWindowsInWords(const ImageFile& image, const ImageFile& reference) {
@@ -115,7 +101,6 @@ int RunCompare(const CompareArguments& arguments) {
   const std::optional<PerceptualOptions> perceptual = MakePerceptualOptions(arguments.perceptual);
   const ImageFile image_file = OpenImage(arguments.image, arguments.part);
   const ImageFile reference_file = OpenImage(arguments.reference, arguments.part);
-  CheckSameColorSpace(image_file, reference_file);
   const Image image = ReadImage(image_file);
   const Image reference = ReadImage(reference_file);
   CompareOptions options = arguments.options;

@@ -27,6 +27,7 @@ struct TonemapArguments {
   std::string layer, part;
   std::string tonemap = "neutral";
   double exposure = 0;
+  std::string target = "auto";
   bool small = false;
 };
 
@@ -93,6 +94,14 @@ ShownPixels ReadShown(const ImageFile& image, const ColorChannels& colors) {
                        shown.window.width()});
   }
   if (!common.empty()) image.read(common, targets);
+  if (colors.is_grey()) return shown;
+  const ColorConversion conversion = ConversionToRec709(image.header.metadata);
+  if (!conversion.note.empty()) PrintError("warning: {}: {}\n", image.path, conversion.note);
+  if (conversion.matrix) {
+    ConvertColors(*conversion.matrix,
+                  {shown.rgb[0].data(), shown.rgb[1].data(), shown.rgb[2].data()}, 1,
+                  shown.window.pixel_count(), /*clip=*/false);
+  }
   return shown;
 }
 
@@ -106,7 +115,6 @@ void RunTonemap(const TonemapArguments& arguments) {
                 "give a linear image: EXR or HDR");
   }
   const ColorChannels colors = RequireColors(image, arguments);
-  if (!colors.is_grey()) CheckPrimaries(image);
   const ShownPixels shown = ReadShown(image, colors);
   const auto aspect = image.parts.front().metadata.find("pixelAspectRatio");
   if (aspect != image.parts.front().metadata.end() &&
@@ -116,6 +124,9 @@ void RunTonemap(const TonemapArguments& arguments) {
                     "squares\n",
                     arguments.input, aspect->second));
   }
+  const auto target = image.parts.front().metadata.find("nacre:target");
+  ApplyTargetOf(arguments.target,
+                target != image.parts.front().metadata.end() ? target->second : "");
   const DisplaySettings display{.tone = ParseToneOperator(arguments.tonemap),
                                 .exposure_ev = arguments.exposure};
   PngHeader header;
@@ -145,6 +156,8 @@ void AddTonemapCommand(CLI::App* app, int*) {
                       "Layer to show instead of the beauty, e.g. diffuse");
   command->add_option("--part", arguments->part, "Part of an EXR file that has several");
   AddDisplayOptions(command, &arguments->tonemap, &arguments->exposure);
+  AddTargetOption(command, &arguments->target)
+      ->description("SIMD target; auto: the one that nacre rendered the input on, if it did");
   command->add_flag("--small", arguments->small, "Smaller file, several times slower to write");
   command->footer(
       "Example:\n"

@@ -10,8 +10,10 @@
 #include "base/path.h"
 #include "base/seconds_since.h"
 #include "cli/outputs.h"
+#include "cli/print.h"
 #include "cli/progress.h"
 #include "cli/stats_json.h"
+#include "image_io/color_channels.h"
 #include "image_io/image_file.h"
 #include "output/metadata.h"
 #include "render/render.h"
@@ -64,7 +66,10 @@ ReportInput KindOfInput(const std::string& path) {
 }
 
 ReportPicture ReadPicture(const std::string& path, const std::string& part) {
-  return {NameOf(path), ReadImage(path, part), std::nullopt};
+  Image image = ReadImage(path, part);
+  const std::string note = ConvertImage(&image);  // what is shown is shown in sRGB
+  if (!note.empty()) PrintError("warning: {}: {}\n", path, note);
+  return {NameOf(path), std::move(image), std::nullopt};
 }
 
 ReportPicture RenderPicture(const std::string& path, const RenderOptions& options,

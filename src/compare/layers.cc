@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/excerpt.h"
+#include "color/primaries.h"
 
 namespace nacre {
 namespace {
@@ -37,6 +39,23 @@ void RequireLayers(const Image& reference, const CompareOptions& options) {
   }
 }
 
+// Numbers of different primaries have nothing to do with each other. Without a word, or with one
+// that names none, they are Rec. 709's.
+void RequireSamePrimaries(const Image& got, const Image& reference, const CompareOptions& options) {
+  const auto text = [](const Image& image) {
+    const auto found = image.metadata.find("chromaticities");
+    return found != image.metadata.end() && ParsePrimaries(found->second)
+               ? found->second
+               : std::string(kRec709Primaries);
+  };
+  const std::string a = text(got), b = text(reference);
+  if (SamePrimaries(*ParsePrimaries(a), *ParsePrimaries(b))) return;
+  throw Error(ExitCode::kCannotCompare, options.got_name,
+              fmt::format("its primaries are {}, those of {} {}", Excerpt(a),
+                          options.reference_name, Excerpt(b)),
+              "convert one of them first");
+}
+
 // The samples of a channel, at the first pixel of `window`.
 const float* FirstSample(const Channel& channel, const Image& image, const Window& window) {
   const auto stride = static_cast<size_t>(image.data.width());
@@ -53,13 +72,7 @@ std::string LayerOfChannel(const std::string& channel) {
 }
 
 ImagePair PairImages(const Image& got, const Image& reference, const CompareOptions& options) {
-  const Window& a = got.display;
-  const Window& b = reference.display;
-  if (a.width() != b.width() || a.height() != b.height()) {
-    throw Error(ExitCode::kCannotCompare, options.got_name,
-                fmt::format("is {}x{}, but {} is {}x{}", a.width(), a.height(),
-                            options.reference_name, b.width(), b.height()));
-  }
+  RequireSamePrimaries(got, reference, options);
   RequireLayers(reference, options);
   RequireChannels(got, options.got_name, reference, options.reference_name, options);
   RequireChannels(reference, options.reference_name, got, options.got_name, options);

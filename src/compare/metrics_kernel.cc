@@ -122,7 +122,7 @@ bool MarkExcessT(const float* got, const float* reference, size_t count, double 
       uint8_t bits[8] = {};
       hn::StoreMaskBits(d, exceeds, bits);
       *mark = static_cast<uint8_t>(*mark | bits[0]);
-      worst = hn::Max(worst, hn::IfThenElseZero(exceeds, SoftenedSquares(d, error, r)));
+      worst = hn::Max(worst, hn::IfThenElseZero(exceeds, error));
     }
     ++mark;
     return true;

@@ -53,8 +53,8 @@ bool SumRow(const float* got, const float* reference, size_t count, ErrorSums* s
             LargestErrors* relative);
 
 // Marks samples whose error exceeds max_abs + max_rel |reference|: ORs a bit for each, always of
-// the same place for the same column, into ExcessBytes(count) bytes, and raises *largest to their
-// SoftenedSquare. Returns false if any sample is not finite; what is marked is then of no use.
+// the same place for the same column, into ExcessBytes(count) bytes, and raises *largest to
+// their errors. Returns false if any sample is not finite; what is marked is then of no use.
 bool MarkExcess(const float* got, const float* reference, size_t count, double max_abs,
                 double max_rel, uint8_t* marks, double* largest);
 inline size_t ExcessBytes(size_t count) { return count; }

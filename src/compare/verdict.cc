@@ -22,18 +22,13 @@ bool Exceeds(float got, float reference, const Tolerances& tolerances) {
   return error > tolerances.max_abs + tolerances.max_rel * std::abs(static_cast<double>(reference));
 }
 
-// The first sample with the largest SoftenedSquare of those beyond their tolerance, by rows, pixels
-// and layers. 0 / 0 of infinite samples counts as infinite.
+// The first sample with the largest error of those beyond their tolerance, by rows, pixels and
+// layers.
 struct Excess {
   size_t pixels = 0;
   double worst = 0;
   DifferenceSite worst_at;
 };
-
-double ExcessOf(float got, float reference) {
-  const double square = SoftenedSquare(SampleError(got, reference), reference);
-  return std::isnan(square) ? HUGE_VAL : square;
-}
 
 // What the samples of row `y` are compared by.
 class RowExcess {
@@ -75,7 +70,7 @@ class RowExcess {
           const float reference = channel.reference[pair_.ReferenceIndex(x, y)];
           if (!Exceeds(got, reference, tolerances_)) continue;
           exceeds = true;
-          const double size = ExcessOf(got, reference);
+          const double size = SampleError(got, reference);
           if (size > excess->worst) {
             excess->worst = size;
             excess->worst_at = {x, y, channel.name, got, reference};
@@ -118,13 +113,13 @@ std::string WindowInWords(const Window& window) {
 
 // How the windows differ; "" if they do not.
 std::string WindowsInWords(const Image& got, const Image& reference) {
-  if (got.data != reference.data) {
-    return fmt::format("the data window is {}, not {}", WindowInWords(got.data),
-                       WindowInWords(reference.data));
-  }
   if (got.display != reference.display) {
     return fmt::format("the display window is {}, not {}", WindowInWords(got.display),
                        WindowInWords(reference.display));
+  }
+  if (got.data != reference.data) {
+    return fmt::format("the data window is {}, not {}", WindowInWords(got.data),
+                       WindowInWords(reference.data));
   }
   return {};
 }
@@ -155,13 +150,25 @@ Verdict Judge(const Image& got, const Image& reference, const Tolerances& tolera
   if (by_rmse) of_samples.max_abs = HUGE_VAL;  // which what is not finite exceeds still
   const Excess excess = FindExcess(pair, of_samples);
   verdict.exceeding_pixels = excess.pixels;
+  const std::string windows = WindowsInWords(got, reference);
+  const bool windows_count = !windows.empty() && !options.crop;
   const double fraction = static_cast<double>(excess.pixels) / static_cast<double>(verdict.pixels);
   if (fraction > tolerances.exceeding_fraction) {
-    const DifferenceSite& at = excess.worst_at;
+    // Of equal errors the one that the layer's metrics name.
+    DifferenceSite at = excess.worst_at;
+    for (const LayerMetrics& layer : verdict.layers) {
+      const DifferenceSite& largest = layer.max_abs_at;
+      if (SampleError(largest.got, largest.reference) == excess.worst &&
+          Exceeds(largest.got, largest.reference, of_samples)) {
+        at = largest;
+        break;
+      }
+    }
     verdict.reason = fmt::format(
-        "{} of {} pixels ({:.3g} %) {}, {:.3g} % may; worst {} at ({}, {}): {} instead of {}",
-        excess.pixels, verdict.pixels, 100 * fraction, LimitInWords(tolerances),
-        100 * tolerances.exceeding_fraction, at.channel, at.x, at.y, at.got, at.reference);
+        "{}{} of {} pixels ({:.3g} %) {}, {:.3g} % may; worst {} at ({}, {}): {} instead of {}",
+        windows_count ? windows + "; " : "", excess.pixels, verdict.pixels, 100 * fraction,
+        LimitInWords(tolerances), 100 * tolerances.exceeding_fraction, at.channel, at.x, at.y,
+        at.got, at.reference);
     return verdict;
   }
   for (const LayerMetrics& layer : verdict.layers) {
@@ -171,8 +178,7 @@ Verdict Judge(const Image& got, const Image& reference, const Tolerances& tolera
                     layer.layer.empty() ? "R, G, B" : layer.layer, layer.rmse, tolerances.rmse);
     return verdict;
   }
-  const std::string windows = WindowsInWords(got, reference);
-  if (!windows.empty() && !options.crop) {
+  if (windows_count) {
     verdict.reason = windows + "; the pixels that both have match";
     return verdict;
   }

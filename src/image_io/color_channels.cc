@@ -4,11 +4,17 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <sstream>
+#include <limits>
+#include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/excerpt.h"
+#include "base/float_mode.h"
+#include "base/parallel.h"
+#include "color/primaries.h"
 
 namespace nacre {
 namespace {
@@ -61,25 +67,55 @@ std::optional<ColorChannels> FindColors(const std::vector<Channel>& channels,
   return ColorChannels{others[0], others[0], others[0]};
 }
 
-void CheckPrimaries(const ImageFile& image) {
-  // An attribute that all parts of a file share.
-  const auto& metadata = image.parts.front().metadata;
+ColorConversion ConversionToRec709(const std::map<std::string, std::string>& metadata) {
   const auto found = metadata.find("chromaticities");
-  if (found == metadata.end()) return;
-  // Red, green, blue, white (ITU-R BT.709-6).
-  if (SamePrimaries(found->second, "0.64 0.33 0.30 0.60 0.15 0.06 0.3127 0.3290")) return;
-  throw Error(ExitCode::kBadInput, image.path,
-              "its primaries (" + found->second + ") are not Rec. 709's",
-              "convert its colours to linear Rec. 709 (sRGB's primaries) first");
+  if (found == metadata.end()) return {};
+  const std::optional<Primaries> primaries = ParsePrimaries(found->second);
+  if (!primaries) {
+    return {{},
+            fmt::format("its primaries ({}) are none, and its colours are taken as Rec. 709",
+                        Excerpt(found->second))};
+  }
+  if (SamePrimaries(*primaries, *ParsePrimaries(kRec709Primaries))) return {};
+  return {Rec709FromPrimaries(*primaries),
+          fmt::format("its colours are converted to Rec. 709 from its primaries ({})",
+                      Excerpt(found->second))};
 }
 
-bool SamePrimaries(const std::string& a, const std::string& b) {
-  std::istringstream text_a(a), text_b(b);
-  for (int i = 0; i < 8; ++i) {
-    double x = 0, y = 0;
-    if (!(text_a >> x) || !(text_b >> y) || !(std::abs(x - y) <= kPrimariesError)) return false;
+void ConvertColors(const Imath::M33d& matrix, const std::array<float*, 3>& rgb, size_t step,
+                   size_t count, bool clip, int threads) {
+  constexpr size_t kPiece = size_t{1} << 16;
+  constexpr double kMost = std::numeric_limits<float>::max();
+  ParallelFor((count + kPiece - 1) / kPiece, threads, [&](size_t piece) {
+    const DefaultFloatMode keeps_denormals;
+    for (size_t i = piece * kPiece; i < std::min(count, (piece + 1) * kPiece); ++i) {
+      const Vec3d from(rgb[0][i * step], rgb[1][i * step], rgb[2][i * step]);
+      if (!std::isfinite(from.x + from.y + from.z)) continue;
+      const Vec3d to = from * matrix;
+      for (int c = 0; c < 3; ++c) {
+        rgb[static_cast<size_t>(c)][i * step] =
+            static_cast<float>(std::clamp(to[c], clip ? 0 : -kMost, kMost));
+      }
+    }
+  });
+}
+
+std::string ConvertImage(Image* image) {
+  ColorConversion conversion = ConversionToRec709(image->metadata);
+  if (!conversion.matrix) return std::move(conversion.note);
+  std::set<std::string_view> layers;
+  for (const Channel& channel : image->channels) {
+    const size_t dot = channel.name.rfind('.');
+    const auto layer = std::string_view(channel.name).substr(0, dot == std::string::npos ? 0 : dot);
+    if (!layers.insert(layer).second) continue;
+    const std::optional<ColorChannels> colors = FindColors(image->channels, layer);
+    if (!colors || colors->is_grey()) continue;
+    const auto samples = [&](size_t c) { return image->channels[c].samples.data(); };
+    ConvertColors(*conversion.matrix, {samples(colors->r), samples(colors->g), samples(colors->b)},
+                  1, image->data.pixel_count(), false);
   }
-  return true;
+  image->metadata["chromaticities"] = kRec709Primaries;
+  return std::move(conversion.note);
 }
 
 Window WholeWindow(const ImageFile& image, const std::string& what) {

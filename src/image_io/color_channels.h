@@ -3,12 +3,15 @@
 // taken as linear Rec. 709.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/vec.h"
 #include "image_io/image_file.h"
 
 namespace nacre {
@@ -30,18 +33,25 @@ bool IsAlphaChannel(std::string_view name);
 std::optional<ColorChannels> FindColors(const std::vector<Channel>& channels,
                                         std::string_view layer);
 
-// Throws Error (kBadInput) if the file says that its primaries are not Rec. 709's (chromaticities
-// of EXR). White luminance, adopted neutral and the like do not change what samples are, and are
-// left alone.
-void CheckPrimaries(const ImageFile& image);
+// What is done with colours to have them in linear Rec. 709. White luminance, adopted neutral and
+// the like do not change what samples are, and are left alone.
+struct ColorConversion {
+  std::optional<Imath::M33d> matrix;  // rgb * it; none: they are taken as they are
+  std::string note;                   // what to tell of it; "" if there is nothing
+};
 
-// How far a coordinate of the same primary may be off in another file: three digits are off by
-// 5e-4, and there is a white of .3127 .3290 and of .3128 .3292.
-inline constexpr double kPrimariesError = 1e-3;
+// By what a header says of its primaries (chromaticities of EXR, PRIMARIES of Radiance).
+// Without a word of them, and by a word that names none, they are Rec. 709's.
+ColorConversion ConversionToRec709(const std::map<std::string, std::string>& metadata);
 
-// Whether two attributes "chromaticities" mean the same primaries: x and y of red, green, blue and
-// white.
-bool SamePrimaries(const std::string& a, const std::string& b);
+// Converts `count` colours, each `step` after the one before. Colours that are not finite stay as
+// they are. `clip`: what lies outside of Rec. 709's gamut, below 0, becomes 0.
+void ConvertColors(const Imath::M33d& matrix, const std::array<float*, 3>& rgb, size_t step,
+                   size_t count, bool clip, int threads = 0);
+
+// Converts all layers of R, G and B, if that is needed, after which the image says that it is in
+// Rec. 709. Returns what to tell of it.
+std::string ConvertImage(Image* image);
 
 // The display window, which is the image. Throws Error (kBadInput) if the file has no samples for
 // all of it, or has several parts; `what` ("a texture") needs it.

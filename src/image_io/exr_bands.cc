@@ -14,9 +14,11 @@
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfMatrixAttribute.h>
+#include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
 #include "base/error.h"
+#include "base/input_file.h"
 #include "image_io/exr_checksum.h"
 #include "image_io/exr_chunk.h"
 #include "image_io/exr_chunk_check.h"
@@ -104,12 +106,7 @@ struct ExrBandReader::State {
 
 ExrBandReader::ExrBandReader(const std::string& path) : state_(std::make_unique<State>()) {
   state_->path = path;
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) RefuseBand(path, "no such file");
-  if (!std::filesystem::is_regular_file(status)) {
-    throw Error(ExitCode::kBadInput, path, "is not a regular file", "give the tiles' EXR files");
-  }
+  CheckInputFile(path);
   CheckExrHeader(path);
   state_->Guard([&] {
     constexpr int kNoThreads = 0;
@@ -135,6 +132,9 @@ ExrBandHeader ExrBandReader::ReadHeader() const {
       RefuseKind(state_->path, std::string("channel ") + it.name() + " is subsampled");
     }
     band.header.channels.push_back({it.name(), ToPixelType(it.channel().type)});
+  }
+  if (Imf::hasChromaticities(from) && Imf::chromaticities(from) != Imf::Chromaticities()) {
+    RefuseKind(state_->path, "its primaries are not Rec. 709's");
   }
   for (auto it = from.begin(); it != from.end(); ++it) {
     if (kStructure.contains(it.name())) continue;

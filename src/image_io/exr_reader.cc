@@ -35,6 +35,7 @@
 #include <fmt/ranges.h>
 
 #include "base/error.h"
+#include "base/input_file.h"
 #include "image_io/exr_chunk_check.h"
 #include "image_io/exr_header_check.h"
 #include "image_io/exr_types.h"
@@ -283,10 +284,7 @@ struct OpenedExr {
 };
 
 OpenedExr OpenParts(const std::string& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) Fail(path, "no such file");
-  if (!std::filesystem::is_regular_file(status)) Fail(path, "is not a regular file");
+  CheckInputFile(path);
   CheckExrHeader(path);
   OpenedExr opened;
   WithLibrary(path, [&] {
@@ -362,6 +360,11 @@ ImageFile OpenExr(const std::string& path, const std::string& part) {
   constexpr int64_t kFar = std::numeric_limits<int>::max();
   if (int64_t{all.x1} - all.x0 > kFar || int64_t{all.y1} - all.y0 > kFar) {
     Fail(path, "its parts are too far from each other", "choose one; nacre info lists them");
+  }
+  // An attribute that all parts share.
+  const auto& shared = image.parts.front().metadata;
+  if (const auto found = shared.find("chromaticities"); found != shared.end()) {
+    image.header.metadata["chromaticities"] = found->second;
   }
   image.header.metadata["transfer"] = "linear";
   image.read = [path, sources, bytes = image.file_bytes, parts = image.parts,

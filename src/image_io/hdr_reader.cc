@@ -5,7 +5,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -19,7 +18,8 @@
 #include "base/error.h"
 #include "base/float_mode.h"
 #include "base/parallel.h"
-#include "image_io/color_channels.h"
+#include "base/vec.h"
+#include "color/primaries.h"
 #include "image_io/orientation.h"
 
 namespace nacre {
@@ -90,8 +90,9 @@ class HdrBytes {
 struct HdrHeader {
   int width = 0, height = 0;  // of the image that is seen
   Orientation orientation;
-  std::array<double, 3> exposure = {1, 1, 1};  // that pixels were multiplied by
-  double pixel_aspect = 1;                     // height of a pixel over its width
+  Vec3d exposure{1, 1, 1};  // that pixels were multiplied by
+  double pixel_aspect = 1;  // height of a pixel over its width
+  bool is_xyz = false;      // pixels are X, Y and Z, whatever PRIMARIES says
   std::map<std::string, std::string> variables;
 };
 
@@ -125,28 +126,30 @@ bool ParseResolution(std::string_view line, HdrHeader* header) {
 }
 
 // All the numbers of the text, or nothing.
-std::optional<std::vector<double>> ParseNumbers(const std::string& text) {
+std::optional<std::vector<double>> ParseNumbers(std::string_view text) {
   std::vector<double> numbers;
-  const char* at = text.c_str();
   while (true) {
-    while (*at == ' ' || *at == '\t') ++at;
-    if (*at == '\0') return numbers;
-    char* end = nullptr;
-    numbers.push_back(std::strtod(at, &end));
-    if (end == at || !std::isfinite(numbers.back())) return {};
-    at = end;
+    while (text.starts_with(' ') || text.starts_with('\t')) text.remove_prefix(1);
+    if (text.empty()) return numbers;
+    if (text.starts_with('+')) text.remove_prefix(1);
+    double number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || !std::isfinite(number)) return {};
+    numbers.push_back(number);
+    text.remove_prefix(static_cast<size_t>(end - text.data()));
   }
 }
 
-// x and y of red, green, blue and white.
-bool AreKnownPrimaries(const std::vector<double>& given) {
-  constexpr double kRadiance[] = {0.640, 0.330, 0.290, 0.600, 0.150, 0.060, 0.3333, 0.3333};
-  constexpr double kRec709[] = {0.640, 0.330, 0.300, 0.600, 0.150, 0.060, 0.3127, 0.3290};
-  const auto near = [&](const double* known) {
-    return std::equal(given.begin(), given.end(), known,
-                      [](double a, double b) { return std::abs(a - b) <= kPrimariesError; });
-  };
-  return given.size() == 8 && (near(kRadiance) || near(kRec709));
+// Radiance's own primaries, whose white is that of equal energy. Files that name none have these
+// in Radiance and Rec. 709's everywhere else, and both are taken as the latter: the red and blue
+// are the same, and the greens 0.01 apart.
+const Primaries kRadiancePrimaries = {{.640, .330}, {.290, .600}, {.150, .060}, {1 / 3., 1 / 3.}};
+
+// What ra_xyze -r makes of the XYZ of a file, whose Y is in lumens a steradian and square metre:
+// radiance by the 179 lumens a watt of white light (WHTEFFICACY), in Radiance's own primaries.
+Imath::M33d RadianceFromXyz() {
+  constexpr double kWhiteEfficacy = 179;
+  return XyzFromRgb(kRadiancePrimaries).inverse() * (1 / kWhiteEfficacy);
 }
 
 // A line "NAME=value". Others are comments, and the commands that made the picture.
@@ -166,31 +169,39 @@ void ReadVariable(const std::string& path, const std::string& line, HdrHeader* h
     }
     return *parsed;
   };
+  // Of a factor: FreeImage writes EXPOSURE=0 where it knows none.
+  const auto says_nothing = [&](size_t count) {
+    const std::vector<double> all = numbers(count);
+    return std::ranges::all_of(all, [](double number) { return number == 0; });
+  };
   const auto factors = [&](size_t count) {
     const std::vector<double> all = numbers(count);
-    for (size_t c = 0; c < 3; ++c) {
-      header->exposure[c] *= all[count == 1 ? 0 : c];
+    for (int c = 0; c < 3; ++c) {
+      header->exposure[c] *= all[count == 1 ? 0 : static_cast<size_t>(c)];
       if (!(header->exposure[c] > 0) || !std::isfinite(header->exposure[c])) {
         FailHdr(path, "cannot be read: " + name + " makes no factor above 0");
       }
     }
   };
-  if (name == "FORMAT" && value == "32-bit_rle_xyze") {
-    FailHdr(path, "its pixels are XYZ, not RGB", "convert it: ra_xyze -r IN OUT");
+  if (name == "FORMAT") {
+    header->is_xyz = value == "32-bit_rle_xyze";
+    if (!header->is_xyz && value != "32-bit_rle_rgbe") {
+      FailHdr(path, "cannot be read: its FORMAT is neither 32-bit_rle_rgbe nor 32-bit_rle_xyze");
+    }
   }
-  if (name == "FORMAT" && value != "32-bit_rle_rgbe") {
-    FailHdr(path, "cannot be read: its FORMAT is not 32-bit_rle_rgbe");
+  if (name == "EXPOSURE" && !says_nothing(1)) factors(1);
+  if (name == "COLORCORR" && !says_nothing(3)) factors(3);
+  if (name == "PRIMARIES") {
+    const std::optional<Primaries> primaries = ParsePrimaries(value);
+    if (!primaries || !SamePrimaries(*primaries, kRadiancePrimaries)) {
+      header->variables["chromaticities"] = value;  // EXR's name for the same numbers
+      return;
+    }
   }
-  if (name == "EXPOSURE") factors(1);
-  if (name == "COLORCORR") factors(3);
-  if (name == "PRIMARIES" && !AreKnownPrimaries(numbers(8))) {
-    FailHdr(path, "its primaries are not Rec. 709's or Radiance's own",
-            "convert it: ra_xyze -r IN OUT");
-  }
-  if (name == "GAMMA" && numbers(1)[0] != 1) {
+  if (name == "GAMMA" && !says_nothing(1) && numbers(1)[0] != 1) {
     FailHdr(path, "its GAMMA is not 1", "pixels must be linear");
   }
-  if (name == "PIXASPECT") {
+  if (name == "PIXASPECT" && !says_nothing(1)) {
     header->pixel_aspect *= numbers(1)[0];
     if (!(header->pixel_aspect > 0) || !std::isfinite(header->pixel_aspect)) {
       FailHdr(path, "cannot be read: PIXASPECT makes no factor above 0");
@@ -209,6 +220,7 @@ HdrHeader ReadHeader(const std::string& path, HdrBytes* bytes) {
   for (std::string line = bytes->Line(); !line.empty(); line = bytes->Line()) {
     ReadVariable(path, line, &header);
   }
+  if (header.is_xyz) header.variables.erase("chromaticities");
   if (!ParseResolution(bytes->Line(), &header)) {
     FailHdr(path, "cannot be read: its resolution is not like -Y 512 +X 1024, up to 65536 a side");
   }
@@ -309,7 +321,8 @@ void ReadPixels(const std::string& path, const Window& size, const Window& regio
   for (int exponent = 1; exponent < 256; ++exponent) {
     scales[static_cast<size_t>(exponent)] = std::ldexp(1.0, exponent - (128 + 8));
   }
-  const bool exposed = header.exposure != std::array<double, 3>{1, 1, 1};
+  const bool exposed = header.exposure != Vec3d(1, 1, 1);
+  const Imath::M33d rgb_from_xyz = RadianceFromXyz();
   // Rows follow one another in the file and are converted several at a time.
   std::vector<Row> rows(kRowsAtATime, Row(width));
   std::vector<std::vector<float>> values(kRowsAtATime, std::vector<float>(3 * width));
@@ -322,10 +335,11 @@ void ReadPixels(const std::string& path, const Window& size, const Window& regio
       float* const to = values[i].data();
       for (size_t x = 0; x < width; ++x) {
         const double scale = scales[row[x][3]];
-        for (size_t c = 0; c < 3; ++c) {
-          const double value = row[x][c] * scale;
-          to[3 * x + c] = static_cast<float>(exposed ? value / header.exposure[c] : value);
-        }
+        Vec3d value(row[x][0] * scale, row[x][1] * scale, row[x][2] * scale);
+        if (exposed) value /= header.exposure;
+        if (header.is_xyz) value *= rgb_from_xyz;
+        for (int c = 0; c < 3; ++c)
+          to[3 * x + static_cast<size_t>(c)] = static_cast<float>(value[c]);
       }
       placer.Place(first + static_cast<int>(i), to, 3);
     });

@@ -61,8 +61,11 @@ class GltfTextures {
   // The image as a file: its own, or a temporary one.
   std::filesystem::path FileOf(const GltfImage& image);
   TextureReading Reading(TextureEncoding encoding, double glossiness = 0) const {
-    return {
-        .encoding = encoding, .glossiness = glossiness, .part = {}, .threads = document_.threads};
+    return {.encoding = encoding,
+            .glossiness = glossiness,
+            .part = {},
+            .threads = document_.threads,
+            .on_warning = [this](const std::string& text) { document_.Warn(text); }};
   }
 
   GltfDocument& document_;

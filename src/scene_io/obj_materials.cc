@@ -244,8 +244,11 @@ class ObjMaterials {
     ahead_.Decode(texels_, options_.threads);
   }
 
-  TextureReading Reading(TextureEncoding encoding) const {
-    return {.encoding = encoding, .part = {}, .threads = options_.threads};
+  TextureReading Reading(TextureEncoding encoding) {
+    return {.encoding = encoding,
+            .part = {},
+            .threads = options_.threads,
+            .on_warning = [this](const std::string& text) { Warn(text); }};
   }
 
   void AddMaterial(size_t index) {

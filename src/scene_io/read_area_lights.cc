@@ -72,6 +72,9 @@ struct PictureReading {
   bool clamp_negative = false;  // samples below 0 count as 0
 };
 
+// The float nearest to the bound: 1e30 itself, as floats have it, is a little more.
+constexpr float kMostRadiance = static_cast<float>(limits::kRadiance.max);
+
 // Whether all samples are as they must be.
 bool AreRadiances(std::span<const float> samples, int threads) {
   constexpr size_t kPiece = size_t{1} << 18;
@@ -80,18 +83,17 @@ bool AreRadiances(std::span<const float> samples, int threads) {
     const size_t first = piece * kPiece;
     bool good = true;
     for (const float sample : samples.subspan(first, std::min(kPiece, samples.size() - first))) {
-      good &= sample >= 0 && sample <= limits::kRadiance.max;
+      good &= sample >= 0 && sample <= kMostRadiance;
     }
     if (!good) all = false;
   });
   return all;
 }
 
-// Throws Error (kBadInput) for what is no picture of light. `clamped`: how many samples were below
-// 0, and the lowest.
+// Throws Error (kBadInput) for what is no picture of light. `notes`: what is to be told of it.
 std::shared_ptr<const SkyPicture> MakePicture(const std::string& path, const std::string& file,
                                               const PictureReading& reading, int threads,
-                                              size_t* clamped, float* lowest) {
+                                              std::vector<std::string>* notes) {
   const auto refuse = [&](const std::string& what, const std::string& hint) {
     throw Error(ExitCode::kBadInput, file, what, hint);
   };
@@ -106,7 +108,6 @@ std::shared_ptr<const SkyPicture> MakePicture(const std::string& path, const std
   }
   const std::optional<ColorChannels> colors = FindColors(image.header.channels, "");
   if (!colors) refuse("no channels R, G and B", "or one alone");
-  if (!colors->is_grey()) CheckPrimaries(image);
   image.CheckSize(window, 3);  // of grey ones, too: radiance has three
   auto picture = std::make_shared<SkyPicture>();
   picture->width = window.width();
@@ -120,22 +121,39 @@ std::shared_ptr<const SkyPicture> MakePicture(const std::string& path, const std
     targets.push_back({channels[c], rgb + c, 3, step_y});
   }
   image.read(window, targets);
-  if (!colors->is_grey() && AreRadiances(picture->rgb, threads)) return picture;
-  for (size_t i = 0; i < picture->rgb.size(); ++i) {
-    if (colors->is_grey() && i % 3 != 0) rgb[i] = rgb[i - 1];
-    if (rgb[i] < 0 && rgb[i] >= std::numeric_limits<float>::lowest() && reading.clamp_negative) {
-      ++*clamped;
-      *lowest = std::min(*lowest, rgb[i]);
-      rgb[i] = 0;
+  // Throws for the first sample that is no radiance. Below 0: if `clamp`, they count as 0.
+  const auto judge = [&](bool clamp, const std::string& of) {
+    if (AreRadiances(picture->rgb, threads)) return;
+    size_t clamped = 0;
+    float lowest = 0;
+    for (size_t i = 0; i < picture->rgb.size(); ++i) {
+      if (rgb[i] < 0 && rgb[i] >= std::numeric_limits<float>::lowest() && clamp) {
+        ++clamped;
+        lowest = std::min(lowest, rgb[i]);
+        rgb[i] = 0;
+      }
+      if (rgb[i] >= 0 && rgb[i] <= kMostRadiance) continue;
+      const size_t pixel = i / 3, width = static_cast<size_t>(window.width());
+      const bool is_negative = rgb[i] < 0 && std::isfinite(rgb[i]);
+      refuse(fmt::format("pixel {},{} has {} = {}{}", pixel % width, pixel / width,
+                         image.header.channels[channels[i % 3]].name, rgb[i], of),
+             is_negative ? R"("clamp_negative": true counts samples below 0 as 0)"
+                         : "radiance is " + Describe(limits::kRadiance));
     }
-    if (rgb[i] >= 0 && rgb[i] <= limits::kRadiance.max) continue;
-    const size_t pixel = i / 3, width = static_cast<size_t>(window.width());
-    const bool is_negative = rgb[i] < 0 && std::isfinite(rgb[i]);
-    refuse(fmt::format("pixel {},{} has {} = {}", pixel % width, pixel / width,
-                       image.header.channels[channels[i % 3]].name, rgb[i]),
-           is_negative ? R"("clamp_negative": true counts samples below 0 as 0)"
-                       : "radiance is " + Describe(limits::kRadiance));
+    notes->push_back(
+        fmt::format("{} samples below 0, down to {}, count as 0{}", clamped, lowest, of));
+  };
+  if (colors->is_grey()) {
+    for (size_t i = 0; i < picture->rgb.size(); ++i) rgb[i] = rgb[i - i % 3];
   }
+  judge(reading.clamp_negative, "");
+  if (colors->is_grey()) return picture;
+  const ColorConversion conversion = ConversionToRec709(image.header.metadata);
+  if (!conversion.note.empty()) notes->push_back(conversion.note);
+  if (!conversion.matrix) return picture;
+  ConvertColors(*conversion.matrix, {rgb, rgb + 1, rgb + 2}, 3, window.pixel_count(),
+                /*clip=*/false, threads);
+  judge(/*clamp=*/true, " (in Rec. 709)");
   return picture;
 }
 
@@ -156,13 +174,11 @@ void ReadPicture(const JsonValue& value, const PictureReading& reading, const Sc
       if (kept != context.kept->skies.end()) sky->picture = kept->second.lock();
       if (sky->picture != nullptr) return;
     }
-    size_t clamped = 0;
-    float lowest = 0;
-    sky->picture = MakePicture(path.string(), file, reading, context.threads, &clamped, &lowest);
+    std::vector<std::string> notes;
+    sky->picture = MakePicture(path.string(), file, reading, context.threads, &notes);
     if (context.kept != nullptr) context.kept->skies[key] = sky->picture;
-    if (clamped > 0 && context.on_warning) {
-      context.on_warning(
-          fmt::format("{}: {} samples below 0, down to {}, count as 0", file, clamped, lowest));
+    for (const std::string& note : notes) {
+      if (context.on_warning) context.on_warning(file + ": " + note);
     }
   } catch (const Error& error) {
     AddFileFaults(error, value);

@@ -106,7 +106,7 @@ ImageId AddImage(const std::filesystem::path& path, const std::string& file,
 }
 
 // How the file of a texture is read where it is used so.
-TextureReading ReadingOf(const TextureSource& source, MapUse use, int threads) {
+TextureReading ReadingOf(const TextureSource& source, MapUse use, const SceneContext& context) {
   const auto by_use = use == MapUse::kColor     ? TextureEncoding::kSrgb
                       : use == MapUse::kOpacity ? TextureEncoding::kAlpha
                                                 : TextureEncoding::kLinear;
@@ -114,7 +114,8 @@ TextureReading ReadingOf(const TextureSource& source, MapUse use, int threads) {
   return {.encoding = source.encoding.value_or(by_use),
           .trust_encoding = source.encoding.has_value(),
           .part = source.part,
-          .threads = threads};
+          .threads = context.threads,
+          .on_warning = context.on_warning};
 }
 
 // The image of the texture, read so, once.
@@ -252,7 +253,7 @@ void DecodeMapsAhead(const Json& materials, SceneContext* context) {
       if (!use) continue;
       const auto found = context->textures.find(*name);
       if (found == context->textures.end() || !found->second.is_readable) continue;
-      const TextureReading reading = ReadingOf(found->second, *use, context->threads);
+      const TextureReading reading = ReadingOf(found->second, *use, *context);
       try {
         const auto path =
             ResolveReference(context->folder, found->second.file, context->references);
@@ -283,7 +284,7 @@ void ReadTextureId(const JsonValue& value, MapUse use, SceneContext* context, Te
   }
   TextureSource& source = found->second;
   if (!source.is_readable) return;  // reported before
-  const TextureReading reading = ReadingOf(source, use, context->threads);
+  const TextureReading reading = ReadingOf(source, use, *context);
   TextureId& known = source.decoded[static_cast<size_t>(reading.encoding)];
   if (!known.valid()) known = AddTexture(&source, reading, context, value.faults);
   if (use == MapUse::kOpacity && known.valid()) {

@@ -85,7 +85,6 @@ std::vector<size_t> ChannelsOf(const ImageFile& image, TextureEncoding encoding)
                 "a texture needs R, G and B, or one channel");
   }
   if (colors->is_grey()) return {colors->r};
-  CheckPrimaries(image);
   return {colors->r, colors->g, colors->b};
 }
 
@@ -149,6 +148,7 @@ struct OpenTexture {
   Window window;
   std::vector<size_t> channels;  // of the file; none: the alpha of an opaque image
   bool is_integer = false;
+  ColorConversion conversion;
 
   size_t kept() const { return std::max<size_t>(channels.size(), 1); }
 };
@@ -166,6 +166,9 @@ OpenTexture OpenTextureImage(const std::filesystem::path& path, const TextureRea
       not_srgb != metadata.end()) {
     throw Error(ExitCode::kBadInput, path.string(), "has " + not_srgb->second,
                 R"(convert it to sRGB, or say "encoding": "srgb" to take it as that)");
+  }
+  if (reading.encoding == TextureEncoding::kSrgb && texture.kept() == 3) {
+    texture.conversion = ConversionToRec709(texture.image.header.metadata);
   }
   texture.image.CheckSize(window, texture.kept());
   budget->Spend(path.string(), int64_t{window.x1} - window.x0, int64_t{window.y1} - window.y0,
@@ -203,6 +206,10 @@ SceneImage DecodeTextureImage(const OpenTexture& open, const TextureReading& rea
   } else if (!AllHold(values, threads, [](float v) { return std::isfinite(v); })) {
     throw Error(ExitCode::kBadInput, open.image.path, "holds NaN or infinities",
                 "a texture needs finite values");
+  }
+  if (open.conversion.matrix) {
+    ConvertColors(*open.conversion.matrix, {&values[0], &values[1], &values[2]}, kept,
+                  window.pixel_count(), /*clip=*/true, threads);
   }
   if (reading.glossiness > 0) {
     const auto factor = static_cast<float>(reading.glossiness);
@@ -265,6 +272,9 @@ SceneImage ReadTextureImage(const std::filesystem::path& path, const std::string
                             const TextureReading& reading, TexelBudget* budget,
                             TexturesAhead* ahead) {
   const OpenTexture open = OpenTextureImage(path, reading, budget);
+  if (!open.conversion.note.empty() && reading.on_warning) {
+    reading.on_warning(file + ": " + open.conversion.note);
+  }
   std::optional<SceneImage> decoded;
   if (ahead != nullptr) decoded = ahead->Take(path, reading);
   SceneImage texture = decoded ? *std::move(decoded) : DecodeTextureImage(open, reading);

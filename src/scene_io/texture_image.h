@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -29,6 +30,7 @@ struct TextureReading {
   double glossiness = 0;
   std::string part;  // of an EXR file that has several
   int threads = 0;   // to decode on; 0: as many as the machine has
+  std::function<void(const std::string&)> on_warning{};
 
   // The same for readings of one file that give one texture.
   std::string Key(const std::filesystem::path& path) const;
@@ -86,8 +88,9 @@ class TexturesAhead {
 //
 // The texture is the display window; what a file has beyond it is left out. Throws Error
 // (kBadInput) for files that are missing, broken or crops, that the budget does not allow, that
-// have several parts and none is named, whose primaries are not Rec. 709's, or that hold NaN or
-// infinities. `file` is what SceneImage calls it.
+// have several parts and none is named, or that hold NaN or infinities. Floats that are read as
+// colours (kSrgb) are converted to Rec. 709 from the file's primaries, with a warning; what is
+// outside of its gamut is cut off at 0. `file` is what SceneImage and warnings call it.
 //
 // Memory: 16/3 bytes a value, which is what the texture keeps, and what the reader takes.
 // `ahead`, which may be null, has some that are decoded.

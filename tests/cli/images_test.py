@@ -496,6 +496,29 @@ class ImagesTest(unittest.TestCase):
         verdict = json.loads(run('compare', crop, full, '--json').stdout)
         self.assertFalse(verdict['match'])
 
+    def test_display_windows_of_different_sizes(self):
+        full = self.write('full.exr', exr(Part({c: ramp(8, 6) for c in 'RGB'}, (0, 0, 7, 5))))
+        part = self.write('part.exr', exr(Part({c: [row[:4] for row in ramp(8, 6)[:3]] for c in 'RGB'}, (0, 0, 3, 2))))
+        for a, b in (full, part), (part, full):
+            self.check(1, 'the display window is', 'compare', a, b)
+            self.check(0, 'none of 12 pixels', 'compare', a, b, '--crop')
+        apart = self.write('apart.exr', exr(Part({c: 1.0 for c in 'RGB'}, (20, 20, 23, 22))))
+        self.check(2, 'no pixel in common', 'compare', full, apart, '--crop')
+
+    def test_the_worst_pixel_is_the_one_of_the_table(self):
+        """An error of .5 where the reference is dark, and one of 2 where it is bright."""
+        rows = [[100.0] * 8 for _ in range(6)]
+        rows[1][2] = .001
+        reference = self.write('r.exr', exr(Part({c: rows for c in 'RGB'}, (0, 0, 7, 5))))
+        rows = [list(row) for row in rows]
+        rows[1][2] += .5
+        rows[4][5] += 2
+        image = self.write('i.exr', exr(Part({c: rows for c in 'RGB'}, (0, 0, 7, 5))))
+        text = self.check(1, 'worst', 'compare', image, reference).stdout
+        at = re.search(r'beauty.* (\d+),(\d+) (\w)\n', text).groups()
+        self.assertEqual(at[:2], ('5', '4'))
+        self.assertIn('worst {2} at ({0}, {1}): 102 instead of 100'.format(*at), text)
+
     def test_crops_are_no_textures_and_overscan_is_cut_off(self):
         rows = ramp(8, 4)
         whole = self.write('whole.exr', exr(Part({c: rows for c in 'RGB'}, (0, 0, 7, 3))))
@@ -578,8 +601,7 @@ class ImagesTest(unittest.TestCase):
             with self.subTest(lines):
                 exposed = self.write('e.hdr', hdr(image, '-Y 2 +X 4', lines))
                 self.same(exposed, half)
-        for line, message in (('EXPOSURE=0', 'above 0'), ('EXPOSURE=x', 'is not 1 number'),
-                              ('PRIMARIES=.7 .3 .2 .7 .1 .05 .3 .3', 'primaries are not'),
+        for line, message in (('EXPOSURE=-1', 'above 0'), ('EXPOSURE=x', 'is not 1 number'),
                               ('GAMMA=2.2', 'GAMMA is not 1')):
             path = self.write('bad.hdr', hdr(image, '-Y 2 +X 4', [line]))
             self.check(65, message, 'tonemap', path, '-o', self.out / 'x.png')
@@ -587,8 +609,15 @@ class ImagesTest(unittest.TestCase):
             'PRIMARIES=0.640 0.330 0.290 0.600 0.150 0.060 0.333 0.333', 'GAMMA=1.0', 'PIXASPECT=2']))
         self.same(known, plain)
         self.check(0, 'shown as squares', 'tonemap', known, '-o', self.out / 'x.png')
-        xyze = self.write('x.hdr', hdr(image, '-Y 2 +X 4').replace(b'rle_rgbe', b'rle_xyze'))
-        self.check(2, 'XYZ', 'compare', xyze, xyze)
+        unknown = self.write('u.hdr', hdr(image, '-Y 2 +X 4', ['PRIMARIES=0 0 0 0 0 0 0 0', 'EXPOSURE=0']))
+        self.same(unknown, plain)
+        told = 'u.hdr: its primaries (0 0 0 0 0 0 0 0) are none, and its colours are taken as Rec. 709'
+        self.check(0, told, 'tonemap', unknown, '-o', self.out / 'x.png')
+        self.check(0, told, 'report', self.out / 'x.html', unknown)
+        self.check(0, told, 'render', self.environment(unknown), '-o', self.out / 'x.exr', '--size', '8x8')
+        self.check(0, told, 'render', self.textured(unknown), '-o', self.out / 'x.exr', '--size', '8x8')
+        for scene in self.environment, self.textured:
+            self.same(self.render(scene(unknown), 'a.exr'), self.render(scene(plain), 'b.exr'))
 
     def test_tags_of_orientation(self):
         image = [[10, 20, 30], [40, 50, 60]]
@@ -615,10 +644,9 @@ class ImagesTest(unittest.TestCase):
         chroma = attribute('chromaticities', 'chromaticities',
                            struct.pack('<8f', .713, .293, .165, .83, .128, .044, .32168, .33767))
         aces = self.write('aces.exr', exr(grey(8, 4, extra=chroma)))
-        self.check(65, "not Rec. 709's", 'tonemap', aces, '-o', self.out / 'x.png')
-        for scene in (self.textured, self.environment):
-            self.check(65, "not Rec. 709's", 'render', scene(aces), '-o', self.out / 'x.exr')
         self.same(aces, aces)
+        self.check(2, 'primaries', 'compare', aces, plain)
+        self.check(2, 'primaries', 'compare', plain, aces)
         rec709 = attribute('chromaticities', 'chromaticities',
                            struct.pack('<8f', .64, .33, .3, .6, .15, .06, .3127, .329))
         known = self.write('known.exr', exr(grey(8, 4, extra=rec709)))
@@ -629,6 +657,56 @@ class ImagesTest(unittest.TestCase):
         self.check(65, 'cube map', 'render', self.environment(cube), '-o', self.out / 'x.exr')
         down = self.write('down.exr', exr(grey(8, 4, order=1)))
         self.same(down, plain)
+
+    # Rec. 2020, whose colours in Rec. 709 are those times the matrix of ITU-R BT.2407-0, section 2.
+    REC2020 = (.708, .292, .17, .797, .131, .046, .3127, .329)
+    FROM_REC2020 = ((1.6605, -.5876, -.0728), (-.1246, 1.1329, -.0083), (-.0182, -.1006, 1.1187))
+
+    def flat(self, name, color, primaries=None):
+        extra = b'' if primaries is None else attribute('chromaticities', 'chromaticities',
+                                                        struct.pack('<8f', *primaries))
+        return self.write(name, exr(Part({c: [[x] * 8] * 4 for c, x in zip('RGB', color)}, (0, 0, 7, 3), extra=extra)))
+
+    def test_other_primaries_are_converted_where_colours_are_shown(self):
+        wide = (.3, .5, .2)
+        narrow = [sum(m * x for m, x in zip(row, wide)) for row in self.FROM_REC2020]
+        a, b = self.flat('a.exr', wide, self.REC2020), self.flat('b.exr', narrow)
+        line = 'PRIMARIES=' + ' '.join(map(str, self.REC2020))
+        c = self.write('c.hdr', hdr([[(77, 128, 51)] * 8] * 4, '-Y 4 +X 8', [line]))
+        of_c = [x / 128 for x in (77, 128, 51)]  # of hdr()'s exponent
+        d = self.flat('d.exr', [sum(m * x for m, x in zip(row, of_c)) for row in self.FROM_REC2020])
+        for other, known in (a, b), (c, d):
+            for scene in self.textured, self.environment:
+                with self.subTest(other=other.name, scene=scene.__name__):
+                    first = self.render(scene(other), 'x.exr')
+                    # The matrix has four digits.
+                    self.check(0, 'match', 'compare', first, self.render(scene(known), 'y.exr'), '--max-rel', '1e-3')
+            for path, png in (other, 'x.png'), (known, 'y.png'):
+                result = self.check(0, '', 'tonemap', path, '-o', self.out / png, '--tonemap', 'none')
+                self.assertEqual('converted to Rec. 709' in result.stderr, path == other)
+            x, y = self.png_rows(self.out / 'x.png')[0][0], self.png_rows(self.out / 'y.png')[0][0]
+            self.assertLessEqual(max(abs(p - q) for p, q in zip(x, y)), 1)
+        self.check(0, 'chromaticities', 'info', c)
+        self.check(2, 'primaries', 'compare', a, b)
+        self.check(0, 'converted to Rec. 709', 'report', self.out / 'r.html', a)
+        # Data have no primaries.
+        scene = self.textured(a, encoding='linear')
+        self.same(self.render(scene, 'x.exr'), self.render(self.textured(self.flat('e.exr', wide), encoding='linear'), 'y.exr'))
+
+    def test_colours_outside_of_rec709_are_cut_off_at_0(self):
+        green = self.flat('green.exr', (0, 1, 0), self.REC2020)
+        cut = self.flat('cut.exr', (0, self.FROM_REC2020[1][1], 0))
+        for scene in self.textured, self.environment:
+            first = self.render(scene(green), 'x.exr')
+            self.check(0, 'match', 'compare', first, self.render(scene(cut), 'y.exr'), '--max-rel', '1e-3')
+        self.check(0, 'samples below 0', 'render', self.environment(green), '-o', self.out / 'x.exr', '--size', '8x8')
+
+    def test_radiance_up_to_the_float_nearest_1e30(self):
+        bright = self.flat('bright.exr', (1e30, 1e30, 1e30))  # as a float it is above 1e30
+        above = self.flat('above.exr', (1.0001e30, 1, 1))
+        picture = self.render(self.environment(bright), 'x.exr')
+        self.assertNotRegex(run('info', picture).stdout, 'nan|inf')
+        self.check(65, 'radiance is from 0 to 1e+30', 'render', self.environment(above), '-o', self.out / 'y.exr')
 
     def test_colours_of_png_files(self):
         rows = [[10 * x + y for x in range(12)] for y in range(4)]

@@ -60,8 +60,15 @@ TEST_CASE("Images that cannot be compared say why", "[compare]") {
   CompareOptions options;
   options.got_name = "a.exr";
   options.reference_name = "b.exr";
-  CHECK(PairingError(MakeImage({0, 0, 5, 3}, {"R"}, 0), rgb, options) ==
-        "error: a.exr: is 5x3, but b.exr is 4x3");
+  Image wide = rgb;
+  wide.metadata["chromaticities"] = "0.708 0.292 0.17 0.797 0.131 0.046 0.3127 0.329";
+  CHECK(PairingError(wide, rgb, options) ==
+        "error: a.exr: its primaries are 0.708 0.292 0.17 0.797 0.131 0.046 0.3127 0.329, those of "
+        "b.exr 0.64 0.33 0.3 0.6 0.15 0.06 0.3127 0.329\n  hint: convert one of them first");
+  CHECK(PairingError(wide, wide, options) == "no error");
+  Image unknown = rgb;
+  unknown.metadata["chromaticities"] = "0 0 0 0 0 0 0 0";
+  CHECK(PairingError(unknown, rgb, options) == "no error");
   CHECK(PairingError(rgb, rgba, options) ==
         "error: a.exr: has no channel A, which b.exr has\n  hint: name the layers to compare");
   CHECK(PairingError(rgba, rgb, options) ==

@@ -117,6 +117,33 @@ TEST_CASE("Windows that differ are a difference, unless crops are allowed", "[co
   Image moved = whole;
   moved.display = {1, 0, 101, 100};
   CHECK(Judge(moved, whole, {}).reason.starts_with("the display window is 100x100 at 1,0, not"));
+  const Image part = MakeImage({0, 0, 50, 40}, {"R", "G", "B"}, 2);
+  CHECK(Judge(part, whole, {}).reason ==
+        "the display window is 50x40 at 0,0, not 100x100 at 0,0; the pixels that both have match");
+  CHECK(Judge(part, whole, {}, options).match);
+  SampleAt(crop, "G", 12, 30) = 3;
+  CHECK(
+      Judge(crop, whole, {}).reason ==
+      "the data window is 30x40 at 10,20, not 100x100 at 0,0; 1 of 1200 pixels (0.0833 %) differ, "
+      "0 % may; worst G at (12, 30): 3 instead of 2");
+}
+
+// A small error in the dark is not worse than a large one: there is one worst sample of a layer.
+TEST_CASE("The worst sample is that of the layer's largest error", "[compare]") {
+  Image reference = MakeImage({0, 0, 100, 100}, {"R", "G", "B"}, 0);
+  Image got = reference;
+  SampleAt(got, "R", 3, 4) = 0.5f;
+  for (const char* channel : {"R", "G", "B"}) {
+    SampleAt(reference, channel, 70, 80) = 100;
+    SampleAt(got, channel, 70, 80) = 102;
+    SampleAt(reference, channel, 9, 90) = 7;
+    SampleAt(got, channel, 9, 90) = 5;  // as large, and later
+  }
+  const Verdict verdict = Judge(got, reference, {});
+  REQUIRE(verdict.layers.size() == 1);
+  const DifferenceSite& at = verdict.layers[0].max_abs_at;
+  CHECK((at.x == 70 && at.y == 80));
+  CHECK(verdict.reason.ends_with("worst " + at.channel + " at (70, 80): 102 instead of 100"));
 }
 
 }  // namespace

@@ -117,13 +117,6 @@ TEST_CASE("parts whose channels would have the same name are to be chosen") {
   CHECK(ReadImage(folder / "a.exr", "a.b").channels.size() == 1);
 }
 
-TEST_CASE("primaries are the same within the digits that files give them") {
-  const std::string rec709 = "0.64 0.33 0.3 0.6 0.15 0.06 0.3127 0.329";
-  CHECK(SamePrimaries(rec709, "0.640 0.330 0.300 0.600 0.150 0.060 0.31271 0.32902"));
-  CHECK_FALSE(SamePrimaries(rec709, "0.68 0.32 0.265 0.69 0.15 0.06 0.3127 0.329"));
-  CHECK_FALSE(SamePrimaries(rec709, "0.64 0.33 0.3 0.6 0.15 0.06 0.3127"));
-}
-
 // Any region, into any places: what textures ask for.
 TEST_CASE("a region goes where it is wanted") {
   const TestFolder folder;

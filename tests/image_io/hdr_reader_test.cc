@@ -161,6 +161,56 @@ TEST_CASE("an exposure is divided out") {
   }
 }
 
+// As FreeImage writes an exposure that it does not know.
+TEST_CASE("numbers that are 0 say nothing") {
+  const Pixels pixels = MakePixels(16);
+  for (const char* line : {"EXPOSURE=0", "COLORCORR=0 0 0", "GAMMA=0", "PIXASPECT=0.0"}) {
+    CAPTURE(line);
+    std::string header = Header(8, 2);
+    header.insert(header.find("FORMAT"), std::string(line) + "\n");
+    CHECK(RgbOf(header + Flat(pixels)) == Expected(pixels));
+  }
+}
+
+TEST_CASE("lines of real files: CRLF, signs, blanks and comments with an = in them") {
+  const Pixels pixels = MakePixels(16);
+  std::string header =
+      "#?RGBE\r\n#?RADIANCE\r\n# GAMMA=2.2\r\n\tEXPOSURE=7\r\nrpict -vtv -x=3\r\n"
+      "EXPOSURE= +2.0e0 \r\nFORMAT= 32-bit_rle_rgbe \r\n\r\n-Y 2 +X 8\r\n";
+  const std::vector<float> got = RgbOf(header + Flat(pixels)), plain = Expected(pixels);
+  for (size_t i = 0; i < plain.size(); ++i) CHECK(got[i] == plain[i] / 2);
+}
+
+// Radiance's own primaries stay as they are; what names none, or others, is left to whoever shows
+// the colours.
+TEST_CASE("PRIMARIES are told as EXR's chromaticities") {
+  const auto told = [](const std::string& line) {
+    std::string header = Header(8, 1);
+    header.insert(header.find("FORMAT"), line + "\n");
+    const HdrFile file(header + Flat(MakePixels(8)));
+    const auto metadata = OpenHdr(file.path).header.metadata;
+    const auto found = metadata.find("chromaticities");
+    return found == metadata.end() ? std::string("none") : found->second;
+  };
+  CHECK(told("PRIMARIES=0.640 0.330 0.290 0.600 0.150 0.060 0.333 0.333") == "none");
+  CHECK(told("PRIMARIES=0 0 0 0 0 0 0 0") == "0 0 0 0 0 0 0 0");
+  CHECK(told("PRIMARIES= .708 .292 .170 .797 .131 .046 .3127 .3290") ==
+        ".708 .292 .170 .797 .131 .046 .3127 .3290");
+}
+
+// Y of XYZE is in lumens: 179 of them, of equal X, Y and Z, are a white of 1 (pcomb, ra_xyze -r).
+TEST_CASE("XYZ pixels become Radiance's RGB") {
+  std::string header = Header(8, 1);
+  header.replace(header.find("rgbe"), 4, "xyze");
+  const std::vector<float> white = RgbOf(header + Flat(Pixels(8, {179, 179, 179, 136})));
+  for (const float value : white) CHECK(std::abs(value - 1) < 1e-6);  // a few roundings
+  // Red of 1: its xy and luminance, .265074 of white's, from the primaries by RP 177.
+  const std::vector<float> red = RgbOf(header + Flat(Pixels(8, {92, 47, 4, 136})));
+  CHECK(std::abs(red[0] - 1) < 0.02);  // codes of two digits
+  CHECK(std::abs(red[1]) < 0.02);
+  CHECK(std::abs(red[2]) < 0.02);
+}
+
 TEST_CASE("other and broken Radiance files are refused") {
   const std::string whole = Header(20, 3) + Coded(MakePixels(60), 20);
   const auto refusal = [](const std::string& bytes) {
@@ -185,7 +235,7 @@ TEST_CASE("other and broken Radiance files are refused") {
     CAPTURE(words);
     CHECK(refusal(bytes).find(words) != std::string::npos);
   };
-  says(with("rgbe", "xyze"), "its pixels are XYZ");
+  says(with("rgbe", "float"), "its FORMAT is neither");
   says(with("-Y 3", "-Y 0"), "its resolution");
   says(with("-Y 3", "-Y 70000"), "its resolution");
   says(with("-Y 3 +X", "-Y 3 +Y"), "its resolution");
@@ -205,8 +255,8 @@ TEST_CASE("PIXASPECT is height over width, multiplies, and FORMAT may be missing
   CHECK(aspect("FORMAT=32-bit_rle_rgbe\nPIXASPECT=2\n") == "0.5");
   CHECK(aspect("PIXASPECT= 1.0\n") == "1");
   CHECK(aspect("PIXASPECT=2\nPIXASPECT=.25\n") == "2");
-  const HdrFile zero("#?RADIANCE\nPIXASPECT=0\n" + pixels);
-  CHECK_THROWS_AS(OpenHdr(zero.path), Error);
+  const HdrFile negative("#?RADIANCE\nPIXASPECT=-1\n" + pixels);
+  CHECK_THROWS_AS(OpenHdr(negative.path), Error);
 }
 
 }  // namespace
