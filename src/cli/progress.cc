@@ -41,12 +41,6 @@ extern "C" void NoteStopSignal(int signal) {
   g_cancel = true;
 }
 
-std::string FormatSeconds(double seconds) {
-  if (seconds < 60) return fmt::format("{:.1f} s", seconds);
-  const int whole = static_cast<int>(std::min(seconds, 1e8));
-  return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
-}
-
 std::string FormatRate(double rate, const std::string& unit) {
   if (rate >= 1e9) return fmt::format("{:.2f} G {}/s", rate * 1e-9, unit);
   if (rate >= 1e6) return fmt::format("{:.1f} M {}/s", rate * 1e-6, unit);
@@ -55,6 +49,12 @@ std::string FormatRate(double rate, const std::string& unit) {
 }
 
 }  // namespace
+
+std::string FormatSeconds(double seconds) {
+  if (seconds < 60) return fmt::format("{:.1f} s", seconds);
+  const int whole = static_cast<int>(std::min(seconds, 1e8));
+  return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+}
 
 ProgressForm DefaultProgressForm() {
   // A terminal that cannot move its cursor back would show every state of the bar on a line.

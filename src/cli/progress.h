@@ -16,6 +16,9 @@ enum class ProgressForm { kNone, kBar, kJson };
 // What fits where standard error goes: a bar on a terminal, nothing in a pipe.
 ProgressForm DefaultProgressForm();
 
+// "5.2 s", "1:02:03".
+std::string FormatSeconds(double seconds);
+
 // Progress of one job on standard error. Calls from one thread at a time.
 class Progress {
  public:

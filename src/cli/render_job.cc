@@ -51,6 +51,24 @@ void WarnAboutSamples(const OutputCounts& counts, const RenderStats& stats) {
   }
 }
 
+// Of a picture to a wanted error that takes long, or of which much will not settle.
+void TellForecast(const RenderOptions& options, const FramePlan& plan, const Forecast& forecast) {
+  if (options.progress == "json") {
+    return PrintError(
+        "{{\"forecast\": {{\"samples_per_pixel\": {:.1f}, \"seconds\": {:.1f}, "
+        "\"unsettled_share\": {:.4f}}}}}\n",
+        forecast.samples_per_pixel, forecast.seconds, forecast.unsettled_share);
+  }
+  if (forecast.seconds < 10 && forecast.unsettled_share < 0.05) return;
+  PrintError("note: about {:.0f} samples a pixel, {}", forecast.samples_per_pixel,
+             FormatSeconds(forecast.seconds));
+  if (forecast.unsettled_share < 0.01) return PrintError("\n");
+  PrintError(
+      "; about {:.0f} % of the pixels will not settle within {} samples: a smaller --spp ends them "
+      "sooner, a larger --max-error settles more\n",
+      100 * forecast.unsettled_share, plan.adaptive.max_samples);
+}
+
 void Summarize(const RenderOptions& options, const FramePlan& plan, const RenderStats& stats,
                const JobTimes& times) {
   std::string files;
@@ -140,6 +158,8 @@ void RenderJob::Render(const Scene& scene, PreparedScene* prepared,
                         MaxBands(plan.frame, settings_.band_rows)));
     return;
   }
+  times_.forecast = ForecastRender(plan, settings_);
+  if (times_.forecast && !options.quiet) TellForecast(options, plan, *times_.forecast);
   Outputs outputs(options, plan, prepared, captions);
   RenderStats stats;
   {

@@ -30,6 +30,12 @@ std::string StatsJson(const FramePlan& plan, const RenderStats& stats, const Job
   for (const PlanItem& item : plan.why.substitutions) {
     substitutions.push_back({{"what", item.what}, {"reason", item.reason}});
   }
+  Json forecast;
+  if (times.forecast) {
+    forecast = {{"samples_per_pixel", times.forecast->samples_per_pixel},
+                {"seconds", times.forecast->seconds},
+                {"unsettled_share", times.forecast->unsettled_share}};
+  }
   const Json json = {
       {"nacre", {{"version", std::string(kVersion)}, {"commit", std::string(kCommit)}}},
       {"target", TargetName(ActiveTarget())},
@@ -44,7 +50,8 @@ std::string StatsJson(const FramePlan& plan, const RenderStats& stats, const Job
           {"mean", stats.pixel_samples.Mean()},
           {"max", stats.pixel_samples.most}}},
         {"max_error", plan.adaptive.max_error},
-        {"unsettled_pixels", stats.unsettled_pixels}}},
+        {"unsettled_pixels", stats.unsettled_pixels},
+        {"forecast", forecast}}},
       {"scene",
        {{"spheres", scene.spheres.size()},
         {"triangles", triangles},

@@ -2,9 +2,11 @@
 // cli/stats_json.h: times and counts of a render for programs (--stats, --dry-run).
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "cli/outputs.h"
+#include "render/forecast.h"
 #include "render/frame_plan.h"
 #include "render/stats.h"
 
@@ -15,6 +17,7 @@ struct JobTimes {
   double load_seconds = 0;    // reading and checking the scene
   double finish_seconds = 0;  // completing the files after the last strip
   double total_seconds = 0;
+  std::optional<Forecast> forecast;  // of the render
 };
 
 std::string StatsJson(const FramePlan& plan, const RenderStats& stats, const JobTimes& times,

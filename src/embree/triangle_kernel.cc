@@ -114,7 +114,7 @@ HWY_INLINE void IntersectTriangle(const TraceGeometry& geometry, uint32_t triang
   const Corners corners = CornersOf(geometry, triangle);
   const uint32_t primitive = geometry.SphereCount() + triangle;
   const bool single_sided = IsSingleSided(geometry, triangle);
-  const CutOut* const holes = HolesOf(geometry, triangle);
+  const CutOut* const holes = packet.holes_are_solid ? nullptr : HolesOf(geometry, triangle);
   const hn::ScalableTag<double> d;
   const int step = static_cast<int>(hn::Lanes(d));
   for (int lane = 0; lane < packet.width; lane += step) {

@@ -110,6 +110,7 @@ struct RayBatch {
   // need no offset. If false, as for camera rays, `start` is not read.
   bool from_surfaces = false;
   AlignedArray<uint32_t> start{kBatchCapacity};
+  bool holes_are_solid = false;  // whether rays hit what an opacity has cut out, too
 };
 
 // For each ray of a RayBatch, the closest hit.

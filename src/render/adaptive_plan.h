@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "render/small_triangles.h"
@@ -36,6 +37,8 @@ struct Glint {
   double beside_x, beside_y;
 };
 
+struct TexelMaps;  // texel_maps.h
+
 struct AdaptivePlan {
   double max_error = 0;  // relative, see ErrorBound; 0: all pixels take the same samples
   double white = 0;      // WhiteLevel
@@ -65,7 +68,8 @@ struct AdaptivePlan {
   std::vector<double> lobe_widths;
   std::vector<HighlightLight> lights;  // all but skies
   SmallTriangles small_triangles;
-  std::vector<Glint> mesh_glints;  // by ascending y
+  std::vector<Glint> mesh_glints;               // by ascending y
+  std::shared_ptr<const TexelMaps> texel_maps;  // null: there are none
 };
 
 // The levels, and what the image's settings and the materials alone decide. `max_samples`:

@@ -49,14 +49,14 @@ struct CellState {
   // Rare features of a pixel, which few of its samples hit (rare_features.h): how many samples are
   // needed to hit them, and an upper bound of what they add to the pixel's radiance.
   double rare_samples[kCellPixels], rare_radiance[kCellPixels];
-  // Rare triangles of one material in one pixel (rare_triangles.h), whose radiance is known. Sorted
-  // by pixel.
-  struct RareTriangles {
+  // What few samples of a pixel hit and whose radiance is known: triangles of one material
+  // (rare_triangles.h), or texels that look alike (rare_texels.h). Sorted by pixel.
+  struct RarePart {
     uint32_t pixel;
-    double share;  // of the pixel's samples that hit them
-    Rgb radiance;  // what they add to the pixel, that is, their radiance times the share
+    double share;  // of the pixel's samples that hit it
+    Rgb radiance;  // what it adds to the pixel, that is, its radiance times the share
   };
-  std::vector<RareTriangles> rare_triangles;
+  std::vector<RarePart> rare_parts;
   // How many samples a pixel needs to find the rare features that matter to it, given what it looks
   // like so far (evidence.h); 0 if none does.
   double required_samples[kCellPixels];
@@ -87,6 +87,14 @@ inline FilmPixel PixelOf(const Window& cell, uint32_t pixel) {
   const Window block = BlockWindow(cell, pixel / kBlockPixels);
   const auto in_block = static_cast<int>(pixel % kBlockPixels);
   return {pixel, block.x0 + in_block % kBlockSide, block.y0 + in_block / kBlockSide};
+}
+
+// The number of the pixel in this column and row of a cell.
+inline uint32_t PixelAt(int column, int row) {
+  constexpr int kAcross = kCellSize / kBlockSide;
+  const int block = row / kBlockSide * kAcross + column / kBlockSide;
+  const int in_block = row % kBlockSide * kBlockSide + column % kBlockSide;
+  return static_cast<uint32_t>(block * static_cast<int>(kBlockPixels) + in_block);
 }
 
 // Gives the same number to samples that belong to no pixel's pattern.

@@ -43,13 +43,6 @@ CellPosition PositionInCell(uint32_t pixel) {
           static_cast<int>(block / kAcross * kBlockSide + in_block / kBlockSide)};
 }
 
-uint32_t PixelAt(const CellPosition& place) {
-  constexpr int kAcross = kCellSize / kBlockSide;
-  const int block = place.row / kBlockSide * kAcross + place.column / kBlockSide;
-  const int in_block = place.row % kBlockSide * kBlockSide + place.column % kBlockSide;
-  return static_cast<uint32_t>(block * static_cast<int>(kBlockPixels) + in_block);
-}
-
 double MeanOf(const CellState& c, uint32_t pixel, size_t channel) {
   double sum = 0;
   for (const auto& replicate : c.replicate) sum += replicate[channel][pixel];
@@ -81,7 +74,7 @@ PixelRange RangeOfMeans(const CellState& c, uint32_t pixel, size_t channel) {
   for (int row = std::max(at.row - 1, 0); row <= std::min(at.row + 1, kCellSize - 1); ++row) {
     for (int column = std::max(at.column - 1, 0); column <= std::min(at.column + 1, kCellSize - 1);
          ++column) {
-      const uint32_t other = PixelAt({column, row});
+      const uint32_t other = PixelAt(column, row);
       if (c.samples[other] == 0) continue;
       const double mean = MeanOf(c, other, channel);
       range.low = std::min(range.low, mean);
@@ -129,9 +122,9 @@ bool IsInner(uint32_t pixel) {
 // Whether the pixel has a rare feature that is known beforehand and matters.
 bool HasKnownFeature(const CellState& c, uint32_t pixel) { return c.required_samples[pixel] > 0; }
 
-// The error of the pixel's mean if no sample has hit these triangles. Only as far as they are
-// darker or brighter than everything around them; otherwise they are part of an edge.
-double MissingContrast(const CellState& c, const CellState::RareTriangles& rare) {
+// The error of the pixel's mean if no sample has hit this part. Only as far as it is darker or
+// brighter than everything around it; otherwise it is part of an edge.
+double MissingContrast(const CellState& c, const CellState::RarePart& rare) {
   double contrast = 0;
   for (size_t channel = 0; channel < 3; ++channel) {
     const PixelRange around = RangeOfMeans(c, rare.pixel, channel);
@@ -142,9 +135,9 @@ double MissingContrast(const CellState& c, const CellState::RareTriangles& rare)
   return contrast;
 }
 
-// The triangles of one pixel matter together. Materials that contribute less than an equal part of
-// half the tolerance are left out: all of those together cannot matter.
-void RequireTriangleSamples(std::span<const CellState::RareTriangles> of_pixel, CellState* c) {
+// The parts of one pixel matter together. Those that contribute less than an equal share of half
+// the tolerance are left out: all of those together cannot matter.
+void RequireSamplesOfParts(std::span<const CellState::RarePart> of_pixel, CellState* c) {
   const uint32_t pixel = of_pixel[0].pixel;
   const double tolerance = ToleranceOf(*c, pixel);
   double all = 0;
@@ -163,11 +156,11 @@ void FindKnownFeatures(CellState* c) {
     const bool matters = 2 * c->rare_radiance[pixel] > ToleranceOf(*c, pixel);
     c->required_samples[pixel] = matters ? c->rare_samples[pixel] : 0;
   }
-  const auto& all = c->rare_triangles;
+  const auto& all = c->rare_parts;
   for (size_t first = 0, end = 0; first < all.size(); first = end) {
     const uint32_t pixel = all[first].pixel;
     while (end < all.size() && all[end].pixel == pixel) ++end;
-    if (c->samples[pixel] > 0) RequireTriangleSamples({all.data() + first, end - first}, c);
+    if (c->samples[pixel] > 0) RequireSamplesOfParts({all.data() + first, end - first}, c);
   }
 }
 

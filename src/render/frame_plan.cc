@@ -18,6 +18,7 @@
 #include "render/plan_notes.h"
 #include "render/shadow_origins.h"
 #include "render/shadow_plan.h"
+#include "render/texel_maps.h"
 
 namespace nacre {
 namespace {
@@ -64,6 +65,7 @@ AdaptivePlan PlanAdaptiveSampling(const FramePlan& plan, const RenderSettings& s
   // not known.
   adaptive.footprints = adaptive.footprints && plan.hits.binned && scene.meshes.empty() &&
                         !plan.surfaces.splits && !plan.surfaces.textured;
+  adaptive.texel_maps = FindTexelMaps(scene, plan.direct, settings.max_error);
   adaptive.lights = FindHighlightLights(scene, plan.direct);
   adaptive.mesh_glints = FindMeshGlints(scene, plan.surfaces, adaptive, plan.camera, plan.window,
                                         kCellSize + adaptive.filter_radius + kMaxRareWidth,

@@ -11,6 +11,7 @@
 #include "render/filter_shares.h"
 #include "render/glints.h"
 #include "render/interval.h"
+#include "render/rare_texels.h"
 #include "render/rare_triangles.h"
 
 namespace nacre {
@@ -159,7 +160,11 @@ void FindRareFeatures(const FramePlan& plan, const Window& cell, TileWork* work,
       c->rare_radiance[pixel] += radiance;
     }
   }
+  c->rare_parts.clear();
   FindRareTriangles(plan, cell, work, c, clock, stats);
+  FindRareTexels(plan, cell, work, c, clock, stats);
+  std::stable_sort(c->rare_parts.begin(), c->rare_parts.end(),
+                   [](const auto& a, const auto& b) { return a.pixel < b.pixel; });
 }
 
 }  // namespace nacre

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // render/rare_features.h: rare features: what only few samples of a pixel hit, known before the
-// pixel's first sample. These are spheres and triangles (rare_triangles.h) smaller than a pixel,
-// and highlights smaller than a pixel (glints.h, mesh_glints.h).
+// pixel's first sample. These are spheres, triangles (rare_triangles.h), texels (rare_texels.h) and
+// highlights (glints.h, mesh_glints.h) that are smaller than a pixel.
 #pragma once
 
 #include "render/cell_state.h"
 
 namespace nacre {
 
-// Sets cell_scratch->rare_samples, rare_radiance and rare_triangles. Reads the cell's spheres,
+// Sets cell_scratch->rare_samples, rare_radiance and rare_parts. Reads the cell's spheres,
 // work->shapes.spheres. Traces rays to measure the radiance of highlights and triangles.
 void FindRareFeatures(const FramePlan& plan, const Window& cell, TileWork* work,
                       CellState* cell_scratch, StageClock* clock, RenderStats* stats);

@@ -13,7 +13,7 @@
 #include "render/evidence.h"
 #include "render/filter_shares.h"
 #include "render/interval.h"
-#include "sampling/hash.h"
+#include "render/probes.h"
 
 namespace nacre {
 namespace {
@@ -21,9 +21,6 @@ namespace {
 // How many candidates of one appearance are probed in one pixel: no more than the samples that a
 // pixel takes before it may stop.
 constexpr size_t kMaxProbes = 16;
-
-// Samples of a probe if lights are sampled: one sample would be too noisy.
-constexpr size_t kSamplesPerProbe = 8;
 
 // Triangles of one appearance are not rare in a pixel if they cover this share of it, because the
 // first 16 samples then have kExpectedHits hits on average; nor if they cover this area, in pixels,
@@ -176,60 +173,24 @@ void ThinOut(const Window& cell, std::vector<Candidate>* candidates) {
   });
 }
 
-void NumberProbes(std::span<const Candidate> candidates, size_t each, SampleNumbers* numbers) {
-  numbers->pixel_count = candidates.size();
-  for (size_t i = 0; i < candidates.size(); ++i) {
-    numbers->seeds[i] = HashCombine(candidates[i].piece.primitive, i);
-    for (size_t k = 0; k < each; ++k) {
-      numbers->number[each * i + k] = static_cast<uint32_t>(k);
-      numbers->pixel[each * i + k] = static_cast<uint32_t>(i);
-    }
-  }
-}
-
-// Traces `each` rays through the centroid of each candidate, and sets the radiance of visible ones.
-void ProbeBatch(const FramePlan& plan, std::span<Candidate> candidates, size_t each, TileWork* work,
-                StageClock* clock, RenderStats* stats) {
-  TileWork& s = *work;
-  for (size_t i = 0; i < candidates.size(); ++i) {
-    std::fill_n(s.samples.film.x.data() + each * i, each, candidates[i].piece.x);
-    std::fill_n(s.samples.film.y.data() + each * i, each, candidates[i].piece.y);
-  }
-  s.samples.film.count = each * candidates.size();
-  if (plan.sampling.numbered) NumberProbes(candidates, each, &EnsureNumbers(&s.samples));
-  ShadeSamples(plan, &s, clock, stats);
-  for (size_t hit = 0; hit < s.surfaces.hits.count; ++hit) {
-    Candidate& candidate = candidates[s.surfaces.hits.ray[hit] / each];
-    if (s.surfaces.hits.primitive[hit] == candidate.piece.primitive) candidate.radiance = Rgb(0);
-  }
-  const Layer& beauty = plan.film.layers[0];
-  Soa3<double>& values = GatherLayer(plan.film, beauty, 0, BackgroundOf(beauty, plan.film),
-                                     BatchOf(plan, s), &s.layer_room);
-  for (size_t i = 0; i < candidates.size(); ++i) {
-    if (!candidates[i].radiance) continue;
-    for (int channel = 0; channel < 3; ++channel) {
-      const double* const value = ChannelOf(values, channel).data() + each * i;
-      double sum = 0;
-      for (size_t k = 0; k < each; ++k) sum += value[k];
-      (*candidates[i].radiance)[channel] = sum / static_cast<double>(each);
-    }
-  }
-}
-
+// Sets the radiance of the candidates that a ray through their centroid hits.
 void ProbeAll(const FramePlan& plan, std::vector<Candidate>* candidates, TileWork* work,
               StageClock* clock, RenderStats* stats) {
-  const size_t each = plan.sampling.numbered ? kSamplesPerProbe : 1;
-  const size_t per_batch = kBatchCapacity / each;
-  for (size_t first = 0; first < candidates->size(); first += per_batch) {
-    const size_t count = std::min(per_batch, candidates->size() - first);
-    ProbeBatch(plan, {candidates->data() + first, count}, each, work, clock, stats);
+  std::vector<Probe> probes;
+  for (const Candidate& candidate : *candidates) {
+    probes.push_back({candidate.piece.x, candidate.piece.y, candidate.piece.primitive});
+  }
+  TraceProbes(plan, &probes, work, clock, stats);
+  for (size_t i = 0; i < probes.size(); ++i) {
+    Candidate& candidate = (*candidates)[i];
+    if (probes[i].hit == candidate.piece.primitive) candidate.radiance = probes[i].radiance;
   }
 }
 
 // Adds, by pixel, the share and the radiance of the visible candidates, all of one material.
 void AddRareTriangles(const PixelFilter& filter, const Window& cell,
                       std::span<const Candidate> candidates,
-                      std::vector<CellState::RareTriangles>* rare) {
+                      std::vector<CellState::RarePart>* rare) {
   struct Sums {
     double share = 0;
     Rgb radiance{0, 0, 0};
@@ -253,7 +214,6 @@ void AddRareTriangles(const PixelFilter& filter, const Window& cell,
 
 void FindRareTriangles(const FramePlan& plan, const Window& cell, TileWork* work, CellState* c,
                        StageClock* clock, RenderStats* stats) {
-  c->rare_triangles.clear();
   std::vector<Candidate> candidates = FindCandidates(plan, cell);
   if (candidates.empty()) return;
   ThinOut(cell, &candidates);
@@ -262,10 +222,8 @@ void FindRareTriangles(const FramePlan& plan, const Window& cell, TileWork* work
     const uint32_t material = candidates[first].piece.material;
     while (end < candidates.size() && candidates[end].piece.material == material) ++end;
     AddRareTriangles(plan.scene->image.filter, cell, {candidates.data() + first, end - first},
-                     &c->rare_triangles);
+                     &c->rare_parts);
   }
-  std::stable_sort(c->rare_triangles.begin(), c->rare_triangles.end(),
-                   [](const auto& a, const auto& b) { return a.pixel < b.pixel; });
   clock->Charge(Stage::kSample);
 }
 

@@ -2,6 +2,8 @@
 #include "render/sampled_lights.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "render/mapped_horizon.h"
 #include "render/sampled_kernel.h"
@@ -43,6 +45,52 @@ struct SamplingStrategies {
   bool cosine;
 };
 
+// A point of a flat light, relative to the camera, and its unit normal.
+struct LightPlane {
+  Vec3d place, normal;
+};
+
+std::optional<LightPlane> PlaneOf(const SampledLight& light) {
+  if (light.form == SampledForm::kRectangle || light.form == SampledForm::kDisk) {
+    return LightPlane{light.place, light.normal};
+  }
+  if (light.form != SampledForm::kMesh || !light.mesh->is_flat) return std::nullopt;
+  const TriangleLight<double>& triangle = light.mesh->triangles[0];
+  return LightPlane{light.place + triangle.corner,
+                    triangle.edge_x.cross(triangle.edge_y).normalized()};
+}
+
+// Whether the triangle lies in the light's plane, to what is rounded of both: 2^-44 of their
+// coordinates, as in scene/light_shapes.cc.
+bool LiesInPlane(const DirectPlan& plan, const LightPlane& light, uint32_t primitive) {
+  if (IsSphere(plan.primitives, primitive)) return false;
+  const TriangleRef triangle = TriangleOf(plan.primitives, primitive);
+  const Vec3d& camera = plan.primitives.scene->camera.position;
+  for (size_t k = 0; k < 3; ++k) {
+    const Vec3d& corner = triangle.mesh->positions[triangle.Vertex(k)];
+    const double extent = SumOfAbs(corner) + SumOfAbs(light.place) + plan.camera_extent;
+    const double distance = std::abs((corner - camera - light.place).dot(light.normal));
+    if (!(distance <= 0x1p-44 * extent)) return false;
+  }
+  return true;
+}
+
+// Sets light() to 0 at hits on triangles in the plane of a flat light. They see nothing of it,
+// though by rounding some lie in front of it and, as the back of a wall that it is let into, face
+// it.
+void HideLightInPlane(const LitBatch& lit) {
+  const std::optional<LightPlane> light = PlaneOf(lit.planned.light);
+  if (!light) return;
+  const HitBatch& hits = lit.hits();
+  bool in_plane = false;
+  for (size_t i = 0; i < lit.count(); ++i) {
+    if (i == 0 || hits.primitive[i] != hits.primitive[i - 1]) {
+      in_plane = LiesInPlane(lit.batch.plan, *light, hits.primitive[i]);
+    }
+    if (in_plane) lit.light().irradiance[i] = 0;
+  }
+}
+
 // Sets light() to a light of irradiance 1 from the sampled directions. Directions of lobes and
 // mirrors are above the horizon except for rounding errors, which must not hide a lobe that is
 // narrower than these: they are not tested again.
@@ -50,6 +98,7 @@ void Illuminate(const LitBatch& lit, bool may_be_below_horizon) {
   lit.batch.stats.directions_not_finite +=
       IlluminateAlong(lit.room.directions, lit.surface(), lit.count(), &lit.light());
   if (may_be_below_horizon) HideLightsBelowHorizon(lit.batch);
+  HideLightInPlane(lit);
 }
 
 // Sets light() to 0 at hits in shadow.
@@ -173,6 +222,7 @@ void AddClosedForm(const LitBatch& lit) {
     batch.irradiance[i] = lit.room.closed_form[i] != 0 ? 1.0f : 0.0f;
     lit.room.weight[i] = IsColored(light) ? 1 : irradiance.x[i];
   }
+  HideLightInPlane(lit);
   ShadeUnitLight(lit);
   AddWeightedRadiance(lit, lit.room.unit.diffuse, &lit.single().diffuse);
   lit.batch.clock.Charge(Stage::kLight);

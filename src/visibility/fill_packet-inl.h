@@ -131,6 +131,7 @@ HWY_INLINE void FillClosest(const RayBatch& rays, size_t first, ClosestHits* hit
   packet->best_primitive = hits->primitive.data() + first;
   packet->t_max = packet->best_t;
   FillPacket(rays, first, packet);
+  packet->holes_are_solid = rays.holes_are_solid;
   packet->from_surfaces = rays.from_surfaces;
   if (rays.from_surfaces) FillStarts(rays.start, first, packet);
 }

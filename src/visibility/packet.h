@@ -54,6 +54,8 @@ struct Packet {
   double* best_t = nullptr;
   uint32_t* best_primitive = nullptr;
 
+  bool holes_are_solid = false;  // RayBatch's
+
   // Where rays start: of shadow rays, and of a RayBatch if its rays leave surfaces.
   bool from_surfaces = false;
   alignas(64) uint32_t start[kMaxPacketWidth];  // primitive that the ray starts on

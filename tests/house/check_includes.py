@@ -60,12 +60,12 @@ RENDER_ORDER = """
     film_kernel filter_shares small_triangles adaptive_plan interval interval_kernel sampled_kernel shadow_rays_kernel mesh_windows
     outline_coverage sphere_projections
     prepared_scene hits_plan tile_shapes samples hits surfaces
-    direct_plan highlights mesh_glints shadow_plan brightest_object direct_batch
+    direct_plan texel_maps highlights mesh_glints shadow_plan brightest_object direct_batch
     shadow_origins mapped_horizon sampled_shadows sampled_lights mesh_radiance direct mesh_shading
     film hit_positions film_layers
     frame_plan tile_work tile
-    cell_state cell_film footprint evidence convergence glints rare_triangles rare_features adaptive
-    render
+    cell_state cell_film footprint evidence convergence glints probes rare_triangles rare_texels rare_features adaptive
+    render forecast
 """.split()
 
 # SIMD code: these files are compiled once for every target.

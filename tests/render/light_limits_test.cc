@@ -176,6 +176,37 @@ TEST_CASE("a lamp flush with its ceiling lights as if there were no ceiling") {
   });
 }
 
+// By rounding half of the hits on the ceiling lie below the lamp, which they then face at any
+// distance from 0.
+TEST_CASE("the back of a ceiling sees nothing of a lamp that is flush with it") {
+  ForEachTarget([](Target) {
+    for (const Room& at : {StraightRoom(), TurnedRoom()}) {
+      for (const size_t form : {0, 1, 2}) {
+        for (const bool visible : {true, false}) {
+          decltype(Light::kind) kind = CeilingLights(at)[form];
+          std::visit(
+              [&](auto& light) {
+                if constexpr (requires { light.visible; }) light.visible = visible;
+              },
+              kind);
+          Scene scene = FloorUnder(at, kind);
+          scene.meshes.push_back(Square(at(-7, 1, -6), at(5, 1, -6), at(5, 1, 9), at(-7, 1, 9)));
+          scene.camera.position = at(0.3, 3, 0.2);
+          scene.camera.look_at = at(0.1, 1, 0.2);
+          scene.camera.up = at.z;
+          for (const bool shiny : {false, true}) {
+            if (shiny) {
+              scene.materials[0].model = MetallicRoughnessMaterial{.roughness = 0.4};
+            }
+            CAPTURE(form, visible, shiny);
+            CHECK(LargestRed(scene) == 0);
+          }
+        }
+      }
+    }
+  });
+}
+
 TEST_CASE("lamps in one plane do not hide one another") {
   const auto with = [](const Room& at, size_t first, size_t second, bool visible) {
     const std::vector<decltype(Light::kind)> kinds = CeilingLights(at);

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/forecast.h"
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+
+#include "base/parallel.h"
+#include "base/seconds_since.h"
+#include "render/adaptive.h"
+#include "sampling/hash.h"
+
+namespace nacre {
+
+std::optional<Forecast> ForecastRender(const FramePlan& plan, const RenderSettings& settings) {
+  constexpr size_t kLeastCells = 16, kMostCells = 64, kOneIn = 64;
+  if (!(plan.adaptive.max_error > 0)) return std::nullopt;
+  const Window& window = plan.window;
+  const int x0 = DownToCell(window.x0), y0 = DownToCell(window.y0);
+  const auto columns = static_cast<size_t>((window.x1 - x0 + kCellSize - 1) / kCellSize);
+  const size_t cells = columns * static_cast<size_t>((window.y1 - y0 + kCellSize - 1) / kCellSize);
+  const size_t one_in = std::max(kOneIn, cells / kMostCells), count = cells / one_in;
+  if (count < kLeastCells) return std::nullopt;
+  std::mutex mutex;
+  RenderStats total;
+  double seconds = 0;  // of all threads
+  ParallelFor(count, settings.threads, [&](size_t i) {
+    const auto start = std::chrono::steady_clock::now();
+    // One of each `one_in` cells, at random, so that what repeats in the picture is met as it is.
+    const size_t number = i * one_in + HashCombine(i, one_in) % one_in;
+    const int x = x0 + static_cast<int>(number % columns) * kCellSize;
+    const int y = y0 + static_cast<int>(number / columns) * kCellSize;
+    const Window cell{x, y, x + kCellSize, y + kCellSize}, part = Intersect(cell, window);
+    TileWork work;
+    work.cancel = settings.cancel;
+    const auto cell_state = std::make_unique<CellState>();
+    Strip strip;
+    RenderStats stats;
+    StageClock clock(nullptr);
+    StartStrip(plan.film, part, &strip);
+    RenderCell(plan, cell, part, &work, cell_state.get(), &strip, &clock, &stats);
+    const std::lock_guard lock(mutex);
+    total.Add(stats);
+    seconds += SecondsSince(start);
+  });
+  const double threads =
+      std::min<double>(ThreadCount(settings.threads), static_cast<double>(count));
+  return Forecast{
+      total.pixel_samples.Mean(),
+      static_cast<double>(total.unsettled_pixels) / static_cast<double>(total.pixel_samples.pixels),
+      seconds / static_cast<double>(count) * static_cast<double>(cells) / threads};
+}
+
+}  // namespace nacre

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// render/rare_texels.h: finds the texels in a cell's pixels that are rare features: bright ones of
+// an emission map, holes of a cut-out, stars of a sky.
+//
+// One ray through the middle of a pixel tells which part of each map lies in it. The texels there
+// that differ most from the others (texture/texel_search.h) are probed by a ray each, which tells
+// what they look like under the scene's lights, whatever the map is of. Not found are texels of
+// surfaces that the middle of a pixel does not show, those that mirrors show, and normals.
+#pragma once
+
+#include "render/cell_state.h"
+
+namespace nacre {
+
+// Adds to cell_scratch->rare_parts.
+void FindRareTexels(const FramePlan& plan, const Window& cell, TileWork* work,
+                    CellState* cell_scratch, StageClock* clock, RenderStats* stats);
+
+}  // namespace nacre

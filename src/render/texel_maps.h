@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// render/texel_maps.h: the images in which adaptive sampling looks for rare texels (rare_texels.h):
+// the maps of each material, and the sky behind the shapes.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "render/direct_plan.h"
+#include "render/surfaces.h"
+#include "texture/texel_search.h"
+
+namespace nacre {
+
+struct TexelMap {
+  TextureId texture;
+  std::vector<TexelMeasure> measures;
+};
+
+struct TexelMaps {
+  // By material of the scene: the maps of how it looks, its coat's included, and of its opacity.
+  std::vector<std::vector<TexelMap>> looks, opacities;
+  bool any_looks = false, any_opacity = false;
+  std::vector<std::unique_ptr<const TexelExtremes>> extremes;  // by texture
+  // Of a sky that is a picture and is seen.
+  TexelGrid sky;
+  std::unique_ptr<const TexelExtremes> sky_extremes;
+  std::vector<TexelMeasure> sky_measures;
+};
+
+// Null if there are none.
+std::shared_ptr<const TexelMaps> FindTexelMaps(const Scene& scene, const DirectPlan& direct,
+                                               double max_error);
+
+// The image of a texture as it is looked up.
+TexelGrid GridOf(const Scene& scene, TextureId texture, size_t mip_level);
+
+}  // namespace nacre
