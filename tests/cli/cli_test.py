@@ -492,11 +492,13 @@ class CliTest(unittest.TestCase):
                              exposures)
         self.check_fails(64, '--ppd', 'compare', image, image, '--ppd', '0')
 
-    def test_pictures_of_different_sizes_have_no_metrics(self):
+    def test_pictures_of_different_sizes_do_not_match(self):
         a, b = self.out / 'a.exr', self.out / 'b.exr'
         self.render('-o', a, *SMALL)
         self.render('-o', b, '--size', '32x18', '--spp', '1')
-        self.check_fails(2, 'is 64x36', 'compare', a, b, '--metrics', 'all')
+        result = run('compare', a, b, '--metrics', 'all')
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn('the display window is 64x36', result.stdout)
         self.check_fails(2, 'is 64x36', 'report', self.out / 'r.html', a, b)
 
     def report(self, *arguments):
@@ -669,7 +671,7 @@ class CliTest(unittest.TestCase):
 
     def test_cannot_compare(self):
         self.render('-o', self.out / 'a.exr', *SMALL)
-        self.render('-o', self.out / 'b.exr', '--size', '32x36', '--spp', '1')
+        (self.out / 'b.exr').write_text('no picture')
         self.check_fails(2, 'b.exr', 'compare', self.out / 'a.exr', self.out / 'b.exr')
         self.check_fails(2, 'missing.exr', 'compare', self.out / 'a.exr', self.out / 'missing.exr')
         self.check_fails(2, 'empty', 'validate', self.out / 'empty')
