@@ -104,6 +104,7 @@ int RunCompare(const CompareArguments& arguments) {
   const Image image = ReadImage(image_file);
   const Image reference = ReadImage(reference_file);
   CompareOptions options = arguments.options;
+  options.sizes_may_differ = true;
   options.got_name = arguments.image;
   options.reference_name = arguments.reference;
   for (std::string& layer : options.layers) layer = LayerOfName(layer);

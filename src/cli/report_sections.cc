@@ -85,13 +85,6 @@ Json CompareWith(const ReportPicture& got, const ReportPicture& reference,
     throw Error(ExitCode::kCannotCompare, got.name,
                 "has no layer that " + reference.name + " has too");
   }
-  const Window& a = got.image.display;
-  const Window& b = reference.image.display;
-  if (a.width() != b.width() || a.height() != b.height()) {
-    throw Error(ExitCode::kCannotCompare, got.name,
-                fmt::format("is {}x{}, but {} is {}x{}: a page shows pictures of one size",
-                            a.width(), a.height(), reference.name, b.width(), b.height()));
-  }
   const Verdict verdict = Judge(got.image, reference.image, {}, options);
   return Compare(got.image, reference.image, options, verdict, perceptual, packing, index, page);
 }

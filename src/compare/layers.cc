@@ -72,6 +72,13 @@ std::string LayerOfChannel(const std::string& channel) {
 }
 
 ImagePair PairImages(const Image& got, const Image& reference, const CompareOptions& options) {
+  const Window& a = got.display;
+  const Window& b = reference.display;
+  if (!options.sizes_may_differ && (a.width() != b.width() || a.height() != b.height())) {
+    throw Error(ExitCode::kCannotCompare, options.got_name,
+                fmt::format("is {}x{}, but {} is {}x{}", a.width(), a.height(),
+                            options.reference_name, b.width(), b.height()));
+  }
   RequireSamePrimaries(got, reference, options);
   RequireLayers(reference, options);
   RequireChannels(got, options.got_name, reference, options.reference_name, options);

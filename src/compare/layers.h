@@ -15,6 +15,9 @@ struct CompareOptions {
   std::vector<std::string> layers;
   // Judge the pixels that both images have, where their windows differ.
   bool crop = false;
+  // Display windows of different sizes are a difference like another, not an error. Pages and
+  // pictures of differences show one image over the other, and have no use for it.
+  bool sizes_may_differ = false;
   // What error messages call the images.
   std::string got_name = "image";
   std::string reference_name = "reference";
@@ -50,8 +53,8 @@ struct ImagePair {
   }
 };
 
-// Points into both images. Throws Error(kCannotCompare) if their primaries differ, they
-// share no pixel, or one has no channel of a layer to compare that the other has.
+// Points into both images. Throws Error(kCannotCompare) if their primaries differ, or their display
+// windows in size where they may not, they share no pixel, or one has no channel of a layer to compare that the other has.
 ImagePair PairImages(const Image& got, const Image& reference, const CompareOptions& options);
 
 // The difference of two samples: 0 if they are equal, both NaN, or the same infinity; infinite if

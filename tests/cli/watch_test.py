@@ -256,7 +256,7 @@ class WatchTest(unittest.TestCase):
         mtl.write_text('newmtl a\nKd 0 0 1\n')
         watch.picture()
         self.check_picture(file=obj)
-        obj.write_text('mtllib m.mtl\nusemtl a\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2\n')
+        obj.write_text('mtllib m.mtl\nusemtl a\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 x\n')
         self.assertIn('error: ', watch.next())
         obj.write_text('mtllib m.mtl\nusemtl a\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n')
         watch.picture()

@@ -60,6 +60,8 @@ TEST_CASE("Images that cannot be compared say why", "[compare]") {
   CompareOptions options;
   options.got_name = "a.exr";
   options.reference_name = "b.exr";
+  CHECK(PairingError(MakeImage({0, 0, 5, 3}, {"R"}, 0), rgb, options) ==
+        "error: a.exr: is 5x3, but b.exr is 4x3");
   Image wide = rgb;
   wide.metadata["chromaticities"] = "0.708 0.292 0.17 0.797 0.131 0.046 0.3127 0.329";
   CHECK(PairingError(wide, rgb, options) ==

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "base/error.h"
 #include "catch.h"
 #include "compare/test_images.h"
 
@@ -99,7 +100,10 @@ TEST_CASE("Of images of different sizes the pixels that both have are compared",
   const Image a = MakeImage({0, 0, 4, 4}, {"R", "G", "B"}, 1);
   Image b = MakeImage({0, 0, 4, 5}, {"R", "G", "B"}, 1);
   for (const char* channel : {"R", "G", "B"}) SampleAt(b, channel, 2, 4) = 9;
-  CHECK(Only(a, b, {}).flip_max == 0);
+  CHECK_THROWS_AS(MeasurePerceptual(a, b, {}), Error);
+  CompareOptions options;
+  options.sizes_may_differ = true;
+  CHECK(MeasurePerceptual(a, b, {}, options).front().flip_max == 0);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "base/error.h"
 #include "catch.h"
 #include "compare/test_images.h"
 
@@ -118,7 +119,10 @@ TEST_CASE("Windows that differ are a difference, unless crops are allowed", "[co
   moved.display = {1, 0, 101, 100};
   CHECK(Judge(moved, whole, {}).reason.starts_with("the display window is 100x100 at 1,0, not"));
   const Image part = MakeImage({0, 0, 50, 40}, {"R", "G", "B"}, 2);
-  CHECK(Judge(part, whole, {}).reason ==
+  CHECK_THROWS_AS(Judge(part, whole, {}), Error);
+  CompareOptions any_size;
+  any_size.sizes_may_differ = options.sizes_may_differ = true;
+  CHECK(Judge(part, whole, {}, any_size).reason ==
         "the display window is 50x40 at 0,0, not 100x100 at 0,0; the pixels that both have match");
   CHECK(Judge(part, whole, {}, options).match);
   SampleAt(crop, "G", 12, 30) = 3;

@@ -30,7 +30,8 @@ class BrokenModelMaker {
     for (size_t i = 0; i < count; ++i) AddMesh(AddMaterial());
     if (random_.OneIn(2)) {
       const uint32_t material = AddMaterial();
-      scene_.materials[material].opacity = 1;  // holes are for meshes
+      scene_.materials[material].single_sided = false;  // one side and holes are for meshes
+      scene_.materials[material].opacity = 1;
       scene_.materials[material].opacity_cutoff = 0.5;
       scene_.materials[material].opacity_map = {};
       scene_.spheres.push_back(
