@@ -54,7 +54,8 @@ struct ImagePair {
 };
 
 // Points into both images. Throws Error(kCannotCompare) if their primaries differ, or their display
-// windows in size where they may not, they share no pixel, or one has no channel of a layer to compare that the other has.
+// windows in size where they may not, they share no pixel, or one has no channel of a layer to
+// compare that the other has.
 ImagePair PairImages(const Image& got, const Image& reference, const CompareOptions& options);
 
 // The difference of two samples: 0 if they are equal, both NaN, or the same infinity; infinite if
