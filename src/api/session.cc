@@ -76,10 +76,10 @@ Image Session::RenderProgressively(const RenderSettings& settings,
       return whole;
     }
     FrameFilm film;
-    nacre::Image so_far = EmptyImage(plan, own.cancel);
+    nacre::Image so_far;
+    FitImage(plan, own, &so_far);
     for (int end = 1;; end = std::min(2 * end, image.spp)) {
-      const nacre::RenderStats pass = RenderPass(
-          plan, own, end, &film, [&](const nacre::Strip& strip) { CopyStrip(strip, &so_far); });
+      const nacre::RenderStats pass = RenderPass(plan, own, end, &film, &so_far);
       counted.Add(pass);
       counted.threads = pass.threads;
       counted.render_seconds += pass.render_seconds;

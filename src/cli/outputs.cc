@@ -26,8 +26,8 @@ StripView ViewOf(const Strip& strip) {
   StripView view;
   view.y = strip.window.y0;
   view.rows = strip.window.height();
-  for (const AlignedArray<float>& plane : strip.colors) view.channels.emplace_back(plane.data());
-  for (const AlignedArray<uint32_t>& plane : strip.ids) view.channels.emplace_back(plane.data());
+  for (const auto& plane : strip.colors) view.channels.emplace_back(plane.data());
+  for (const auto& plane : strip.ids) view.channels.emplace_back(plane.data());
   return view;
 }
 

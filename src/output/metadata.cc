@@ -51,10 +51,14 @@ std::string SoftwareName() { return fmt::format("nacre {}", kVersion); }
 
 std::string ShadowingForms(const Scene& scene) {
   std::set<std::string_view> forms;
+  std::set<Shadowing> known;
   for (const Material& material : scene.materials) {
-    const MaterialModel* const model = ModelOf(material);
-    if (model == nullptr) continue;
-    for (const MaterialChoice& choice : model->choices) {
+    const auto is_new = [&](const auto& model) {
+      if constexpr (requires { model.shadowing; }) return known.insert(model.shadowing).second;
+      return false;
+    };
+    if (!std::visit(is_new, material.model)) continue;
+    for (const MaterialChoice& choice : ModelOf(material)->choices) {
       if (choice.name == "shadowing") forms.insert(choice.options[choice.get(material)]);
     }
   }
@@ -72,6 +76,20 @@ uint64_t HashPlanned(const FramePlan& plan, PreparedScene* prepared) {
     prepared->hashes.shapes = HashShapes(*plan.scene);
     prepared->shapes_hash.Set(key, {});
   }
+  const SceneVersions& versions = prepared->versions;
+  const ViewKey of_lights{
+      plan.with_lights ? prepared->shapes_made : 0,
+      versions.Of(plan.with_lights ? SceneParts(ScenePart::kLights) : SceneParts()),
+      {}};
+  auto& hashes = prepared->hashes.materials;
+  const auto changed = versions.MaterialsSince(prepared->materials_hashed);
+  if (!changed || !prepared->material_hashes.IsUpToDate(of_lights)) {
+    hashes.clear();
+  } else {
+    for (const uint32_t i : *changed) hashes[i].reset();
+  }
+  prepared->material_hashes.Set(of_lights, {});
+  prepared->materials_hashed = versions.materials();
   return HashScene(*plan.scene, &prepared->hashes);
 }
 

@@ -60,7 +60,7 @@ bool HasHardCone(const Scene& scene) {
 
 // Whether a material reflects light by a function of the caller's: it may have edges of its own, as
 // a toon shader has, and nothing says how narrow its highlights are.
-bool HasUserModel(const std::vector<ShadingMaterial>& materials) {
+bool HasUserModel(std::span<const ShadingMaterial> materials) {
   return std::any_of(materials.begin(), materials.end(), [](const ShadingMaterial& material) {
     return std::holds_alternative<UserModel>(material.model);
   });
@@ -68,7 +68,7 @@ bool HasUserModel(const std::vector<ShadingMaterial>& materials) {
 
 }  // namespace
 
-AdaptivePlan PlanAdaptiveLevels(const Scene& scene, const std::vector<ShadingMaterial>& materials,
+AdaptivePlan PlanAdaptiveLevels(const Scene& scene, std::span<const ShadingMaterial> materials,
                                 double max_error, int max_samples) {
   AdaptivePlan plan;
   plan.max_error = max_error;

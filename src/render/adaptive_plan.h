@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "render/small_triangles.h"
@@ -74,7 +75,7 @@ struct AdaptivePlan {
 
 // The levels, and what the image's settings and the materials alone decide. `max_samples`:
 // AdaptivePlan::max_samples. `materials`: those of the scene, in its order.
-AdaptivePlan PlanAdaptiveLevels(const Scene& scene, const std::vector<ShadingMaterial>& materials,
+AdaptivePlan PlanAdaptiveLevels(const Scene& scene, std::span<const ShadingMaterial> materials,
                                 double max_error, int max_samples);
 
 }  // namespace nacre

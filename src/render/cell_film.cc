@@ -10,14 +10,14 @@ namespace {
 // Copies the cell's pixels that lie in `part` from block order to rows of the strip.
 template <typename T>
 void CopyCell(const Window& cell, const Window& part, const Strip& strip, const T* values,
-              AlignedArray<T>* to) {
+              std::span<T> to) {
   const auto stride = static_cast<size_t>(strip.window.width());
   for (size_t b = 0; b < kCellBlocks; ++b, values += kBlockPixels) {
     const Window block = BlockWindow(cell, b);
     const Window shown = Intersect(block, part);
     if (shown.empty()) continue;
     const T* from = values + (shown.y0 - block.y0) * kBlockSide + (shown.x0 - block.x0);
-    T* row = to->data() + static_cast<size_t>(shown.y0 - strip.window.y0) * stride +
+    T* row = to.data() + static_cast<size_t>(shown.y0 - strip.window.y0) * stride +
              static_cast<size_t>(shown.x0 - strip.window.x0);
     for (int y = shown.y0; y < shown.y1; ++y, from += kBlockSide, row += stride) {
       std::copy_n(from, shown.width(), row);
@@ -94,11 +94,11 @@ void ResolveCell(const FramePlan& plan, const Window& cell, const Window& part,
       for (size_t i = 0; i < kCellPixels; ++i) {
         values[i] = static_cast<float>(sums[i] * of_sum[i] + background * of_background[i]);
       }
-      CopyCell(cell, part, *strip, values, &strip->colors[color++]);
+      CopyCell(cell, part, *strip, values, strip->colors[color++]);
     } else if (kind == ChannelKind::kNearest) {
-      CopyCell(cell, part, *strip, film.nearest[nearest++].data(), &strip->colors[color++]);
+      CopyCell(cell, part, *strip, film.nearest[nearest++].data(), strip->colors[color++]);
     } else {
-      CopyCell(cell, part, *strip, film.ids[id].data(), &strip->ids[id]);
+      CopyCell(cell, part, *strip, film.ids[id].data(), strip->ids[id]);
       ++id;
     }
   }

@@ -10,7 +10,6 @@
 
 #include "render/camera.h"
 #include "render/surfaces.h"
-#include "scene/coat.h"
 
 namespace nacre {
 namespace {
@@ -73,7 +72,7 @@ bool MayBeInView(const Scene& scene, const LightBall& ball) {
 }
 
 void PlanSampledLights(const Scene& scene, const RenderSettings& settings,
-                       const std::vector<Layer>& layers, const SceneWithLights* shown,
+                       const std::vector<Layer>& layers, const SceneWithLights* shown, bool coats,
                        KeptTables* tables, DirectPlan* plan, Explanation* why) {
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
@@ -97,9 +96,6 @@ void PlanSampledLights(const Scene& scene, const RenderSettings& settings,
   DropUnused(&tables->mesh_lights);
   if (plan->sampled_lights.empty()) return;
   // A coat is a surface of its own, whose samples are independent of those of the surface below.
-  const bool coats =
-      std::any_of(scene.materials.begin(), scene.materials.end(),
-                  [](const Material& material) { return CoatOf(material).has_value(); });
   plan->coat_pairs = kPairsPerLight * plan->sampled_lights.size();
   plan->pairs = MakePairSampler(LongestSequence(scene, settings),
                                 (coats ? 2 : 1) * plan->coat_pairs, scene.image.seed);
@@ -136,6 +132,15 @@ bool LieOnFewSpheres(const Scene& scene, const DirectPlan& plan) {
   return scene.meshes.empty() && scene.spheres.size() <= kMaxOffsetSpheres && plan.eye_outside;
 }
 
+// Those of the scene come before those of lights. `changed`: which differ; nothing: any may.
+void UpdateMaterials(const Scene& scene, const std::optional<std::span<const uint32_t>>& changed,
+                     Scene* with) {
+  if (!changed) std::copy(scene.materials.begin(), scene.materials.end(), with->materials.begin());
+  for (const uint32_t i : changed.value_or(std::span<const uint32_t>())) {
+    with->materials[i] = scene.materials[i];
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<const SceneWithLights> AddVisibleLights(const Scene& scene,
@@ -165,9 +170,15 @@ std::shared_ptr<const SceneWithLights> AddVisibleLights(const Scene& scene,
   }
   if (prepared->with_lights.IsUpToDate(key)) {
     const std::shared_ptr<SceneWithLights>& with = prepared->with_lights.value;
-    if (with) UpdateAllButShapes(scene, with.get());
+    if (with) {
+      UpdateAllButShapes(scene, with.get());
+      UpdateMaterials(scene, prepared->versions.MaterialsSince(prepared->materials_with_lights),
+                      &with->scene);
+    }
+    prepared->materials_with_lights = prepared->versions.materials();
     return with;
   }
+  prepared->materials_with_lights = prepared->versions.materials();
   return prepared->with_lights.Get(key, [&]() -> std::shared_ptr<SceneWithLights> {
     ++prepared->shapes_made;
     if (!any) return nullptr;
@@ -176,7 +187,7 @@ std::shared_ptr<const SceneWithLights> AddVisibleLights(const Scene& scene,
 }
 
 DirectPlan PlanLights(const Scene& scene, const RenderSettings& settings,
-                      const std::vector<Layer>& layers, const SceneWithLights* shown,
+                      const std::vector<Layer>& layers, const SceneWithLights* shown, bool coats,
                       PreparedScene* prepared, Explanation* why) {
   DirectPlan plan;
   plan.background = scene.background;
@@ -186,7 +197,7 @@ DirectPlan PlanLights(const Scene& scene, const RenderSettings& settings,
         return layer.kind == LayerKind::kLight;
       }));
   PlanPunctualLights(scene, layers, &plan, why);
-  PlanSampledLights(scene, settings, layers, shown, &prepared->tables, &plan, why);
+  PlanSampledLights(scene, settings, layers, shown, coats, &prepared->tables, &plan, why);
   PlanComponents(scene, layers, &plan, why);
   plan.diffuse_light_layers = plan.components && settings.diffuse_light_layers;
   return plan;

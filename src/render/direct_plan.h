@@ -97,8 +97,9 @@ std::shared_ptr<const SceneWithLights> AddVisibleLights(const Scene& scene,
 // Plans everything except shadow rays (PlanShadows, shadow_plan.h, which sets `primitives`,
 // `camera`, `intersector` and `eye_outside`, too), their origins (PlanShadowOrigins), far lights,
 // and what Gouraud meshes reflect (ShadeMeshes). `shown`: from AddVisibleLights; may be null.
+// `coats`: whether some material has one.
 DirectPlan PlanLights(const Scene& scene, const RenderSettings& settings,
-                      const std::vector<Layer>& layers, const SceneWithLights* shown,
+                      const std::vector<Layer>& layers, const SceneWithLights* shown, bool coats,
                       PreparedScene* prepared, Explanation* why);
 
 // Then decides which lights are located relative to a hit from the hit's normal alone, on spheres

@@ -16,10 +16,15 @@ void CopyTile(const AlignedArray<T>& from, const PixelRows<T>& rows) {
   }
 }
 
+// Points the channels to buffers of so many pixels at least.
 template <typename T>
-void EnsureCapacity(size_t pixels, std::vector<AlignedArray<T>>* channels) {
-  for (AlignedArray<T>& channel : *channels) {
-    if (channel.size() < pixels) channel = AlignedArray<T>(pixels);
+void UseBuffers(size_t pixels, std::vector<AlignedArray<T>>* buffers,
+                std::vector<std::span<T>>* channels) {
+  buffers->resize(channels->size());
+  for (size_t i = 0; i < channels->size(); ++i) {
+    AlignedArray<T>& buffer = (*buffers)[i];
+    if (buffer.size() < pixels) buffer = AlignedArray<T>(pixels);
+    (*channels)[i] = {buffer.data(), pixels};
   }
 }
 
@@ -77,14 +82,19 @@ void PlanSums(const Scene& scene, const RenderSettings& settings, const PixelSam
                         plan->one_sample ? "a pixel's only sample is its value" : reason});
 }
 
-void StartStrip(const FilmPlan& plan, const Window& window, Strip* strip) {
+void StartStrip(const FilmPlan& plan, const Window& window, Image* image, Strip* strip) {
   size_t ids = 0;
   for (const ChannelKind kind : plan.channels) ids += kind == ChannelKind::kId ? 1 : 0;
   strip->window = window;
   strip->colors.resize(plan.channels.size() - ids);
   strip->ids.resize(ids);
-  EnsureCapacity(window.pixel_count(), &strip->colors);
-  EnsureCapacity(window.pixel_count(), &strip->ids);
+  const size_t pixels = window.pixel_count();
+  UseBuffers(pixels, &strip->id_buffers, &strip->ids);
+  if (image == nullptr) return UseBuffers(pixels, &strip->color_buffers, &strip->colors);
+  for (size_t i = 0; i < strip->colors.size(); ++i) {
+    const size_t first = IndexIn(image->data, window.x0, window.y0);
+    strip->colors[i] = std::span(image->channels[i].samples).subspan(first, pixels);
+  }
 }
 
 void StartTile(const FilmPlan& plan, const Window& tile, size_t capacity, TileFilm* film) {
@@ -133,11 +143,11 @@ void FillBackground(const FilmPlan& plan, const Window& tile, Strip* strip) {
     // As of sums that are 0, to which a background of -0 is added.
     const Rgb mean = (Rgb(0, 0, 0) + background * plan.weight) * (1.0 / plan.spp);
     for (int c = 0; c < FloatChannels(layer.kind); ++c) {
-      FillPixels(static_cast<float>(mean[c]), RowsIn(strip->window, tile, &strip->colors[color++]));
+      FillPixels(static_cast<float>(mean[c]), RowsIn(strip->window, tile, strip->colors[color++]));
     }
   }
-  for (AlignedArray<uint32_t>& channel : strip->ids) {
-    const PixelRows<uint32_t> rows = RowsIn(strip->window, tile, &channel);
+  for (const std::span<uint32_t> channel : strip->ids) {
+    const PixelRows<uint32_t> rows = RowsIn(strip->window, tile, channel);
     for (size_t y = 0; y < rows.height; ++y) {
       std::fill_n(rows.first + y * rows.stride, rows.width, 0u);
     }
@@ -153,7 +163,7 @@ void ResolveTile(const FilmPlan& plan, const TileFilm& film, Strip* strip) {
   for (const Layer& layer : plan.layers) {
     const Rgb background = BackgroundOf(layer, plan);
     for (int c = 0; c < FloatChannels(layer.kind); ++c) {
-      const PixelRows<float> rows = RowsIn(strip->window, film.window, &strip->colors[color++]);
+      const PixelRows<float> rows = RowsIn(strip->window, film.window, strip->colors[color++]);
       if (IsAveraged(layer.kind)) {
         RoundSums(film.sums[sum++].data(), coverage, {background[c], plan.weight, 1.0 / plan.spp},
                   film.runs, film.window, rows);
@@ -163,7 +173,7 @@ void ResolveTile(const FilmPlan& plan, const TileFilm& film, Strip* strip) {
     }
   }
   for (size_t id = 0; id < strip->ids.size(); ++id) {
-    CopyTile(film.ids[id], RowsIn(strip->window, film.window, &strip->ids[id]));
+    CopyTile(film.ids[id], RowsIn(strip->window, film.window, strip->ids[id]));
   }
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/aligned.h"
@@ -55,19 +56,21 @@ struct TileFilm {
 // The index in TileFilm::sums of the alpha layer, which follows the three channels of the beauty.
 inline constexpr size_t kAlphaSum = 3;
 
-// A finished strip, channels in the order of StripChannels. Id channels hold uint32_t.
+// A finished strip, channels in the order of StripChannels, row by row. Id channels hold uint32_t.
 struct Strip {
   Window window;
-  // Row by row; the arrays may be larger than the window.
-  std::vector<AlignedArray<float>> colors;  // all float channels, in order
-  std::vector<AlignedArray<uint32_t>> ids;  // all uint channels, in order
+  std::vector<std::span<float>> colors;  // all float channels, in order
+  std::vector<std::span<uint32_t>> ids;  // all uint channels, in order
+  // Where they are, but for colours that are in an image.
+  std::vector<AlignedArray<float>> color_buffers;
+  std::vector<AlignedArray<uint32_t>> id_buffers;
 };
 
 // The rows of a tile in a channel of the strip that holds it.
 template <typename T>
-PixelRows<T> RowsIn(const Window& strip, const Window& tile, AlignedArray<T>* channel) {
+PixelRows<T> RowsIn(const Window& strip, const Window& tile, std::span<T> channel) {
   const auto stride = static_cast<size_t>(strip.width());
-  return {channel->data() + static_cast<size_t>(tile.y0 - strip.y0) * stride +
+  return {channel.data() + static_cast<size_t>(tile.y0 - strip.y0) * stride +
               static_cast<size_t>(tile.x0 - strip.x0),
           static_cast<size_t>(tile.width()), static_cast<size_t>(tile.height()), stride};
 }
@@ -75,9 +78,10 @@ PixelRows<T> RowsIn(const Window& strip, const Window& tile, AlignedArray<T>* ch
 // The channels of a strip and of the files written from it: float channels first, then ids.
 std::vector<ChannelSpec> StripChannels(const std::vector<Layer>& layers, PixelType color_type);
 
-// Gives the strip the plan's channels, large enough for the window. If they were large enough,
-// their pixels stay: RenderTile's `blank` relies on it.
-void StartStrip(const FilmPlan& plan, const Window& window, Strip* strip);
+// Gives the strip the plan's channels. Its colours are those rows of `image`, if there is any,
+// which has the plan's channels. Else, if its buffers were large enough, their pixels stay:
+// RenderTile's `blank` relies on it.
+void StartStrip(const FilmPlan& plan, const Window& window, Image* image, Strip* strip);
 
 // Whether some layers hold the value of one sample, not an average.
 bool ShowsNearest(const FilmPlan& plan);

@@ -255,7 +255,7 @@ bool StoreOnlySamples(const FilmPlan& plan, const ShadedBatch& batch, const Wind
       const int channels = ChannelsWithCoverage(layer.kind);
       PixelRows<float> rows[4] = {};
       for (int c = 0; c < channels; ++c) {
-        rows[c] = RowsIn(strip->window, tile, &strip->colors[color++]);
+        rows[c] = RowsIn(strip->window, tile, strip->colors[color++]);
       }
       StoreHits(ValuesOf(shown, channels), room->spans, rows);
       if (layer.kind == LayerKind::kLight) ++light_layer;

@@ -37,7 +37,7 @@ std::optional<Forecast> ForecastRender(const FramePlan& plan, const RenderSettin
     Strip strip;
     RenderStats stats;
     StageClock clock(nullptr);
-    StartStrip(plan.film, part, &strip);
+    StartStrip(plan.film, part, nullptr, &strip);
     RenderCell(plan, cell, part, &work, cell_state.get(), &strip, &clock, &stats);
     const std::lock_guard lock(mutex);
     total.Add(stats);

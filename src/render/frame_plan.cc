@@ -98,6 +98,40 @@ AdaptivePlan PlanAdaptiveSampling(const FramePlan& plan, const RenderSettings& s
   return adaptive;
 }
 
+// Lights that are shown have materials of their own, made with the shapes.
+PartVersions VersionsOfLights(const FramePlan& plan, const PreparedScene& prepared) {
+  return prepared.versions.Of(plan.with_lights ? SceneParts(ScenePart::kLights) : SceneParts());
+}
+
+std::shared_ptr<const PreparedMaterials> MaterialsOf(const FramePlan& plan, const Rgb& ambient,
+                                                     PreparedScene* prepared) {
+  const Scene& scene = *plan.scene;
+  const MaterialsKey key{plan.with_lights ? prepared->shapes_made : 0,
+                         VersionsOfLights(plan, *prepared), ambient, scene.materials.data(),
+                         scene.materials.size()};
+  auto& kept = prepared->materials;
+  const auto changed = prepared->versions.MaterialsSince(prepared->materials_prepared);
+  if (!changed) kept.Forget();
+  if (kept.IsUpToDate(key)) {
+    if (!changed->empty()) PrepareMaterials(scene, ambient, *changed, kept.value.get());
+  } else {
+    kept.Get(key,
+             [&] { return std::make_shared<PreparedMaterials>(PrepareMaterials(scene, ambient)); });
+  }
+  prepared->materials_prepared = prepared->versions.materials();
+  return kept.value;
+}
+
+const std::vector<bool>& UsedMaterials(const FramePlan& plan, const PreparedMaterials& materials,
+                                       PreparedScene* prepared) {
+  const bool splits = Has(materials.any, MaterialTrait::kSplit);
+  const ViewKey key{
+      prepared->shapes_made,
+      prepared->versions.Of(splits ? SceneParts(ScenePart::kMaterials) : SceneParts()),
+      {static_cast<double>(plan.scene->materials.size())}};
+  return prepared->used_materials.Get(key, [&] { return FindUsedMaterials(*plan.scene); });
+}
+
 }  // namespace
 
 FramePlan MakePlan(const Scene& scene, const RenderSettings& settings) {
@@ -121,8 +155,11 @@ FramePlan MakePlan(const Scene& given, const RenderSettings& settings, PreparedS
   const auto stop_if_cancelled = [&] { ThrowIfCancelled(settings.cancel); };
   stop_if_cancelled();
   PlanLayers(scene, settings, &plan.film, why);
-  plan.direct =
-      PlanLights(scene, settings, plan.film.layers, plan.with_lights.get(), prepared, why);
+  const Rgb ambient = SumAmbient(scene);
+  const std::shared_ptr<const PreparedMaterials> materials = MaterialsOf(plan, ambient, prepared);
+  const std::vector<bool>& used = UsedMaterials(plan, *materials, prepared);
+  plan.direct = PlanLights(scene, settings, plan.film.layers, plan.with_lights.get(),
+                           Has(materials->any, MaterialTrait::kCoated), prepared, why);
   stop_if_cancelled();
   plan.hits = PlanHits(scene, settings, plan.window, plan.camera, sampler, prepared, why);
   stop_if_cancelled();
@@ -133,7 +170,7 @@ FramePlan MakePlan(const Scene& given, const RenderSettings& settings, PreparedS
   BuildTrees(tree_for_shadows, settings, &plan.hits, why);
   stop_if_cancelled();
   plan.surfaces =
-      PlanSurfaces(scene, settings, plan.camera, SumAmbient(scene), &prepared->tables, why);
+      PlanSurfaces(scene, settings, plan.camera, ambient, materials, used, &prepared->tables, why);
   plan.sampling = PlanSampling(
       scene, settings, std::move(sampler),
       {!plan.direct.sampled_lights.empty(), plan.surfaces.textured, WhyEveryPixel(plan, settings)},
@@ -149,7 +186,7 @@ FramePlan MakePlan(const Scene& given, const RenderSettings& settings, PreparedS
   plan.film.sky = plan.direct.sky.has_value();
   PlanSums(scene, settings, plan.sampling.sampler, &plan.film, why);
   PlanPositions(scene, settings, {plan.surfaces, plan.direct, plan.film}, &plan.hits, why);
-  NoteMaterials(scene, plan.surfaces.materials, !plan.direct.sampled_lights.empty(), &why->notes);
+  NoteMaterials({scene, *materials, used}, !plan.direct.sampled_lights.empty(), &why->notes);
   return plan;
 }
 

@@ -8,23 +8,22 @@
 #include <fmt/format.h>
 
 #include "base/overloaded.h"
-#include "brdf/burley.h"
 #include "brdf/ggx.h"
-#include "brdf/phong.h"
 #include "scene/coat.h"
 
 namespace nacre {
 namespace {
 
-// Names the first of the used materials for which `test` holds, and counts the others, as in
-// `material "red" and 2 more`. Empty if there is none.
+// Names the first of the used materials that have the trait and for which `test` holds, and counts
+// the others, as in `material "red" and 2 more`. Empty if there is none.
 template <class Test>
-std::string NameMaterials(const Scene& scene, const Test& test) {
-  const std::vector<bool> used = FindUsedMaterials(scene);
+std::string NameMaterials(const NotedMaterials& of, MaterialTrait trait, const Test& test) {
+  const Scene& scene = of.scene;
   std::string first;
   size_t count = 0;
+  if (!Has(of.prepared.any, trait)) return first;
   for (size_t i = 0; i < scene.materials.size(); ++i) {
-    if (!used[i] || !test(i)) continue;
+    if (!Has(of.prepared.traits[i], trait) || !of.used[i] || !test(i)) continue;
     if (count++ == 0) first = scene.materials[i].name;
   }
   if (count == 0) return {};
@@ -47,15 +46,14 @@ double LobeRoughness(const Material& material) {
 
 // A perfect mirror reflects only what has an extent. This notes mirrors where no light has one, if
 // there are lights.
-// `parameter`: the name of the roughness that makes material i a mirror if is_mirror(i), and whose
+// `parameter`: the name of the roughness that makes materials of this trait mirrors, and whose
 // value is roughness_of(i).
-template <class IsMirror, class RoughnessOf>
-void NoteMirrors(const Scene& scene, const char* parameter, const IsMirror& is_mirror,
+template <class RoughnessOf>
+void NoteMirrors(const NotedMaterials& of, const char* parameter, MaterialTrait trait,
                  const RoughnessOf& roughness_of, std::vector<std::string>* notes) {
   double greatest = 0;
   int count = 0;
-  const std::string names = NameMaterials(scene, [&](size_t i) {
-    if (!is_mirror(i)) return false;
+  const std::string names = NameMaterials(of, trait, [&](size_t i) {
     greatest = std::max(greatest, roughness_of(i));
     ++count;
     return true;
@@ -68,46 +66,21 @@ void NoteMirrors(const Scene& scene, const char* parameter, const IsMirror& is_m
       greatest, count > 1 ? "," : "", kDeltaRoughness, parameter));
 }
 
-void NoteMirrors(const Scene& scene, const std::vector<ShadingMaterial>& materials,
-                 std::vector<std::string>* notes) {
+void NoteMirrors(const NotedMaterials& of, std::vector<std::string>* notes) {
+  const std::vector<Material>& materials = of.scene.materials;
   NoteMirrors(
-      scene, "roughness", [&](size_t i) { return HasDeltaLobe(materials[i]); },
-      [&](size_t i) { return LobeRoughness(scene.materials[i]); }, notes);
+      of, "roughness", MaterialTrait::kMirror,
+      [&](size_t i) { return LobeRoughness(materials[i]); }, notes);
   NoteMirrors(
-      scene, "coat_roughness",
-      [&](size_t i) { return materials[i].coat && HasDeltaLobe(*materials[i].coat); },
-      [&](size_t i) { return LobeRoughness(*CoatOf(scene.materials[i])); }, notes);
+      of, "coat_roughness", MaterialTrait::kCoatMirror,
+      [&](size_t i) { return LobeRoughness(*CoatOf(materials[i])); }, notes);
 }
 
-// The share of grazing light that Burley's diffuse term reflects, in the brightest channel; 0 for
-// other models.
-double BurleyGain(const ShadingMaterial& material) {
-  const auto gain = [](const Rgb& diffuse, double roughness) {
-    return LargestChannel(diffuse) * M_PI * BurleyGrazingAlbedo(roughness);
-  };
-  return std::visit(
-      Overloaded{[&](const MatteModel& matte) {
-                   const bool burley = matte.form == DiffuseForm::kBurley;
-                   return burley ? gain(matte.diffuse, matte.roughness) : 0.0;
-                 },
-                 [&](const MicrofacetModel& model) {
-                   // Scaled by what the lobe's albedo leaves, which vanishes at grazing angles, the
-                   // term cannot reflect more than it gets.
-                   const bool burley = model.base_form == DiffuseForm::kBurley &&
-                                       model.coupling == DiffuseCoupling::kNone;
-                   return burley ? gain(model.diffuse, model.base_roughness) : 0.0;
-                 },
-                 [](const PhongFamilyModel&) { return 0.0; }, [](const auto&) { return 0.0; }},
-      material.model);
-}
-
-void NoteGain(const Scene& scene, const std::vector<ShadingMaterial>& materials,
-              std::vector<std::string>* notes) {
+void NoteGain(const NotedMaterials& of, std::vector<std::string>* notes) {
   double most = 1;
-  const std::string names = NameMaterials(scene, [&](size_t i) {
-    const double gain = BurleyGain(materials[i]);
-    most = std::max(most, gain);
-    return gain > 1;
+  const std::string names = NameMaterials(of, MaterialTrait::kBurleyGain, [&](size_t i) {
+    most = std::max(most, BurleyGain(of.prepared.all[i]));
+    return true;
   });
   if (names.empty()) return;
   notes->push_back(
@@ -148,45 +121,29 @@ bool EmitsLight(const Light& light) {
 }
 
 // A scene without light is probably a mistake, unless its materials emit.
-void NoteDarkness(const Scene& scene, std::vector<std::string>* notes) {
+void NoteDarkness(const NotedMaterials& of, std::vector<std::string>* notes) {
+  const Scene& scene = of.scene;
   if (scene.spheres.empty() && scene.meshes.empty()) return;
   if (std::any_of(scene.lights.begin(), scene.lights.end(), EmitsLight)) return;
-  const std::vector<bool> used = FindUsedMaterials(scene);
-  bool emits = false;
-  for (size_t i = 0; i < scene.materials.size(); ++i) {
-    emits = emits || (used[i] && !IsBlack(scene.materials[i].emission));
-  }
+  const bool emits = !NameMaterials(of, MaterialTrait::kEmits, [](size_t) { return true; }).empty();
   notes->push_back(
       fmt::format("{}: {}; \"lights\" of the scene, or --environment IMAGE, light it",
                   scene.lights.empty() ? "the scene has no lights" : "all lights are black",
                   emits ? "only what its materials emit is seen" : "every shape is black"));
 }
 
-// The largest radiance, in the brightest channel, that a radiometric Phong material of this model
-// reflects in surroundings of radiance 1; else 0. With the classic convention, kd and ks are no
-// reflectances that could exceed 1.
-double PhongGain(const Material& material, PhongModel model) {
-  const auto* phong = std::get_if<PhongMaterial>(&material.model);
-  if (phong == nullptr || phong->model != model) return 0;
-  if (phong->convention != PhongConvention::kRadiometric) return 0;
-  double lobe = 1;
-  // A map may reduce the exponent to 0, which widens the lobe.
-  const double shininess = phong->shininess_map.valid() ? 0 : phong->shininess;
-  if (model == PhongModel::kPhong) lobe = PhongFurnace(shininess);
-  if (model == PhongModel::kBlinnPhong) lobe = BlinnFurnace(shininess);
-  return LargestChannel(phong->kd * phong->color + phong->ks * lobe);
-}
-
-void NotePhongGain(const Scene& scene, std::vector<std::string>* notes) {
+void NotePhongGain(const NotedMaterials& of, std::vector<std::string>* notes) {
   for (const auto& [model, name] : {std::pair{PhongModel::kPhong, "phong"},
                                     std::pair{PhongModel::kModifiedPhong, "modified_phong"},
                                     std::pair{PhongModel::kBlinnPhong, "blinn_phong"}}) {
     double most = 1;
-    const std::string names = NameMaterials(scene, [&, of = model](size_t i) {
-      const double gain = PhongGain(scene.materials[i], of);
-      most = std::max(most, gain);
-      return gain >= 1.005;  // less would be printed as 1.00
-    });
+    const std::string names =
+        NameMaterials(of, MaterialTrait::kPhongGain, [&, m = model](size_t i) {
+          const Material& material = of.scene.materials[i];
+          if (std::get<PhongMaterial>(material.model).model != m) return false;
+          most = std::max(most, PhongGain(material));
+          return true;
+        });
     if (names.empty()) continue;
     const bool modified = model == PhongModel::kModifiedPhong;
     notes->push_back(fmt::format(
@@ -211,13 +168,13 @@ std::vector<bool> FindUsedMaterials(const Scene& scene) {
   return used;
 }
 
-void NoteMaterials(const Scene& scene, const std::vector<ShadingMaterial>& materials,
-                   bool sampled_lights, std::vector<std::string>* notes) {
-  NoteDarkness(scene, notes);
-  const bool has_punctual = std::any_of(scene.lights.begin(), scene.lights.end(), IsPunctual);
-  if (!sampled_lights && has_punctual) NoteMirrors(scene, materials, notes);
-  NoteGain(scene, materials, notes);
-  NotePhongGain(scene, notes);
+void NoteMaterials(const NotedMaterials& of, bool sampled_lights, std::vector<std::string>* notes) {
+  NoteDarkness(of, notes);
+  const std::vector<Light>& lights = of.scene.lights;
+  const bool has_punctual = std::any_of(lights.begin(), lights.end(), IsPunctual);
+  if (!sampled_lights && has_punctual) NoteMirrors(of, notes);
+  NoteGain(of, notes);
+  NotePhongGain(of, notes);
 }
 
 }  // namespace nacre

@@ -13,6 +13,7 @@
 
 #include "base/image.h"
 #include "base/vec.h"
+#include "render/prepared_materials.h"
 #include "scene/hash.h"
 #include "scene/light_shapes.h"
 #include "scene/parts.h"
@@ -68,12 +69,28 @@ struct ViewKey {
   friend bool operator==(const ViewKey&, const ViewKey&) = default;
 };
 
+// The key of what is derived from each material, but for the materials themselves.
+struct MaterialsKey {
+  uint64_t made = 0;    // PreparedScene::shapes_made, if lights are among the shapes
+  PartVersions lights;  // likewise
+  Rgb ambient{0, 0, 0};
+  const Material* first = nullptr;  // what is derived points to them
+  size_t count = 0;
+  friend bool operator==(const MaterialsKey&, const MaterialsKey&) = default;
+};
+
 struct PreparedScene {
   // Of the one scene that this object is for. Must be updated at each change of the scene.
-  PartVersions versions;
+  SceneVersions versions;
 
   Kept<ShapesKey, std::shared_ptr<SceneWithLights>> with_lights;
-  uint64_t shapes_made = 0;  // how often with_lights was made
+  uint64_t shapes_made = 0;            // how often with_lights was made
+  uint64_t materials_with_lights = 0;  // versions.materials() of those in with_lights
+
+  // Those that have changed since versions.materials() was `materials_prepared` are prepared anew.
+  Kept<MaterialsKey, std::shared_ptr<PreparedMaterials>> materials;
+  uint64_t materials_prepared = 0;
+  Kept<ViewKey, std::vector<bool>> used_materials;  // FindUsedMaterials
 
   // For one plan only: trees need not serve other cameras.
   bool for_one_plan = false;
@@ -88,7 +105,9 @@ struct PreparedScene {
   Kept<ViewKey, std::monostate> lights;  // whether the intersector has the lights' occluders
 
   KeptHashes hashes;
-  Kept<ViewKey, std::monostate> shapes_hash;  // whether `hashes` has that of the shapes
+  Kept<ViewKey, std::monostate> shapes_hash;      // whether `hashes` has that of the shapes
+  Kept<ViewKey, std::monostate> material_hashes;  // and right ones of materials
+  uint64_t materials_hashed = 0;                  // as they were at this versions.materials()
 
   KeptTables tables;
   PartVersions meshes_of_tangents;  // the versions that tables.tangents were made from

@@ -68,14 +68,26 @@ void ForEachCell(const Window& strip, const RenderOne& render_cell) {
   }
 }
 
+// Those channels of an image are floats.
+void StoreIds(const Strip& strip, Image* image) {
+  const size_t first = IndexIn(image->data, strip.window.x0, strip.window.y0);
+  for (size_t i = 0; i < strip.ids.size(); ++i) {
+    std::vector<float>& to = image->channels[strip.colors.size() + i].samples;
+    std::transform(strip.ids[i].begin(), strip.ids[i].end(),
+                   to.begin() + static_cast<ptrdiff_t>(first),
+                   [](uint32_t id) { return static_cast<float>(id); });
+  }
+}
+
 // Renders strip `number` of the window into worker->strip, whose window and channels are set.
 using StripRenderer =
     std::function<void(size_t number, Worker* worker, StageClock* clock, RenderStats* stats)>;
 
-// Renders all strips in parallel and hands them to the sink. on_progress(share) is called after
+// Renders all strips in parallel and hands them to the sink, or into the image, if there is one.
+// on_progress(share) is called after
 // each of them with the share of the strips that are finished, unless it is empty.
 RenderStats RenderStrips(const FramePlan& plan, const RenderSettings& settings,
-                         const StripRenderer& render_strip, const StripSink& sink,
+                         const StripRenderer& render_strip, Image* image, const StripSink& sink,
                          const std::function<void(double)>& on_progress) {
   const auto start = std::chrono::steady_clock::now();
   const Window& window = plan.window;
@@ -97,12 +109,16 @@ RenderStats RenderStrips(const FramePlan& plan, const RenderSettings& settings,
       // the background often lies below another such tile, which then need not be filled again.
       // Rows that the strip before did not have are not filled yet.
       const bool has_new_rows = worker->strip.window.height() < rows.height();
-      if (has_new_rows) worker->blank.assign(TilesPerStrip(plan), 0);
-      StartStrip(plan.film, rows, &worker->strip);
+      if (has_new_rows || image != nullptr) worker->blank.assign(TilesPerStrip(plan), 0);
+      StartStrip(plan.film, rows, image, &worker->strip);
       render_strip(number, worker.get(), &clock, &stats);
     }
     const auto output_start = std::chrono::steady_clock::now();
-    sink(worker->strip);
+    if (image != nullptr) {
+      StoreIds(worker->strip, image);
+    } else {
+      sink(worker->strip);
+    }
     pool.Return(std::move(worker));
     stats.seconds(Stage::kOutput) = SecondsSince(output_start);
     const std::lock_guard lock(mutex);
@@ -123,9 +139,9 @@ FilmPlan PlanOfFirstSamples(const FramePlan& plan, int samples) {
   return film;
 }
 
-}  // namespace
-
-RenderStats Render(const FramePlan& plan, const RenderSettings& settings, const StripSink& sink) {
+// Render, into the image if there is one.
+RenderStats RenderWhole(const FramePlan& plan, const RenderSettings& settings, Image* image,
+                        const StripSink& sink) {
   const bool adaptive = plan.adaptive.max_error > 0;
   const auto render_strip = [&](size_t, Worker* worker, StageClock* clock, RenderStats* stats) {
     Strip& strip = worker->strip;
@@ -140,7 +156,7 @@ RenderStats Render(const FramePlan& plan, const RenderSettings& settings, const 
                  &strip, clock, stats);
     });
   };
-  RenderStats total = RenderStrips(plan, settings, render_strip, sink, settings.on_progress);
+  RenderStats total = RenderStrips(plan, settings, render_strip, image, sink, settings.on_progress);
   total.Add(plan.planning);
   if (!adaptive) {
     total.pixel_samples.Add(static_cast<uint32_t>(plan.scene->image.spp),
@@ -149,8 +165,14 @@ RenderStats Render(const FramePlan& plan, const RenderSettings& settings, const 
   return total;
 }
 
+}  // namespace
+
+RenderStats Render(const FramePlan& plan, const RenderSettings& settings, const StripSink& sink) {
+  return RenderWhole(plan, settings, nullptr, sink);
+}
+
 RenderStats RenderPass(const FramePlan& plan, const RenderSettings& settings, int end,
-                       FrameFilm* film, const StripSink& sink) {
+                       FrameFilm* film, Image* image) {
   const int first = film->samples;
   const size_t tiles_per_strip = TilesPerStrip(plan);
   if (first == 0) {
@@ -173,42 +195,38 @@ RenderStats RenderPass(const FramePlan& plan, const RenderSettings& settings, in
       settings.on_progress((first + (end - first) * share) / plan.film.spp);
     }
   };
-  RenderStats total = RenderStrips(plan, settings, render_strip, sink, on_progress);
+  RenderStats total = RenderStrips(plan, settings, render_strip, image, {}, on_progress);
   film->samples = end;
   if (first == 0) total.Add(plan.planning);
   total.pixel_samples.Add(static_cast<uint32_t>(end), plan.window.pixel_count());
   return total;
 }
 
-Image EmptyImage(const FramePlan& plan, CancelPointer cancel) {
-  Image image;
-  image.display = plan.frame;
-  image.data = plan.window;
-  for (const ChannelSpec& spec : StripChannels(plan.film.layers, PixelType::kFloat)) {
-    ThrowIfCancelled(cancel);
-    image.channels.push_back({spec.name, spec.type, std::vector<float>(plan.window.pixel_count())});
-  }
-  return image;
+void FitImage(const FramePlan& plan, const RenderSettings& settings, Image* image) {
+  image->display = plan.frame;
+  image->data = plan.window;
+  const std::vector<ChannelSpec> specs = StripChannels(plan.film.layers, PixelType::kFloat);
+  image->channels.resize(specs.size());
+  ParallelFor(specs.size(), settings.threads, [&](size_t i) {
+    ThrowIfCancelled(settings.cancel);
+    Channel& channel = image->channels[i];
+    channel.name = specs[i].name;
+    channel.type = specs[i].type;
+    channel.samples.resize(plan.window.pixel_count());
+  });
 }
 
-void CopyStrip(const Strip& strip, Image* image) {
-  const size_t offset = static_cast<size_t>(strip.window.y0 - image->data.y0) *
-                        static_cast<size_t>(image->data.width());
-  const size_t pixels = strip.window.pixel_count();
-  auto channel = image->channels.begin();
-  for (const AlignedArray<float>& plane : strip.colors) {
-    std::copy_n(plane.data(), pixels, (channel++)->samples.data() + offset);
-  }
-  for (const AlignedArray<uint32_t>& plane : strip.ids) {
-    std::transform(plane.data(), plane.data() + pixels, (channel++)->samples.data() + offset,
-                   [](uint32_t id) { return static_cast<float>(id); });
-  }
+RenderStats RenderInto(const FramePlan& plan, const RenderSettings& settings, Image* image) {
+  const auto start = std::chrono::steady_clock::now();
+  FitImage(plan, settings, image);
+  RenderStats stats = RenderWhole(plan, settings, image, {});
+  stats.render_seconds = SecondsSince(start);
+  return stats;
 }
 
 Image RenderImage(const FramePlan& plan, const RenderSettings& settings, RenderStats* stats) {
-  Image image = EmptyImage(plan, settings.cancel);
-  const RenderStats rendered =
-      Render(plan, settings, [&](const Strip& strip) { CopyStrip(strip, &image); });
+  Image image;
+  const RenderStats rendered = RenderInto(plan, settings, &image);
   if (stats != nullptr) *stats = rendered;
   return image;
 }

@@ -29,21 +29,23 @@ struct FrameFilm {
 };
 
 // One pass of a progressive render: adds samples [film->samples, end) of each pixel, where `end` is
-// at most the plan's samples per pixel, and hands strips of the mean of all samples so far to the
-// sink. settings.on_progress gets the share of the plan's samples. After the last pass the picture
-// has the same bits as Render's. Not for adaptive sampling, nor for plans of one sample. After a
-// pass that has thrown the film must not be used again.
+// at most the plan's samples per pixel, and writes the mean of all samples so far to the image,
+// which FitImage has made. settings.on_progress gets the share of the plan's samples. After the
+// last pass the picture has the same bits as Render's. Not for adaptive sampling, nor for plans of
+// one sample. After a pass that has thrown the film must not be used again.
 RenderStats RenderPass(const FramePlan& plan, const RenderSettings& settings, int end,
-                       FrameFilm* film, const StripSink& sink);
+                       FrameFilm* film, Image* image);
 
-// A black image with the plan's channels. Throws Cancelled if `cancel` says so: to clear a large
-// one takes longer than a cancelled render may.
-Image EmptyImage(const FramePlan& plan, CancelPointer cancel);
-// Copies a strip to its rows of such an image.
-void CopyStrip(const Strip& strip, Image* image);
+// Gives the image the plan's channels, all as float, and the size of its window. What it holds is
+// not cleared if it had them. Throws Cancelled if the settings say so: to clear a large one takes
+// longer than a cancelled render may.
+void FitImage(const FramePlan& plan, const RenderSettings& settings, Image* image);
 
-// Renders the whole window into memory. Channels are those of StripChannels, all as float. For
-// tests, comparisons and labels; `stats` may be null.
+// Renders the whole window into an image, which is made to fit: each pixel is written once, to
+// where it belongs.
+RenderStats RenderInto(const FramePlan& plan, const RenderSettings& settings, Image* image);
+
+// The same as an image of its own; `stats` may be null.
 Image RenderImage(const Scene& scene, const RenderSettings& settings, RenderStats* stats = nullptr);
 Image RenderImage(const FramePlan& plan, const RenderSettings& settings, RenderStats* stats);
 

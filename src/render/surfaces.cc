@@ -10,8 +10,6 @@
 
 #include <fmt/format.h>
 
-#include "render/plan_notes.h"
-
 namespace nacre {
 namespace {
 
@@ -135,7 +133,7 @@ void FindSegments(const SurfacePlan& plan, const double* film_x, const CameraHit
            (!plan.splits || IsIn(plan, band, film_x[ray[end]]))) {
       ++end;
     }
-    const uint32_t run = FindRun(plan, is_back ? plan.black : band.material,
+    const uint32_t run = FindRun(plan, is_back ? plan.prepared->black : band.material,
                                  IsInterpolated(plan, primitive[begin]), room, runs);
     (*runs)[run].end += end - begin;
     room->segments.push_back({run, begin, end});
@@ -192,7 +190,7 @@ void FindCoats(const SurfacePlan& plan, Surfaces* s) {
     if (!s->coats) s->coats = std::make_unique<CoatedHits>();
     std::vector<MaterialRun>& runs = s->coats->surfaces.runs;
     if (count == 0) runs.clear();
-    const MaterialId coat = plan.coats[run.material.index];
+    const MaterialId coat = plan.prepared->coats[run.material.index];
     const size_t begin = count;
     for (size_t i = run.begin; i < run.end; ++i) {
       s->coats->below[count++] = static_cast<uint32_t>(i);
@@ -225,13 +223,12 @@ void LookUpMaps(const SurfacePlan& plan, Surfaces* s) {
 }
 
 void PlanTextures(const Scene& scene, const RenderSettings& settings, const CameraFrame& camera,
-                  KeptTables* tables, SurfacePlan* plan, Explanation* why) {
-  const std::vector<bool> used = FindUsedMaterials(scene);
+                  const std::vector<bool>& used, KeptTables* tables, SurfacePlan* plan,
+                  Explanation* why) {
+  const std::vector<uint16_t>& traits = plan->prepared->traits;
   size_t count = 0;
-  for (size_t i = 0; i < scene.materials.size(); ++i) {
-    const ShadingMaterial& material = plan->materials[i];
-    const bool coat_has_maps = material.coat && material.coat->textured != nullptr;
-    if (used[i] && (material.textured != nullptr || coat_has_maps)) ++count;
+  for (size_t i = 0; i < traits.size(); ++i) {
+    if (used[i] && Has(traits[i], MaterialTrait::kTextured)) ++count;
   }
   plan->textured = count > 0;
   if (!plan->textured) {
@@ -266,8 +263,9 @@ bool InterpolatesRadiance(const Mesh& mesh) {
 }
 
 SurfacePlan PlanSurfaces(const Scene& scene, const RenderSettings& settings,
-                         const CameraFrame& camera, const Rgb& ambient, KeptTables* tables,
-                         Explanation* why) {
+                         const CameraFrame& camera, const Rgb& ambient,
+                         std::shared_ptr<const PreparedMaterials> materials,
+                         const std::vector<bool>& used, KeptTables* tables, Explanation* why) {
   SurfacePlan plan;
   plan.primitives = NumberPrimitives(scene);
   plan.frame_width = scene.image.width;
@@ -275,32 +273,21 @@ SurfacePlan PlanSurfaces(const Scene& scene, const RenderSettings& settings,
                         IsBlack(ambient)
                             ? "the scene has none"
                             : "a constant per material without maps, coats and layers"});
-  const MaterialId none{};
-  plan.materials.reserve(2 * scene.materials.size() + 1);
-  for (const Material& material : scene.materials) {
-    plan.materials.push_back(PrepareMaterial(material, ambient));
-    plan.splits = plan.splits || std::holds_alternative<SplitMaterial>(material.model);
-    plan.one_sided = plan.one_sided || material.emits_in_front_only;
-  }
-  plan.black = {static_cast<uint32_t>(plan.materials.size())};
-  plan.materials.emplace_back().model = MatteModel{.diffuse = Rgb(0, 0, 0)};
-  for (size_t i = 0; i < scene.materials.size(); ++i) {
-    plan.coats.push_back(none);
-    if (!plan.materials[i].coat) continue;
-    plan.coats[i] = {static_cast<uint32_t>(plan.materials.size())};
-    plan.materials.push_back(*plan.materials[i].coat);
-    plan.coated = true;
-  }
+  plan.prepared = std::move(materials);
+  plan.materials = plan.prepared->all;
+  plan.coated = Has(plan.prepared->any, MaterialTrait::kCoated);
+  plan.splits = Has(plan.prepared->any, MaterialTrait::kSplit);
+  plan.one_sided = Has(plan.prepared->any, MaterialTrait::kOneSided);
   why->items.push_back({"coats", plan.coated,
                         plan.coated ? "hits on materials with one are shaded once more, as the coat"
                                     : "no material has any"});
   plan.interpolates = std::any_of(scene.meshes.begin(), scene.meshes.end(), InterpolatesRadiance);
-  PlanTextures(scene, settings, camera, tables, &plan, why);
+  PlanTextures(scene, settings, camera, used, tables, &plan, why);
   return plan;
 }
 
 bool NeedsExactDirections(const SurfacePlan& plan) {
-  return std::any_of(plan.materials.begin(), plan.materials.end(), HasDoubleTerms);
+  return Has(plan.prepared->any, MaterialTrait::kDoubleTerms);
 }
 
 MaterialId MaterialAt(const SurfacePlan& plan, uint32_t primitive, double film_x) {

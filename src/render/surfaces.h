@@ -5,11 +5,13 @@
 
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "base/aligned.h"
 #include "render/explanation.h"
 #include "render/hits.h"
+#include "render/prepared_materials.h"
 #include "render/settings.h"
 #include "scene/primitives.h"
 #include "shading/shade.h"
@@ -19,13 +21,12 @@ namespace nacre {
 
 struct SurfacePlan {
   PrimitiveNumbers primitives;
-  int frame_width = 0;                     // in pixels, for split materials
-  std::vector<ShadingMaterial> materials;  // one per material of the scene, `black`, and coats
-  MaterialId black;                        // of the back of one-sided emitters
-  std::vector<MaterialId> coats;           // by material of the scene; invalid if it has none
-  bool coated = false;                     // some material has a coat
-  bool splits = false;                     // some material depends on the film position
-  bool one_sided = false;                  // some material emits in front only
+  int frame_width = 0;  // in pixels, for split materials
+  std::shared_ptr<const PreparedMaterials> prepared;
+  std::span<const ShadingMaterial> materials;  // PreparedMaterials::all
+  bool coated = false;                         // some material has a coat
+  bool splits = false;                         // some material depends on the film position
+  bool one_sided = false;                      // some material emits in front only
   bool interpolates = false;  // some mesh interpolates radiance, not normals (mesh_radiance.h)
   bool textured = false;      // some shape's material is ShadingMaterial::textured
   TextureScene textures;      // empty unless `textured`
@@ -34,10 +35,12 @@ struct SurfacePlan {
 // Whether the mesh interpolates radiance, not normals (mesh_radiance.h).
 bool InterpolatesRadiance(const Mesh& mesh);
 
-// `ambient`: the sum of the scene's ambient lights.
+// `ambient`: the sum of the scene's ambient lights, for which the materials were prepared. `used`:
+// by material of the scene.
 SurfacePlan PlanSurfaces(const Scene& scene, const RenderSettings& settings,
-                         const CameraFrame& camera, const Rgb& ambient, KeptTables* tables,
-                         Explanation* why);
+                         const CameraFrame& camera, const Rgb& ambient,
+                         std::shared_ptr<const PreparedMaterials> materials,
+                         const std::vector<bool>& used, KeptTables* tables, Explanation* why);
 
 // Whether the hits' directions are needed in double: some material has maps, or a lobe that is too
 // narrow for float.

@@ -66,18 +66,27 @@ uint64_t HashPiece(std::span<const unsigned char> bytes) {
   return all.state();
 }
 
-// Long arrays, in pieces on several threads.
+constexpr size_t kSpheresAtATime = size_t{1} << 14;
+
+// Adds hash_piece(first, end) of the pieces of `count` things, on several threads.
+template <class HashPieceOf>
+void AddPieces(size_t count, size_t at_a_time, Hasher* hash, const HashPieceOf& hash_piece) {
+  std::vector<uint64_t> pieces((count + at_a_time - 1) / at_a_time);
+  ParallelFor(pieces.size(), 0, [&](size_t i) {
+    const size_t first = i * at_a_time;
+    pieces[i] = hash_piece(first, std::min(first + at_a_time, count));
+  });
+  for (const uint64_t piece : pieces) hash->Word(piece);
+}
+
+// Long arrays.
 template <class T>
 void AddArray(std::span<const T> values, Hasher* hash) {
   static_assert(std::is_standard_layout_v<T> && sizeof(T) % sizeof(float) == 0);
   constexpr size_t kPiece = size_t{1} << 20;
   const std::span bytes(reinterpret_cast<const unsigned char*>(values.data()), values.size_bytes());
-  std::vector<uint64_t> pieces((bytes.size() + kPiece - 1) / kPiece);
-  ParallelFor(pieces.size(), 0, [&](size_t i) {
-    const size_t first = i * kPiece;
-    pieces[i] = HashPiece(bytes.subspan(first, std::min(kPiece, bytes.size() - first)));
-  });
-  for (const uint64_t piece : pieces) hash->Word(piece);
+  AddPieces(bytes.size(), kPiece, hash,
+            [&](size_t first, size_t end) { return HashPiece(bytes.subspan(first, end - first)); });
 }
 template <class T, class Allocator>
 void AddArray(const std::vector<T, Allocator>& values, Hasher* hash) {
@@ -301,15 +310,33 @@ struct AddLightKind {
   }
 };
 
-void AddShapes(const Scene& scene, Hasher* hash) {
-  hash->Word(scene.spheres.size());
-  for (const Sphere& sphere : scene.spheres) {
-    hash->Add(sphere.center);
-    hash->Add(sphere.radius);
-    hash->Add(sphere.material);
-  }
-  hash->Word(scene.meshes.size());
-  for (const Mesh& mesh : scene.meshes) {
+uint64_t HashMaterial(const Material& material) {
+  Hasher hash;
+  hash.Word(material.emits_in_front_only);
+  hash.Word(static_cast<uint64_t>(material.vertex_colors));
+  AddModel(material, &hash);
+  AddMaps(material, &hash);
+  return hash.state();
+}
+
+uint64_t HashSphere(const Sphere& sphere) {
+  Hasher hash;
+  hash.Add(sphere.center);
+  hash.Add(sphere.radius);
+  hash.Add(sphere.material);
+  return hash.state();
+}
+
+void AddShapes(std::span<const Sphere> spheres, std::span<const Mesh> meshes, Hasher* hash) {
+  hash->Word(spheres.size());
+  AddPieces(spheres.size(), kSpheresAtATime, hash, [&](size_t first, size_t end) {
+    // Each by itself: in one chain each product waits for the one before.
+    Hasher piece;
+    for (size_t i = first; i < end; ++i) piece.Word(HashSphere(spheres[i]));
+    return piece.state();
+  });
+  hash->Word(meshes.size());
+  for (const Mesh& mesh : meshes) {
     hash->Word(mesh.positions.size());
     hash->Word(mesh.normals.size());
     hash->Word(mesh.uvs.size());
@@ -343,11 +370,12 @@ uint64_t HashScene(const Scene& scene, KeptHashes* kept) {
   for (const SceneImage& image : scene.images) Add(image, &shared, &hash);
   for (const Texture& texture : scene.textures) Add(texture, &hash);
   hash.Word(scene.materials.size());  // sizes, so that no value can pass for one of the next array
-  for (const Material& material : scene.materials) {
-    hash.Word(material.emits_in_front_only);
-    hash.Word(static_cast<uint64_t>(material.vertex_colors));
-    AddModel(material, &hash);
-    AddMaps(material, &hash);
+  if (kept != nullptr) kept->materials.resize(scene.materials.size());
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    std::optional<uint64_t> own;
+    std::optional<uint64_t>& known = kept != nullptr ? kept->materials[i] : own;
+    if (!known) known = HashMaterial(scene.materials[i]);
+    hash.Word(*known);
   }
   hash.Word(scene.lights.size());
   for (const Light& light : scene.lights) {
@@ -361,9 +389,9 @@ uint64_t HashScene(const Scene& scene, KeptHashes* kept) {
   return hash.state();
 }
 
-uint64_t HashShapes(const Scene& scene) {
+uint64_t HashShapes(std::span<const Sphere> spheres, std::span<const Mesh> meshes) {
   Hasher hash;
-  AddShapes(scene, &hash);
+  AddShapes(spheres, meshes, &hash);
   return hash.state();
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "scene/scene.h"
@@ -12,14 +13,15 @@
 namespace nacre {
 
 // What is costly to hash, from one call to the next: pictures and meshes that scenes share, which
-// never change; and all shapes, if the caller knows that these have not changed.
+// never change; and shapes and materials, if the caller knows that these have not changed.
 struct KeptHashes {
   struct Entry {
     std::shared_ptr<const void> source;  // held, so that no other has its address
     uint64_t hash;
   };
-  std::vector<Entry> shared;       // those of the scene that was hashed last
-  std::optional<uint64_t> shapes;  // HashShapes()
+  std::vector<Entry> shared;                       // those of the scene that was hashed last
+  std::optional<uint64_t> shapes;                  // HashShapes()
+  std::vector<std::optional<uint64_t>> materials;  // those that are there are right
 };
 
 // Equal for scenes that render the same picture because they hold the same values; written into
@@ -29,6 +31,7 @@ struct KeptHashes {
 uint64_t HashScene(const Scene& scene, KeptHashes* kept = nullptr);
 
 // Likewise of the spheres and meshes alone.
-uint64_t HashShapes(const Scene& scene);
+uint64_t HashShapes(std::span<const Sphere> spheres, std::span<const Mesh> meshes);
+inline uint64_t HashShapes(const Scene& scene) { return HashShapes(scene.spheres, scene.meshes); }
 
 }  // namespace nacre

@@ -203,7 +203,6 @@ void UpdateAllButShapes(const Scene& scene, SceneWithLights* with) {
   to.image = scene.image;
   to.images = scene.images;
   to.textures = scene.textures;
-  std::copy(scene.materials.begin(), scene.materials.end(), to.materials.begin());
   to.lights = scene.lights;
   to.background = scene.background;
 }

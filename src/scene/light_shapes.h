@@ -46,8 +46,8 @@ struct SceneWithLights {
 };
 SceneWithLights AddLightShapes(const Scene& scene, const std::vector<bool>& shown);
 
-// Takes over from `scene` all but shapes: one of as many materials whose lights and shapes are
-// those that `with` was made of. Flat lights are lifted for its camera.
+// Takes over from `scene` all but shapes, and materials, which the caller does: one whose lights
+// and shapes are those that `with` was made of. Flat lights are lifted for its camera.
 void UpdateAllButShapes(const Scene& scene, SceneWithLights* with);
 
 }  // namespace nacre

@@ -6,6 +6,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
 
 namespace nacre {
 
@@ -53,6 +56,19 @@ class SceneParts {
 
 constexpr SceneParts operator|(ScenePart a, ScenePart b) { return SceneParts(a) | SceneParts(b); }
 
+// What a change may have given other values: these parts, and of materials and spheres perhaps only
+// some.
+struct SceneChange {
+  SceneChange() = default;
+  SceneChange(SceneParts all_of)  // NOLINT(google-explicit-constructor): of no single items
+      : parts(all_of) {}
+  SceneChange(ScenePart all_of) : parts(all_of) {}  // NOLINT(google-explicit-constructor): as above
+
+  SceneParts parts;
+  // If not empty, all that has changed of kMaterials; likewise of kShapes.
+  std::vector<uint32_t> materials, spheres;
+};
+
 // How often each part has changed. What was made of some parts is still right while their numbers
 // are the same.
 class PartVersions {
@@ -76,6 +92,60 @@ class PartVersions {
 
  private:
   std::array<uint64_t, kSceneParts> numbers_{};
+};
+
+// The versions of a scene that changes, and which of its materials and spheres the last changes
+// were of, for what is kept of each of them.
+class SceneVersions {
+ public:
+  void Change(const SceneChange& change) {
+    now_.Change(change.parts);
+    if (change.parts.Has(ScenePart::kMaterials)) materials_.Add(change.materials);
+    if (change.parts.Has(ScenePart::kShapes)) spheres_.Add(change.spheres);
+  }
+
+  PartVersions Of(SceneParts parts) const { return now_.Of(parts); }
+
+  // How often materials have changed, and kShapes.
+  uint64_t materials() const { return materials_.count; }
+  uint64_t shapes() const { return spheres_.count; }
+  // Which materials have changed since materials() was `then`, and which spheres, of shapes that
+  // are the same otherwise; nothing: any of them.
+  std::optional<std::span<const uint32_t>> MaterialsSince(uint64_t then) const {
+    return materials_.Since(then);
+  }
+  std::optional<std::span<const uint32_t>> SpheresSince(uint64_t then) const {
+    return spheres_.Since(then);
+  }
+
+ private:
+  // Change number first + i was of items [begins[i], begins[i + 1]); those before, of any.
+  struct Log {
+    uint64_t count = 0, first = 0;
+    std::vector<size_t> begins;
+    std::vector<uint32_t> items;
+
+    void Add(const std::vector<uint32_t>& changed) {
+      constexpr size_t kMost = 1024;  // whoever has not asked for so long makes all anew
+      ++count;
+      if (changed.empty() || items.size() + changed.size() > kMost) {
+        begins.clear();
+        items.clear();
+        first = count;
+        return;
+      }
+      begins.push_back(items.size());
+      items.insert(items.end(), changed.begin(), changed.end());
+    }
+    std::optional<std::span<const uint32_t>> Since(uint64_t then) const {
+      if (then < first) return std::nullopt;
+      if (then >= count) return std::span<const uint32_t>();
+      return std::span(items).subspan(begins[then - first]);
+    }
+  };
+
+  PartVersions now_;
+  Log materials_, spheres_;
 };
 
 }  // namespace nacre

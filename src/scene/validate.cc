@@ -116,29 +116,6 @@ void ValidateSplit(const Scene& scene, const Material& material, const std::stri
   }
 }
 
-void ValidateMaterials(const Scene& scene, FaultList* faults) {
-  for (size_t i = 0; i < scene.materials.size(); ++i) {
-    const Material& material = scene.materials[i];
-    ValidateMaps(scene, material, MaterialPlace(scene, i), faults);
-    const MaterialModel* model = ModelOf(material);
-    if (model == nullptr) {
-      ValidateSplit(scene, material, MaterialPlace(scene, i), faults);
-      continue;
-    }
-    for (const MaterialParameter& parameter : model->parameters) {
-      const Rgb value = parameter.get(material);
-      const Range& range = parameter.range;
-      if (range.Contains(value.x) && range.Contains(value.y) && range.Contains(value.z)) continue;
-      const std::string where = MaterialPlace(scene, i) + "/" + std::string(parameter.name);
-      if (parameter.is_color) {
-        CheckColor(value, range, where, faults);
-      } else {
-        CheckNumber(value.x, range, where, faults);
-      }
-    }
-  }
-}
-
 }  // namespace
 
 bool IsLayerName(const std::string& name) {
@@ -146,6 +123,24 @@ bool IsLayerName(const std::string& name) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-' || c == ' ';
   });
+}
+
+void ValidateMaterial(const Scene& scene, size_t index, FaultList* faults) {
+  const Material& material = scene.materials[index];
+  ValidateMaps(scene, material, MaterialPlace(scene, index), faults);
+  const MaterialModel* model = ModelOf(material);
+  if (model == nullptr) return ValidateSplit(scene, material, MaterialPlace(scene, index), faults);
+  for (const MaterialParameter& parameter : model->parameters) {
+    const Rgb value = parameter.get(material);
+    const Range& range = parameter.range;
+    if (range.Contains(value.x) && range.Contains(value.y) && range.Contains(value.z)) continue;
+    const std::string where = MaterialPlace(scene, index) + "/" + std::string(parameter.name);
+    if (parameter.is_color) {
+      CheckColor(value, range, where, faults);
+    } else {
+      CheckNumber(value.x, range, where, faults);
+    }
+  }
 }
 
 std::vector<Fault> Validate(const Scene& scene) { return Validate(scene, SceneParts::All()); }
@@ -158,7 +153,9 @@ std::vector<Fault> Validate(const Scene& scene, SceneParts parts) {
   if (parts.Has(ScenePart::kBackground)) {
     CheckColor(scene.background, limits::kRadiance, "/background", &faults);
   }
-  if (parts.HasAny(kMaterials)) ValidateMaterials(scene, &faults);
+  if (parts.HasAny(kMaterials)) {
+    for (size_t i = 0; i < scene.materials.size(); ++i) ValidateMaterial(scene, i, &faults);
+  }
   if (parts.HasAny(kMaterials | ScenePart::kShapes)) ValidateTextures(scene, &faults);
   if (parts.Has(ScenePart::kLights)) ValidateLights(scene, &faults);
   if (parts.Has(ScenePart::kShapes)) ValidateShapes(scene, &faults);

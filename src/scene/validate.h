@@ -32,6 +32,12 @@ void ValidateSphere(const Sphere& sphere, size_t material_count, const std::stri
 void ValidateMesh(const Mesh& mesh, size_t material_count, const std::string& where,
                   FaultList* faults);
 
+// The faults of one of the scene's materials; and what is wrong between one of its spheres or
+// meshes and the material that it has.
+void ValidateMaterial(const Scene& scene, size_t index, FaultList* faults);
+void ValidateMaterialOfSphere(const Scene& scene, size_t index, FaultList* faults);
+void ValidateMaterialOfMesh(const Scene& scene, size_t index, FaultList* faults);
+
 // Those of a mesh's positions and indices alone.
 void ValidateTriangles(const Mesh& mesh, const std::string& where, FaultList* faults);
 

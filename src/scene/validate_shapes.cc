@@ -135,16 +135,6 @@ bool IsSound(const Sphere& sphere, size_t material_count) {
 
 bool IsOfMeshes(const Material& material) { return CutsHoles(material) || material.single_sided; }
 
-// Spheres are hit by tests of their own, which know no holes and no sides.
-void RefuseMaterialOfMeshes(const Scene& scene, size_t sphere, FaultList* faults) {
-  const size_t index = scene.spheres[sphere].material.index;
-  if (index >= scene.materials.size() || !IsOfMeshes(scene.materials[index])) return;
-  faults->Add(fmt::format("/spheres/{}/material", sphere),
-              CutsHoles(scene.materials[index]) ? "its opacity cuts holes, which only meshes have"
-                                                : "it is single-sided, which only meshes are",
-              "make the sphere of triangles: the shapes \"uv_sphere\" and \"icosphere\"");
-}
-
 }  // namespace
 
 void ValidateSphere(const Sphere& sphere, size_t material_count, const std::string& where,
@@ -187,10 +177,21 @@ void ValidateShapes(const Scene& scene, FaultList* faults) {
   }
 }
 
+// Spheres are hit by tests of their own, which know no holes and no sides.
+void ValidateMaterialOfSphere(const Scene& scene, size_t index, FaultList* faults) {
+  const size_t material = scene.spheres[index].material.index;
+  if (material >= scene.materials.size() || !IsOfMeshes(scene.materials[material])) return;
+  faults->Add(fmt::format("/spheres/{}/material", index),
+              CutsHoles(scene.materials[material])
+                  ? "its opacity cuts holes, which only meshes have"
+                  : "it is single-sided, which only meshes are",
+              "make the sphere of triangles: the shapes \"uv_sphere\" and \"icosphere\"");
+}
+
 // Which of their materials shapes cannot have.
 void ValidateMaterialsOfShapes(const Scene& scene, FaultList* faults) {
   if (std::none_of(scene.materials.begin(), scene.materials.end(), IsOfMeshes)) return;
-  for (size_t i = 0; i < scene.spheres.size(); ++i) RefuseMaterialOfMeshes(scene, i, faults);
+  for (size_t i = 0; i < scene.spheres.size(); ++i) ValidateMaterialOfSphere(scene, i, faults);
 }
 
 // How many there are, those of lights as well.

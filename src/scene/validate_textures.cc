@@ -91,17 +91,19 @@ void ValidateTextures(const Scene& scene, FaultList* faults) {
     ValidateTexture(scene, scene.textures[i],
                     "/textures/" + (name.empty() ? std::to_string(i) : PointerToken(name)), faults);
   }
-  for (size_t i = 0; i < scene.meshes.size(); ++i) {
-    const Mesh& mesh = scene.meshes[i];
-    if (!mesh.uvs.empty() || mesh.material.index >= scene.materials.size()) continue;
-    const Material& material = scene.materials[mesh.material.index];
-    const std::string where = fmt::format("/meshes/{}", i);
-    ValidateCoordinates(scene, material, where, faults);
-    if (const auto* split = std::get_if<SplitMaterial>(&material.model)) {
-      for (const MaterialId id : split->materials) {
-        if (id.index >= scene.materials.size()) continue;
-        ValidateCoordinates(scene, scene.materials[id.index], where, faults);
-      }
+  for (size_t i = 0; i < scene.meshes.size(); ++i) ValidateMaterialOfMesh(scene, i, faults);
+}
+
+void ValidateMaterialOfMesh(const Scene& scene, size_t index, FaultList* faults) {
+  const Mesh& mesh = scene.meshes[index];
+  if (!mesh.uvs.empty() || mesh.material.index >= scene.materials.size()) return;
+  const Material& material = scene.materials[mesh.material.index];
+  const std::string where = fmt::format("/meshes/{}", index);
+  ValidateCoordinates(scene, material, where, faults);
+  if (const auto* split = std::get_if<SplitMaterial>(&material.model)) {
+    for (const MaterialId id : split->materials) {
+      if (id.index >= scene.materials.size()) continue;
+      ValidateCoordinates(scene, scene.materials[id.index], where, faults);
     }
   }
 }

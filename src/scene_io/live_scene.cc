@@ -208,14 +208,31 @@ LoadOptions LiveScene::Watching() {
   return options;
 }
 
-SceneParts LiveScene::Set(const std::string& pointer, const std::string& json) {
-  CompleteTree(pointer, &tree_);
+namespace {
+
+// The number of the shape in or at which the pointer points.
+std::optional<size_t> ShapeNumberOf(const std::vector<std::string>& tokens) {
+  if (tokens.size() < 2 || tokens[0] != "shapes") return std::nullopt;
+  return ElementOf(tokens[1], static_cast<size_t>(-1));
+}
+
+}  // namespace
+
+SceneChange LiveScene::Set(const std::string& pointer, const std::string& json) {
+  const std::optional<size_t> number = ShapeNumberOf(TokensOf(pointer));
+  const std::optional<size_t> shape =
+      number && !model_ ? ListShape(*number, &tree_, &members_) : std::nullopt;
+  if (!shape && (pointer.empty() || pointer.starts_with("/shapes"))) ListShapes();
   Json* const root = &tree_.root;
   Replaced replaced =
-      model_ ? ReplaceValue(pointer, json, root) : ReplaceInFile(pointer, json, root);
+      model_ ? ReplaceValue(pointer, json, root) : ReplaceInFile(pointer, json, root, shape);
   const bool own_lights = model_ && model_->own_lights;
   try {
-    if (!model_) return ReadAgain(PartsOf(pointer), pointer.starts_with("/materials/"));
+    if (!model_) {
+      if (std::optional<SceneChange> change = ReadItem(pointer, shape, replaced)) return *change;
+      const bool one_material = replaced.path.size() > 1 && replaced.path[0] == "materials";
+      return ReadAgain(PartsOf(pointer), one_material ? replaced.path[1] : std::string());
+    }
     if (pointer == "/lights") model_->own_lights = true;
     return CompleteModel(PartsOf(pointer));
   } catch (...) {
@@ -225,17 +242,36 @@ SceneParts LiveScene::Set(const std::string& pointer, const std::string& json) {
   }
 }
 
+std::optional<SceneChange> LiveScene::ReadItem(const std::string& pointer,
+                                               std::optional<size_t> shape,
+                                               const Replaced& replaced) {
+  const std::vector<std::string> tokens = TokensOf(pointer);
+  if (tokens.size() < 2) return std::nullopt;
+  if (tokens[0] == "materials") {
+    return ReadMaterialAlone(tree_, tokens[1], Reading(), &members_, &scene_);
+  }
+  if (!shape) return std::nullopt;
+  const bool was_displaced = tokens.size() == 2 && replaced.value->contains("displacement");
+  if (was_displaced) return std::nullopt;
+  return ReadShapeAlone(tree_, *shape, *ShapeNumberOf(tokens), Reading(), &members_, &scene_);
+}
+
+SceneReading LiveScene::Reading() { return {folder_, bytes_, &options_, &kept_, &files_}; }
+
 std::optional<std::string> LiveScene::Get(const std::string& pointer) const {
   const std::optional<Json> value = ValueIn(tree_, pointer);
   return value ? std::optional(JsonText(*value)) : std::nullopt;
 }
 
-SceneParts LiveScene::ReadAgain(SceneParts touched, bool one_material) {
+SceneParts LiveScene::ReadAgain(SceneParts touched, const std::string& material) {
   CheckVersion(tree_.root, file_);
   SceneParts parts = touched;
   // What shapes have brought does not depend on another material; on textures it may.
+  const auto known = members_.names.find(material);
+  const bool varied =
+      known != members_.names.end() && members_.varied.contains(known->second.index);
   const bool brought = shapes_bring_materials_ && parts.Has(ScenePart::kMaterials);
-  const bool take_over = brought && one_material && !members_.varied;
+  const bool take_over = brought && !material.empty() && !varied;
   if (brought && !take_over) parts |= ScenePart::kShapes;
   const SceneParts others = SceneParts::All().Without(parts);
   Scene next;
@@ -243,10 +279,10 @@ SceneParts LiveScene::ReadAgain(SceneParts touched, bool one_material) {
   bool moved = false;
   try {
     FaultList faults;
-    const std::optional<ReadMembers> read = ReadScene(
-        tree_, parts,
-        {folder_, bytes_, &options_, &kept_, &files_, take_over ? &scene_ : nullptr, members_},
-        &faults, &next);
+    SceneReading reading = Reading();
+    reading.before = take_over ? &scene_ : nullptr;
+    reading.members = &members_;
+    std::optional<ReadMembers> read = ReadScene(tree_, parts, reading, &faults, &next);
     ThrowFaults(faults, file_);
     const bool has_shapes = parts.Has(ScenePart::kShapes);
     moved = parts.Has(ScenePart::kMaterials) && !has_shapes &&
@@ -255,7 +291,13 @@ SceneParts LiveScene::ReadAgain(SceneParts touched, bool one_material) {
       if (complete_) complete_(&next);
       shapes_bring_materials_ =
           next.materials.size() > read->materials || next.textures.size() > read->textures;
-      members_ = *read;
+      members_ = *std::move(read);
+    } else if (parts.Has(ScenePart::kMaterials) && !moved) {
+      // Shapes are where they were.
+      read->varied = std::move(members_.varied);
+      read->shapes = std::move(members_.shapes);
+      read->runs = std::move(members_.runs);
+      members_ = *std::move(read);
     }
   } catch (...) {
     SwapParts(others, &scene_, &next);
@@ -269,11 +311,9 @@ SceneParts LiveScene::ReadAgain(SceneParts touched, bool one_material) {
   if (parts.Has(ScenePart::kImage)) own_image_ = scene_.image;
   DropUnheld(&kept_);
   if (!parts.Has(ScenePart::kShapes)) return parts;
-  const uint64_t hash = HashShapes(scene_);
   // Read along with materials, or from a file that was saved, they are mostly what they were. Those
   // stay that others may point to.
-  const bool same = std::exchange(shapes_hash_, hash) == hash;
-  if (!same) return parts;
+  if (HashShapes(next) != HashShapes(scene_)) return parts;
   SwapParts(ScenePart::kShapes, &scene_, &next);
   std::swap(scene_.labels, next.labels);
   return parts.Without(ScenePart::kShapes);

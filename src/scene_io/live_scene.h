@@ -18,6 +18,8 @@
 #include "scene_io/kept_files.h"
 #include "scene_io/load_scene.h"
 #include "scene_io/model_scene.h"
+#include "scene_io/overrides.h"
+#include "scene_io/read_item.h"
 #include "scene_io/read_scene.h"
 #include "scene_io/scene_document.h"
 #include "scene_io/watched_files.h"
@@ -49,15 +51,16 @@ class LiveScene {
   const Scene& scene() const { return scene_; }
 
   // Puts the value that `json` is JSON for where `pointer` points, as LoadOptions::overrides, and
-  // returns which parts of the scene may have other values now. Throws Error as LoadScene does: the
-  // scene is then the one before.
-  SceneParts Set(const std::string& pointer, const std::string& json);
+  // returns what of the scene may have other values now. A material or a shape is read alone where
+  // nothing else depends on what has changed of it. Throws Error as LoadScene does: the scene is
+  // then the one before.
+  SceneChange Set(const std::string& pointer, const std::string& json);
 
   // What is read: the tree of a scene file with all changes; of a model, these alone. Plain spheres
   // (SceneTree) are not in it until ListShapes puts them there, half a kilobyte each.
   const Json& root() const { return tree_.root; }
   bool lists_all_shapes() const { return tree_.spheres.runs.empty(); }
-  void ListShapes() { CompleteTree("/shapes", &tree_); }
+  void ListShapes() { nacre::ListShapes(&tree_, &members_); }
 
   // Whether files that it was read from, those of failed reads included, have changed since: as
   // WatchedFiles::Changed, to be called several times a second.
@@ -83,7 +86,10 @@ class LiveScene {
   // follows: a model's camera stays.
   void UseImage(const ImageSettings& image) { scene_.image = image; }
   // The same of a material, until materials are read again.
-  void UseMaterial(size_t index, const Material& material) { scene_.materials[index] = material; }
+  void UseMaterial(size_t index, const Material& material) {
+    scene_.materials[index] = material;
+    members_.current = false;  // the next change reads all of them
+  }
   const ImageSettings& own_image() const { return own_image_; }
 
  private:
@@ -91,8 +97,11 @@ class LiveScene {
   void ReadModelFile(ModelOverrides overrides);
   SceneTree Parse(std::string_view text) const;
   LoadOptions Watching();  // options_ of a model that put each file into files_; while this stays
-  // `one_material`: of those of the file nothing but one has changed.
-  SceneParts ReadAgain(SceneParts touched, bool one_material = false);
+  SceneReading Reading();
+  std::optional<SceneChange> ReadItem(const std::string& pointer, std::optional<size_t> shape,
+                                      const Replaced& replaced);
+  // `material`: of those of the file nothing but this one has changed.
+  SceneParts ReadAgain(SceneParts touched, const std::string& material = {});
   SceneParts CompleteModel(SceneParts touched);
 
   std::filesystem::path path_;  // empty: `file_` is only what errors call the text
@@ -107,8 +116,7 @@ class LiveScene {
   Scene scene_;
   ImageSettings own_image_;              // of the file with its changes
   bool shapes_bring_materials_ = false;  // or textures
-  ReadMembers members_;                  // without these
-  uint64_t shapes_hash_ = 0;
+  ReadMembers members_;                  // what was read, for reading some of it again
   KeptFiles kept_;
   WatchedFiles files_;
 };

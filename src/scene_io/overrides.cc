@@ -219,12 +219,14 @@ void PutBack(Replaced replaced, Json* root) {
   *place = *std::move(replaced.value);
 }
 
-Replaced ReplaceInFile(const std::string& pointer, const std::string& text, Json* root) {
-  const std::vector<std::string> tokens = TokensOf(pointer);
+Replaced ReplaceInFile(const std::string& pointer, const std::string& text, Json* root,
+                       std::optional<size_t> shape) {
+  std::vector<std::string> tokens = TokensOf(pointer);
+  if (shape) tokens[1] = std::to_string(*shape);
   const NamedPart* const named = PartOfEntry(tokens);
   const bool was_there =
       named == nullptr || FindValue(std::span(tokens).first(2), *root) != nullptr;
-  Replaced replaced = ReplaceValue(pointer, text, root);
+  Replaced replaced = ReplaceValue(pointer, tokens, text, root);
   if (was_there || !IsMistyped(tokens, *named, *root)) return replaced;
   PutBack(std::move(replaced), root);
   RefuseEntry(pointer, tokens[1], *named, NamesIn(*root, named->part));

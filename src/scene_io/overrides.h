@@ -50,7 +50,10 @@ void PutBack(Replaced replaced, Json* root);
 
 // ReplaceValue in the tree of a whole scene file: throws also for an entry that is not there, as
 // ApplyOptionsToFile does. The tree is then as before.
-Replaced ReplaceInFile(const std::string& pointer, const std::string& text, Json* root);
+// `shape`: where in the tree's "shapes" the one is that the pointer names, if that is elsewhere
+// than in the file.
+Replaced ReplaceInFile(const std::string& pointer, const std::string& text, Json* root,
+                       std::optional<size_t> shape = {});
 
 // Puts the options' environment into the tree in the place of all lights, then their overrides.
 // Throws Error: kBadInput for an environment that is no file, kUsage as ApplyOverride does.

@@ -116,22 +116,24 @@ void ReadMaterials(const JsonValue& value, SceneContext* context) {
   uint32_t index = 0;
   for (const auto& [name, json] : value.json.items()) {
     const size_t before = value.faults->count();
-    Material material;
-    material.name = name;
-    material.user = UserBrdfOf(*context, name);
-    ReadMaterial({json, object.path().Member(name), object.faults()}, context, &material);
+    Material material =
+        ReadNamedMaterial({json, object.path().Member(name), object.faults()}, name, context);
     if (value.faults->count() != before) context->unreadable_materials.insert(index);
     materials[index++] = std::move(material);  // not through a reference: inline ones are added
   }
 }
 
+Material ReadNamedMaterial(const JsonValue& value, const std::string& name, SceneContext* context) {
+  Material material;
+  material.name = name;
+  material.user = UserBrdfOf(*context, name);
+  ReadMaterial(value, context, &material);
+  return material;
+}
+
 void ChangeMaterial(const JsonValue& value, SceneContext* context, Material* material) {
   if (value.json.is_object() && value.json.contains("model")) {
-    Material whole;
-    whole.name = material->name;
-    whole.user = UserBrdfOf(*context, whole.name);
-    ReadMaterial(value, context, &whole);
-    *material = std::move(whole);
+    *material = ReadNamedMaterial(value, std::string(material->name), context);
     return;
   }
   JsonObject object(value);
@@ -175,7 +177,7 @@ bool ReadBaseMaterial(const JsonValue& value, SceneContext* context, Material* m
     const MaterialId id = FindMaterial(value, *context);
     if (!id.valid() || context->unreadable_materials.contains(id.index)) return false;
     *material = context->scene->materials[id.index];
-    context->varies_materials = true;
+    context->varied_materials.insert(id.index);
     return true;
   }
   if (!value.Expect(value.json.is_object(), "a material", kReferenceHint)) return false;

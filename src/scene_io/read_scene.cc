@@ -79,7 +79,9 @@ void ReadRoot(const SceneTree& tree, SceneParts parts, WatchedFiles* files, Faul
     DecodeMapsAhead(value.json, context);
     ReadMaterials(value, context);
   });
-  *read = {scene->materials.size(), scene->textures.size(), scene->images.size()};
+  read->materials = scene->materials.size();
+  read->textures = scene->textures.size();
+  read->images = scene->images.size();
   member("lights", ScenePart::kLights,
          [&](const JsonValue& value) { ReadLights(value, *context, &scene->lights); });
   member("shapes", ScenePart::kShapes,
@@ -87,7 +89,12 @@ void ReadRoot(const SceneTree& tree, SceneParts parts, WatchedFiles* files, Faul
   member("background", ScenePart::kBackground,
          [&](const JsonValue& value) { ReadColor(value, limits::kRadiance, &scene->background); });
   object.RefuseOthers();
-  read->varied = context->varies_materials;
+  read->current = true;
+  read->names = std::move(context->materials);
+  read->sources = std::move(context->textures);
+  read->varied = std::move(context->varied_materials);
+  read->shapes = std::move(context->shapes);
+  read->runs = std::move(context->runs);
 }
 
 // Adds what shapes have brought to materials, textures and images of the file that have the same
@@ -229,25 +236,30 @@ void CheckVersion(const Json& root, const std::string& file) {
   throw Error(ExitCode::kBadInput, {JudgeVersion(*version, PlaceInFile(file, "/nacre"))});
 }
 
+void SetUpContext(const SceneReading& reading, SceneBudget* budget, TexelBudget* texels,
+                  Scene* scene, SceneContext* context) {
+  const LoadOptions& options = *reading.options;
+  context->folder = reading.folder;
+  context->references = RulesOf(options);
+  context->threads = options.threads;
+  context->user_brdfs = &options.user_brdfs;
+  context->scene = scene;
+  context->budget = budget;
+  context->texels = texels;
+  context->on_warning = options.on_warning;
+  context->kept = reading.kept;
+}
+
 std::optional<ReadMembers> ReadScene(const SceneTree& tree, SceneParts parts,
                                      const SceneReading& reading, FaultList* faults, Scene* scene) {
-  const LoadOptions& options = *reading.options;
   SceneContext context;
-  context.folder = reading.folder;
-  context.references = RulesOf(options);
-  context.threads = options.threads;
-  context.user_brdfs = &options.user_brdfs;
-  context.scene = scene;
-  context.on_warning = options.on_warning;
-  context.kept = reading.kept;
-  SceneBudget budget(options.max_primitives.value_or(kDefaultMaxPrimitives));
-  context.budget = &budget;
+  SceneBudget budget(reading.options->max_primitives.value_or(kDefaultMaxPrimitives));
   TexelBudget texels(reading.bytes);
-  context.texels = &texels;
+  SetUpContext(reading, &budget, &texels, scene, &context);
   ReadMembers read;
   ReadRoot(tree, parts, reading.files, faults, &context, &read);
   if (reading.before != nullptr &&
-      !TakeOverBrought(*reading.before, reading.members, read, scene)) {
+      !TakeOverBrought(*reading.before, *reading.members, read, scene)) {
     return std::nullopt;
   }
   // Last: generators may vary what a material leaves idle.

@@ -14,6 +14,7 @@
 #include "scene_io/json_text.h"
 #include "scene_io/kept_files.h"
 #include "scene_io/load_scene.h"
+#include "scene_io/read_members.h"
 #include "scene_io/watched_files.h"
 
 namespace nacre {
@@ -48,14 +49,6 @@ SceneTree ParseScene(const SceneSource& source, const LoadOptions& options, Faul
 // Throws Error unless the tree is that of a scene file of a version that is read.
 void CheckVersion(const Json& root, const std::string& file);
 
-// What was read of the file that other parts refer to.
-struct ReadMembers {
-  size_t materials = 0;  // made of the member "materials"; those of shapes follow
-  size_t textures = 0;   // that these name
-  size_t images = 0;     // of these
-  bool varied = false;   // shapes have made materials of those
-};
-
 struct SceneReading {
   std::filesystem::path folder;  // of the scene file
   uint64_t bytes = 0;            // of its text, which its images may be large in proportion to
@@ -65,7 +58,7 @@ struct SceneReading {
   // Where materials are read without shapes: the scene before, and what was read of it, whose
   // shapes' own materials and textures are taken over. null: there are none.
   const Scene* before = nullptr;
-  ReadMembers members{};
+  const ReadMembers* members = nullptr;
 };
 
 // The text of a scene file, up to 1 GiB.

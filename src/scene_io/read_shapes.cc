@@ -87,21 +87,6 @@ constexpr std::array<ShapeType, 8> kShapeTypes = {{{"sphere", ReadSphere},
                                                    {"pair", ReadPair},
                                                    {"cloud", ReadCloud}}};
 
-void ReadShape(const JsonValue& value, SceneContext* context) {
-  std::array<std::string_view, kShapeTypes.size()> names;
-  for (size_t i = 0; i < names.size(); ++i) names[i] = kShapeTypes[i].name;
-  JsonObject shape(value);
-  shape.Require("type", "one of: sphere, spheres, mesh, icosphere, uv_sphere, grid, pair, cloud");
-  size_t type = 0;
-  if (!shape.Choice("type", names, &type)) return;
-  try {
-    kShapeTypes[type].read(&shape, context);
-  } catch (const Error& error) {  // of a generator
-    for (const Fault& fault : error.faults()) value.AddFault(fault.what, fault.hint);
-  }
-  shape.RefuseOthers();
-}
-
 // The scene's materials of these names; none for those that there are not.
 std::vector<MaterialId> FindMaterials(const std::vector<std::string>& names,
                                       const SceneContext& context) {
@@ -146,6 +131,21 @@ Json AsWritten(double number) {
 
 }  // namespace
 
+void ReadShape(const JsonValue& value, SceneContext* context) {
+  std::array<std::string_view, kShapeTypes.size()> names;
+  for (size_t i = 0; i < names.size(); ++i) names[i] = kShapeTypes[i].name;
+  JsonObject shape(value);
+  shape.Require("type", "one of: sphere, spheres, mesh, icosphere, uv_sphere, grid, pair, cloud");
+  size_t type = 0;
+  if (!shape.Choice("type", names, &type)) return;
+  try {
+    kShapeTypes[type].read(&shape, context);
+  } catch (const Error& error) {  // of a generator
+    for (const Fault& fault : error.faults()) value.AddFault(fault.what, fault.hint);
+  }
+  shape.RefuseOthers();
+}
+
 Json JsonOf(const Sphere& sphere, const std::string& material) {
   const Vec3d& center = sphere.center;
   return {{"type", "sphere"},
@@ -164,8 +164,11 @@ void ReadShapes(const JsonValue& value, const PlainSpheres& spheres, SceneContex
   auto run = spheres.runs.begin();
   size_t place = 0;
   for (const Json& shape : value.json) {
+    const ShapeCounts first = CountShapes(*context->scene);
     ReadShape({shape, value.path.Element(place++), value.faults}, context);
+    context->shapes.push_back({first, CountShapes(*context->scene) - first});
     if (run == spheres.runs.end() || run->first != place) continue;
+    context->runs.push_back(context->scene->spheres.size());
     ReadRun(*run, spheres, ids, value, context);
     place += run->spheres.size();
     ++run;

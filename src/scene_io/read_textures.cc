@@ -12,8 +12,6 @@
 namespace nacre {
 namespace {
 
-using TextureSource = SceneContext::TextureSource;
-
 constexpr std::array<std::string_view, 4> kEncodings = {"auto", "srgb", "linear", "alpha"};
 constexpr std::array<std::string_view, 3> kTextureFilters = {"nearest", "bilinear", "trilinear"};
 constexpr std::array<std::string_view, 3> kWraps = {"repeat", "clamp", "mirror"};

@@ -3,15 +3,14 @@
 // value that they are given and leave defaults in place of what is wrong.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
+#include <vector>
 
 #include "scene/displace.h"
 #include "scene/generators.h"
@@ -21,6 +20,7 @@
 #include "scene_io/json_reader.h"
 #include "scene_io/kept_files.h"
 #include "scene_io/plain_spheres.h"
+#include "scene_io/read_members.h"
 #include "scene_io/scene_budget.h"
 #include "scene_io/text_file.h"
 #include "scene_io/texture_image.h"
@@ -39,22 +39,15 @@ struct SceneContext {
   Scene* scene = nullptr;
   SceneBudget* budget = nullptr;
   TexelBudget* texels = nullptr;
-  std::unordered_map<std::string, MaterialId> materials;  // by name
+  MaterialNames materials;
   // So that one fault does not make others of all that refer to it:
   bool has_materials = true;                          // false: their names could not be read
   std::unordered_set<uint32_t> unreadable_materials;  // indices of those that have faults
-  bool varies_materials = false;  // shapes have made others of materials by name
-  // Textures by name. One that says nothing of its encoding is sRGB where it is a colour and linear
-  // where it is data, and read for its alpha where it is an opacity: up to three of the scene's
-  // textures, read when first used. By encoding.
-  struct TextureSource {
-    Texture texture;  // all but the image
-    std::string file, part;
-    bool is_readable = false;  // false: its faults have been reported
-    std::optional<TextureEncoding> encoding;
-    std::array<TextureId, 3> decoded{};
-  };
-  std::unordered_map<std::string, TextureSource> textures;
+  std::unordered_set<uint32_t> varied_materials;      // shapes have made others of them
+  // Of the shapes read, as in ReadMembers.
+  std::vector<ShapeRead> shapes;
+  std::vector<size_t> runs;
+  TextureSources textures;
   std::unordered_map<std::string, ImageId> images;     // by path, encoding and part
   TexturesAhead ahead;                                 // of DecodeMapsAhead
   std::function<void(const std::string&)> on_warning;  // LoadOptions::on_warning
@@ -62,6 +55,11 @@ struct SceneContext {
   // Of a model in the studio: the room, which an environment without another sky keeps.
   std::shared_ptr<const SkyPicture> room;
 };
+
+// All of a context but what has been read; SceneReading is in read_scene.h.
+struct SceneReading;
+void SetUpContext(const SceneReading& reading, SceneBudget* budget, TexelBudget* texels,
+                  Scene* scene, SceneContext* context);
 
 // The object "lights"; `context` says where their pictures are.
 void ReadLights(const JsonValue& value, const SceneContext& context, std::vector<Light>* lights);
@@ -98,6 +96,8 @@ void ReadMaps(const MaterialModel& model, JsonObject* object, SceneContext* cont
 
 // The object "materials": all of them, in its order.
 void ReadMaterials(const JsonValue& value, SceneContext* context);
+// One of them. Inline ones that it names are added to the scene, it itself is not.
+Material ReadNamedMaterial(const JsonValue& value, const std::string& name, SceneContext* context);
 // Before them: decodes the images that they are going to read, several at a time. `materials` is
 // the same JSON, which may be wrong.
 void DecodeMapsAhead(const Json& materials, SceneContext* context);
@@ -121,6 +121,9 @@ bool ReadBaseMaterial(const JsonValue& value, SceneContext* context, Material* m
 
 // The array "shapes"; `spheres` are those of its elements that the value lacks.
 void ReadShapes(const JsonValue& value, const PlainSpheres& spheres, SceneContext* context);
+
+// One of them.
+void ReadShape(const JsonValue& value, SceneContext* context);
 
 // The shape as the file has it.
 Json JsonOf(const Sphere& sphere, const std::string& material);

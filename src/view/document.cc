@@ -133,7 +133,9 @@ ViewDocument::ViewDocument(const LoadOptions& options)
 
 void ViewDocument::UseMaterial(size_t index, const Material& material) {
   live_.UseMaterial(index, material);
-  prepared_.versions.Change(ScenePart::kMaterials);
+  SceneChange change = ScenePart::kMaterials;
+  change.materials = {static_cast<uint32_t>(index)};
+  prepared_.versions.Change(change);
 }
 
 void ViewDocument::UseImage(const ImageSettings& image) {
@@ -190,10 +192,11 @@ void ViewDocument::Set(const std::string& pointer, const Json& value, uint64_t g
     throw Error(ExitCode::kUsage, pointer, "a model's lights are set one by one",
                 "/lights/NAME is one of them");
   }
+  if (pointer.starts_with("/shapes")) ListShapes();  // the history holds what there was
   std::string place = ExistingPart(live_.root(), pointer);
   // A value for all lights of a model would leave none of its own: the history keeps the whole.
   if (place == "/lights" && place != pointer && is_model()) place.clear();
-  if (place.empty() || place.starts_with("/shapes")) ListShapes();  // the history holds all of it
+  if (place.empty()) ListShapes();
   std::string before = JsonText(live_.root().at(Json::json_pointer(place)));
   const bool completed = CompleteLight(pointer);
   try {

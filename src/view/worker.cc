@@ -657,14 +657,14 @@ void Worker::Plan(int divisor, bool moving) {
   document_->UseImage(image);
   plan_.emplace(MakePlan(document_->scene(), Settings(), document_->prepared()));
   film_ = {};
-  image_ = EmptyImage(*plan_, &cancel_);
+  FitImage(*plan_, Settings(), &image_);
 }
 
 void Worker::RenderMoving() {
   const auto start = Clock::now();
   const int divisor = std::max(divisor_, FitDivisor());
   Plan(divisor, true);
-  Render(*plan_, Settings(), [&](const Strip& strip) { CopyStrip(strip, &image_); });
+  RenderInto(*plan_, Settings(), &image_);
   plan_.reset();  // refined pictures have more samples
   moved_ = false;
   render_ms_ = MsSince(start);
@@ -703,7 +703,7 @@ void Worker::Refine() {
     settings.max_samples = options_.samples > 0 ? options_.samples : settings.max_samples;
     plan_.reset();
     FramePlan plan = MakePlan(document_->scene(), settings, document_->prepared());
-    image_ = RenderImage(plan, settings, nullptr);
+    RenderInto(plan, settings, &image_);
     plan_.emplace(std::move(plan));
     render_ms_ = MsSince(start);
     done_ = true;
@@ -714,8 +714,7 @@ void Worker::Refine() {
   double last_shown = film_.samples == 0 ? -kRefinedEveryMs : 0;
   do {
     const int end = std::min(std::max(1, 2 * film_.samples), spp);
-    RenderPass(*plan_, settings, end, &film_,
-               [&](const Strip& strip) { CopyStrip(strip, &image_); });
+    RenderPass(*plan_, settings, end, &film_, &image_);
     // Pictures follow one another no faster than pages can show them beside the rendering.
     if (film_.samples < spp && MsSince(start) - last_shown < kRefinedEveryMs) continue;
     last_shown = MsSince(start);

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "base/cancel.h"
 #include "hit/batch.h"
@@ -25,10 +26,11 @@ enum class BoxTree : uint8_t {
 // threads at once.
 class BoxTrees {
  public:
-  // Builds no tree yet. Keeps a pointer to `geometry`, which may be moved (MoveGeometry). Throws
-  // Error: kInternal where Embree has not the target's instruction set, kBadInput if this build has
-  // no Embree.
-  explicit BoxTrees(const TraceGeometry* geometry);
+  // Builds no tree yet. Keeps a pointer to `geometry`, which may be moved (MoveGeometry).
+  // `one_by_one`: whether incoherent rays are traced so, and not in packets; none: by what is
+  // faster for so many shapes. Throws Error: kInternal where Embree has not the target's
+  // instruction set, kBadInput if this build has no Embree.
+  explicit BoxTrees(const TraceGeometry* geometry, std::optional<bool> one_by_one = {});
   ~BoxTrees();
   BoxTrees(const BoxTrees&) = delete;
   BoxTrees& operator=(const BoxTrees&) = delete;

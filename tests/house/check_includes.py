@@ -56,7 +56,8 @@ FOLDERS = TRUNK_FOLDERS | set(BRANCHES) | {TOP}
 # The files of render/ in the order in which a pixel's samples go through them: each includes only
 # headers of those before it.
 RENDER_ORDER = """
-    settings stats stage_clock explanation layers camera camera_kernel frame_window white_level plan_notes
+    settings stats stage_clock explanation layers camera camera_kernel frame_window white_level prepared_materials
+    plan_notes
     film_kernel filter_shares small_triangles adaptive_plan interval interval_kernel sampled_kernel shadow_rays_kernel mesh_windows
     outline_coverage sphere_projections
     prepared_scene hits_plan tile_shapes samples hits surfaces

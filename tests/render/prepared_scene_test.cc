@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "catch.h"
+#include "output/metadata.h"
 #include "render/render.h"
+#include "scene_io/json_text.h"
 #include "scene_io/live_scene.h"
 
 namespace nacre {
@@ -36,10 +38,12 @@ RenderSettings RandomSettings(std::minstd_rand* random) {
   return settings;
 }
 
-void CheckChanges(const std::string& file, const std::vector<Change>& changes, int count) {
-  LoadOptions options;
-  options.overrides = {{"/image/width", "40"}, {"/image/height", "24"}, {"/image/spp", "2"}};
-  LiveScene live(kScenes / file, options);
+void CheckChanges(const std::string& file, LiveScene* changed, const std::vector<Change>& changes,
+                  int count) {
+  LiveScene& live = *changed;
+  live.Set("/image/width", "40");
+  live.Set("/image/height", "24");
+  live.Set("/image/spp", "2");
   PreparedScene prepared;
   std::minstd_rand random(3);
   for (int i = 0; i < count; ++i) {
@@ -48,14 +52,24 @@ void CheckChanges(const std::string& file, const std::vector<Change>& changes, i
     CAPTURE(file, i, change.pointer, value);
     prepared.versions.Change(live.Set(change.pointer, value));
     const RenderSettings settings = RandomSettings(&random);
-    const Image kept = RenderImage(MakePlan(live.scene(), settings, &prepared), settings, nullptr);
-    const Image fresh = RenderImage(MakePlan(live.scene(), settings), settings, nullptr);
+    const FramePlan plan = MakePlan(live.scene(), settings, &prepared);
+    const FramePlan anew = MakePlan(live.scene(), settings);
+    REQUIRE(plan.why.notes == anew.why.notes);
+    REQUIRE(MakeExrHeader(plan, true, {}, &prepared).attributes ==
+            MakeExrHeader(anew, true).attributes);
+    const Image kept = RenderImage(plan, settings, nullptr);
+    const Image fresh = RenderImage(anew, settings, nullptr);
     REQUIRE(kept.channels.size() == fresh.channels.size());
     for (size_t c = 0; c < kept.channels.size(); ++c) {
       CAPTURE(kept.channels[c].name);
       REQUIRE(kept.channels[c].samples == fresh.channels[c].samples);
     }
   }
+}
+
+void CheckChanges(const std::string& file, const std::vector<Change>& changes, int count) {
+  LiveScene live(kScenes / file, {});
+  CheckChanges(file, &live, changes, count);
 }
 
 const std::vector<Change> kOfEveryScene = {
@@ -122,6 +136,61 @@ TEST_CASE("Pictures of changed scenes have the bits of new ones", "[prepared_sce
                      {"/materials/clay/roughness", {"0.1", "0.9"}}}),
                40);
   CheckChanges("models/pawns.glb", kOfEveryScene, 30);
+}
+
+TEST_CASE("Pictures of many changed items have the bits of new ones", "[prepared_scene]") {
+  Json scene = {
+      {"nacre", 1},
+      {"camera", {{"position", {0, 0, 9}}, {"look_at", {0, 0, 0}}, {"fov_y_deg", 40}}},
+      {"lights", {{"key", {{"type", "point"}, {"position", {3, 5, 4}}, {"intensity", 140}}}}}};
+  for (int i = 0; i < 30; ++i) {
+    scene["materials"]["m" + std::to_string(i)] = {{"model", "metallic_roughness"},
+                                                   {"base_color", {0.03 * i, 0.5, 0.5}}};
+  }
+  Json shapes = Json::array();
+  for (int i = 0; i < 120; ++i) {
+    shapes.push_back({{"type", "sphere"},
+                      {"center", {i % 12 - 5.5, i / 12 - 4.5, 0.1 * (i % 7)}},
+                      {"radius", 0.4},
+                      {"material", "m" + std::to_string(i % 30)}});
+    if (i % 40 == 7) shapes.back()["material"] = {{"model", "phong"}, {"shininess", 20}};
+  }
+  scene["shapes"] = std::move(shapes);
+  std::vector<Change> changes = With({{"/shapes/7/material/shininess", {"10", "90"}},
+                                      {"/shapes/60/radius", {"0.4", "3"}},
+                                      {"/shapes/60/center", {"[0, 0, 2]", "[1, 1, 0]"}}});
+  for (int i = 0; i < 30; ++i) {
+    const std::string material = "/materials/m" + std::to_string(i);
+    changes.push_back({material + "/roughness", {"0", "0.2", "0.7"}});
+    changes.push_back({material + "/coat", {"0", "1"}});
+    if (i % 5 == 0) changes.push_back({material + "/diffuse", {"\"burley\"", "\"lambert\""}});
+    if (i % 6 == 0) changes.push_back({material + "/diffuse_coupling", {"\"none\""}});
+    if (i % 9 == 0) changes.push_back({material + "/emission", {"0", "[0.1, 0, 0]"}});
+    const std::string shape = "/shapes/" + std::to_string(4 * i);
+    changes.push_back({shape + "/material", {"\"m2\"", "\"m3\"", "\"m28\""}});
+    changes.push_back({shape + "/radius", {"0.2", "0.5"}});
+  }
+  LiveScene live(JsonText(scene), "many", kScenes, {});
+  CheckChanges("many", &live, changes, 400);
+}
+
+TEST_CASE("Holes follow their material", "[prepared_scene]") {
+  const char* const leaf = R"({"nacre": 1,
+    "camera": {"position": [0, 0, 5], "look_at": [0, 0, 0]},
+    "lights": {"sky": {"type": "ambient", "radiance": 1}},
+    "textures": {"holes": {"file": "textures/tiles.png", "mapping": "spherical",
+                           "encoding": "linear"}},
+    "materials": {"leaf": {"model": "lambert", "opacity_map": "holes", "opacity_cutoff": 0.3}},
+    "shapes": [{"type": "uv_sphere", "center": [0, 0, 0], "radius": 1, "segments": 32,
+                "rings": 16, "material": "leaf"}]})";
+  LiveScene live(leaf, "leaf", kScenes, {});
+  CheckChanges("leaf", &live,
+               {{"/materials/leaf/opacity_cutoff", {"0.1", "0.5", "0.9", "2"}},
+                {"/materials/leaf/opacity", {"0.5", "1"}},
+                {"/materials/leaf/albedo", {"0.5", "1"}},
+                {"/materials/leaf/opacity_map", {"null", "\"holes\""}},
+                {"/textures/holes/scale", {"1", "3"}}},
+               60);
 }
 
 TEST_CASE("A material's change makes nothing again but what it is made of", "[prepared_scene]") {

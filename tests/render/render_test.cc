@@ -91,8 +91,28 @@ TEST_CASE("no image is cleared for a render that was cancelled") {
   const Scene scene = OneSphere(LambertMaterial{Rgb(0.8)}, 8, 1);
   const FramePlan plan = MakePlan(scene, {});
   const std::atomic<bool> cancel = true;
-  CHECK_THROWS_AS(EmptyImage(plan, &cancel), Cancelled);
-  CHECK(EmptyImage(plan, nullptr).channels.size() == 4);
+  RenderSettings settings;
+  settings.cancel = &cancel;
+  Image image;
+  CHECK_THROWS_AS(FitImage(plan, settings, &image), Cancelled);
+  FitImage(plan, {}, &image);
+  CHECK(image.channels.size() == 4);
+}
+
+TEST_CASE("an image that held another picture is written over") {
+  const Scene scene = MakeScene();
+  Scene other = OneSphere(LambertMaterial{Rgb(0.8)}, scene.image.width, 1);
+  other.background = Rgb(0.5, 0.25, 0.125);
+  Image image = RenderImage(scene, Settings(1, {"all"}));
+  for (const int threads : {1, 2}) {
+    for (const bool first : {false, true}) {
+      const Scene& shown = first ? scene : other;
+      const RenderSettings settings = Settings(threads, {"all"});
+      const FramePlan plan = MakePlan(shown, settings);
+      RenderInto(plan, settings, &image);
+      CHECK(SameBits(image, RenderImage(shown, settings)));
+    }
+  }
 }
 
 TEST_CASE("threads and tiles change no bit") {

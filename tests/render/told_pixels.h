@@ -47,7 +47,7 @@ inline std::vector<bool> ToldIn(const FramePlan& plan) {
   Strip strip;
   StageClock clock(nullptr);
   for (int y0 = 0; y0 < kSide; y0 += kCellSize) {
-    StartStrip(plan.film, {0, y0, kSide, y0 + kCellSize}, &strip);
+    StartStrip(plan.film, {0, y0, kSide, y0 + kCellSize}, nullptr, &strip);
     for (int x0 = 0; x0 < kSide; x0 += kCellSize) {
       const Window cell{x0, y0, x0 + kCellSize, y0 + kCellSize};
       RenderStats stats;

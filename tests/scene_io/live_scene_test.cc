@@ -36,12 +36,14 @@ std::string Describe(const Scene& scene) {
   return text;
 }
 
-// Puts random changes, some of which are wrong, and holds each state to a scene that is read anew.
-void CheckChanges(const std::string& file, const std::vector<Change>& changes, int count) {
-  const std::filesystem::path path = kScenes / file;
-  LiveScene live(path, {});
+// Puts random changes, some of which are wrong, and holds each state to a scene that load(options)
+// reads anew.
+template <class Load>
+void CheckChanges(const std::string& file, LiveScene* changed, const Load& load,
+                  const std::vector<Change>& changes, int count) {
+  LiveScene& live = *changed;
   LoadOptions fresh;
-  REQUIRE(Describe(live.scene()) == Describe(LoadScene(path, fresh)));
+  REQUIRE(Describe(live.scene()) == Describe(load(fresh)));
   std::minstd_rand random(7);
   int refused = 0;
   for (int i = 0; i < count; ++i) {
@@ -58,14 +60,74 @@ void CheckChanges(const std::string& file, const std::vector<Change>& changes, i
     if (!is_right) {
       ++refused;
       REQUIRE(Describe(live.scene()) == before);
-      REQUIRE_THROWS_AS(LoadScene(path, fresh), Error);
+      REQUIRE_THROWS_AS(load(fresh), Error);
       fresh.overrides.pop_back();
       continue;
     }
-    REQUIRE(Describe(live.scene()) == Describe(LoadScene(path, fresh)));
+    REQUIRE(Describe(live.scene()) == Describe(load(fresh)));
   }
   CHECK(refused > 0);
   CHECK(refused < count / 2);
+}
+
+void CheckChanges(const std::string& file, const std::vector<Change>& changes, int count) {
+  const std::filesystem::path path = kScenes / file;
+  LiveScene live(path, {});
+  CheckChanges(
+      file, &live, [&](const LoadOptions& options) { return LoadScene(path, options); }, changes,
+      count);
+}
+
+// Named materials, splits, textures, plain spheres in several runs, and shapes of every other kind.
+std::string ManyItems() {
+  Json scene = {{"nacre", 1}};
+  scene["textures"] = {{"waves", {{"file", "textures/waves.png"}, {"mapping", "spherical"}}},
+                       {"globe", {{"file", "textures/globe.png"}, {"mapping", "spherical"}}}};
+  Json& materials = scene["materials"];
+  for (int i = 0; i < 40; ++i) {
+    materials["m" + std::to_string(i)] = {{"model", "metallic_roughness"}, {"roughness", 0.02 * i}};
+  }
+  materials["mapped"] = {{"model", "lambert"}, {"albedo_map", "waves"}};
+  materials["split"] = {{"model", "split"}, {"at", {0.5}}, {"materials", {"m1", "m2"}}};
+  materials["own_split"] = {
+      {"model", "split"}, {"at", {0.5}}, {"materials", {"m1", {{"model", "lambert"}}}}};
+  Json shapes = Json::array();
+  const auto add_spheres = [&](int count) {
+    for (int i = 0; i < count; ++i) {
+      shapes.push_back({{"type", "sphere"},
+                        {"center", {0.1 * i, 0.2 * static_cast<double>(shapes.size()), 0}},
+                        {"radius", 0.1},
+                        {"material", "m" + std::to_string(i % 40)}});
+    }
+  };
+  add_spheres(50);
+  shapes.push_back({{"type", "sphere"},
+                    {"center", {0, 0, 1}},
+                    {"radius", 1},
+                    {"material", {{"model", "phong"}, {"shininess", 20}}}});
+  shapes.push_back({{"type", "icosphere"},
+                    {"center", {0, 0, 2}},
+                    {"radius", 1},
+                    {"subdivisions", 1},
+                    {"material", "m3"}});
+  add_spheres(30);
+  shapes.push_back(
+      {{"type", "grid"},
+       {"material", "m5"},
+       {"center", {0, 0, 0}},
+       {"spacing", 1},
+       {"radius", 0.2},
+       {"rows", {{"parameter", "roughness"}, {"from", 0}, {"to", 1}, {"count", 2}}},
+       {"columns", {{"parameter", "metallic"}, {"from", 0}, {"to", 1}, {"count", 3}}}});
+  shapes.push_back(
+      {{"type", "sphere"},
+       {"center", {0, 3, 1}},
+       {"radius", 1},
+       {"material",
+        {{"model", "split"}, {"at", {0.25}}, {"materials", {"m7", {{"model", "lambert"}}}}}}});
+  add_spheres(20);
+  scene["shapes"] = std::move(shapes);
+  return JsonText(scene);
 }
 
 TEST_CASE("Changes of scene files, right and wrong, are those that overrides make",
@@ -163,19 +225,127 @@ TEST_CASE("Changes of models are those that overrides make", "[live_scene]") {
   CheckChanges("models/pawns.glb", changes, 40);
 }
 
+TEST_CASE("Changes of one of many items are those that overrides make", "[live_scene]") {
+  const std::string text = ManyItems();
+  LiveScene live(text, "many", kScenes, {});
+  const auto load = [&](const LoadOptions& options) {
+    return LoadSceneText(text, "many", kScenes, options);
+  };
+  const std::vector<Change> changes = {
+      {"/materials/m1/roughness", "0.9"},
+      {"/materials/m1/roughness", "9"},
+      {"/materials/m5/roughness", "0.8"},  // of which a grid makes others
+      {"/materials/m9/base_color", "[0.1, 0.2, 0.3]"},
+      {"/materials/m9/rougness", "0.1"},
+      {"/materials/m9", R"({"model": "phong", "shininess": 40})"},
+      {"/materials/m9", R"({"model": "metallic_roughness", "base_color_map": "globe"})"},
+      {"/materials/m2/base_color_map", "\"waves\""},
+      {"/materials/m2/base_color_map", "\"globe\""},
+      {"/materials/m2/base_color_map", "\"none\""},
+      {"/materials/m2", R"({"model": "lambert"})"},
+      {"/materials/m2/opacity", "0.1"},  // spheres have no holes
+      {"/materials/m3/opacity", "0.1"},  // nor has m3, which spheres have
+      {"/materials/mapped/albedo", "0.3"},
+      {"/materials/mapped/albedo_map", "\"globe\""},
+      {"/materials/mapped/albedo_map", "\"waves\""},
+      {"/materials/split/at/0", "0.75"},
+      {"/materials/split/at/0", "7"},
+      {"/materials/split/materials/1", "\"m3\""},
+      {"/materials/split/materials/1", "\"own_split\""},
+      {"/materials/own_split/materials/1/albedo", "0.125"},
+      {"/materials/own_split/at/0", "0.25"},
+      {"/materials/own_split/materials/1", "\"m3\""},
+      {"/materials/own_split/materials/1", R"({"model": "lambert"})"},
+      {"/materials/m8", R"({"model": "split", "at": [], "materials": ["m1"]})"},
+      {"/materials/m8", R"({"model": "lambert", "albedo": 0.1})"},
+      {"/materials/more", R"({"model": "lambert", "albedo": 0.2})"},
+      {"/materials/fewer/albedo", "0.2"},
+      {"/shapes/0/radius", "0.3"},
+      {"/shapes/7/radius", "0.3"},
+      {"/shapes/7/radius", "-0.3"},
+      {"/shapes/7/center/1", "0.35"},
+      {"/shapes/8/center", "[1, 2, 3]"},
+      {"/shapes/49/material", "\"m4\""},
+      {"/shapes/49/material", "\"split\""},
+      {"/shapes/49/material", "\"m400\""},
+      {"/shapes/48/material", R"({"model": "lambert", "albedo": 0.4})"},
+      {"/shapes/48/material", "\"m4\""},
+      {"/shapes/50/material/shininess", "30"},
+      {"/shapes/50/material/shininess", "-30"},
+      {"/shapes/50/radius", "0.5"},
+      {"/shapes/51/center/2", "4"},
+      {"/shapes/51/subdivisions", "2"},
+      {"/shapes/51/subdivisions", "1"},
+      {"/shapes/52/radius", "0.05"},
+      {"/shapes/81/radius", "0.06"},
+      {"/shapes/82/rows/count", "3"},
+      {"/shapes/82/radius", "0.1"},
+      {"/shapes/83/material/at/0", "0.5"},
+      {"/shapes/83/material/materials/1/albedo", "0.6"},
+      {"/shapes/84", R"({"type": "sphere", "center": [1, 1, 1], "radius": 1, "material": "m1"})"},
+      {"/shapes/84", R"({"type": "sphere", "center": [1, 1, 1], "radius": 1, "material": "m1",
+                         "displacement": {"texture": "globe", "distance": 0.1, "segments": 8}})"},
+      {"/shapes/85/displacement", R"({"texture": "waves", "distance": 0.1, "segments": 8})"},
+      {"/shapes/85/displacement/distance", "0.2"},
+      {"/shapes/103/radius", "0.07"},
+      {"/shapes/104/radius", "0.07"},
+      {"/shapes/x/radius", "0.07"},
+      {"/textures/globe/scale", "2"},
+      {"/image/spp", "3"}};
+  CheckChanges("many", &live, load, changes, 700);
+}
+
+TEST_CASE("One of many items is read alone", "[live_scene]") {
+  LiveScene live(ManyItems(), "many", kScenes, {});
+  const auto listed = [&] { return live.root().at("shapes").size(); };
+  const size_t before = listed();
+  REQUIRE(before < 10);  // others are numbers
+  SceneChange change = live.Set("/materials/m9/roughness", "0.3");
+  CHECK(change.parts == SceneParts(ScenePart::kMaterials));
+  CHECK(change.materials == std::vector<uint32_t>{9});
+  change = live.Set("/materials/split/at/0", "0.3");
+  CHECK(change.materials == std::vector<uint32_t>{41});
+  change = live.Set("/shapes/20/radius", "0.3");
+  CHECK(change.parts == SceneParts(ScenePart::kShapes));
+  CHECK(change.spheres == std::vector<uint32_t>{20});
+  CHECK(listed() == before + 1);
+  // Sphere 51 is the next but one: the icosphere between them is a mesh.
+  CHECK(live.Set("/shapes/52/radius", "0.3").spheres == std::vector<uint32_t>{51});
+  // A material of a shape's own: those of the file come first, and one of a split of theirs.
+  change = live.Set("/shapes/50/material/shininess", "30");
+  CHECK(change.parts == SceneParts(ScenePart::kMaterials));
+  CHECK(change.materials == std::vector<uint32_t>{44});
+  change = live.Set("/shapes/82/material", "\"m6\"");
+  CHECK(change.materials.size() == 6);
+  CHECK_THROWS_AS(live.Set("/materials/m9/roughness", "3"), Error);
+  CHECK(live.Set("/materials/m9/roughness", "0.4").parts ==
+        (ScenePart::kMaterials | ScenePart::kTextures));  // all of them, after what was wrong
+  CHECK(live.Set("/materials/m9/roughness", "0.5").materials == std::vector<uint32_t>{9});
+  CHECK(live.Get("/shapes/21/radius") == "0.1");
+  CHECK(live.Get("/shapes/20/radius") == "0.3");
+  CHECK(live.Get("/shapes/104") == std::nullopt);
+  CHECK(listed() < 12);
+  live.ListShapes();
+  CHECK(listed() == 104);
+  CHECK(live.Set("/shapes/52/radius", "0.4").spheres == std::vector<uint32_t>{51});
+  LiveScene other(ManyItems(), "many", kScenes, {});
+  other.Set("/shapes",
+            R"([{"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "m1"}])");
+  CHECK(other.scene().spheres.size() == 1);
+}
+
 TEST_CASE("Pictures of a scene that changes are read once", "[live_scene]") {
   LiveScene live(kScenes / "textures.json", {});
   const auto texels = live.scene().images.front().texels;
-  CHECK(live.Set("/materials/knot/roughness", "0.9") ==
-        (ScenePart::kMaterials | ScenePart::kTextures));
+  CHECK(live.Set("/materials/knot/roughness", "0.9").parts == SceneParts(ScenePart::kMaterials));
   CHECK(live.scene().images.front().texels == texels);
-  CHECK(live.Set("/camera/fov_y_deg", "20") == SceneParts(ScenePart::kCamera));
+  CHECK(live.Set("/camera/fov_y_deg", "20").parts == SceneParts(ScenePart::kCamera));
 }
 
 TEST_CASE("A grid's materials change without its shapes", "[live_scene]") {
   LiveScene live(kScenes / "material_grid.json", {});
-  CHECK_FALSE(live.Set("/shapes/0/material/base_color", "[0, 0, 1]").Has(ScenePart::kShapes));
-  CHECK(live.Set("/shapes/0/radius", "0.3").Has(ScenePart::kShapes));
+  CHECK_FALSE(live.Set("/shapes/0/material/base_color", "[0, 0, 1]").parts.Has(ScenePart::kShapes));
+  CHECK(live.Set("/shapes/0/radius", "0.3").parts.Has(ScenePart::kShapes));
 }
 
 // A folder of scene files that are written while they are watched.

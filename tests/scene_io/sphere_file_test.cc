@@ -241,7 +241,7 @@ TEST_CASE("a file of spheres that has changed is read again with its shapes") {
   LiveScene live(SceneWithFile("a.csv", kAll), "scene.json", folder.path, {});
   REQUIRE(live.scene().spheres.size() == 1);
   folder.Write("a.csv", "1,2,3\n4,5,6\n");
-  CHECK(live.Set("/shapes/0/radius", "3").Has(ScenePart::kShapes));
+  CHECK(live.Set("/shapes/0/radius", "3").parts.Has(ScenePart::kShapes));
   REQUIRE(live.scene().spheres.size() == 2);
   CHECK(Is(live.scene().spheres[1], {4, 5, 6}, 3, 0));
   CHECK(ErrorOf([&] { live.Set("/shapes/0/file", "\"b.csv\""); }).find("there is no file") !=

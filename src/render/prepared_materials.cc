@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/prepared_materials.h"
+
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <variant>
+
+#include "base/overloaded.h"
+#include "brdf/burley.h"
+#include "brdf/phong.h"
+
+namespace nacre {
+namespace {
+
+constexpr double kPrintedGain = 1.005;  // less would be printed as 1.00
+
+uint16_t TraitsOf(const Material& material, const ShadingMaterial& prepared) {
+  uint16_t traits = 0;
+  const auto add = [&](bool has, MaterialTrait trait) {
+    if (has) traits = static_cast<uint16_t>(traits | static_cast<uint16_t>(trait));
+  };
+  const ShadingMaterial* const coat = prepared.coat.get();
+  add(std::holds_alternative<SplitMaterial>(material.model), MaterialTrait::kSplit);
+  add(material.emits_in_front_only, MaterialTrait::kOneSided);
+  add(!IsBlack(material.emission), MaterialTrait::kEmits);
+  add(coat != nullptr, MaterialTrait::kCoated);
+  add(prepared.textured != nullptr || (coat != nullptr && coat->textured != nullptr),
+      MaterialTrait::kTextured);
+  add(HasDoubleTerms(prepared) || (coat != nullptr && HasDoubleTerms(*coat)),
+      MaterialTrait::kDoubleTerms);
+  add(HasDeltaLobe(prepared), MaterialTrait::kMirror);
+  add(coat != nullptr && HasDeltaLobe(*coat), MaterialTrait::kCoatMirror);
+  add(std::holds_alternative<UserModel>(prepared.model), MaterialTrait::kUserModel);
+  add(BurleyGain(prepared) > 1, MaterialTrait::kBurleyGain);
+  add(PhongGain(material) >= kPrintedGain, MaterialTrait::kPhongGain);
+  return traits;
+}
+
+void Prepare(const Scene& scene, const Rgb& ambient, size_t i, PreparedMaterials* to) {
+  to->all[i] = PrepareMaterial(scene.materials[i], ambient);
+  to->traits[i] = TraitsOf(scene.materials[i], to->all[i]);
+  const std::shared_ptr<const ShadingMaterial> coat = to->all[i].coat;
+  MaterialId& id = to->coats[i];
+  if (!coat) {
+    id = {};
+  } else if (id.valid()) {
+    to->all[id.index] = *coat;
+  } else {
+    id = {static_cast<uint32_t>(to->all.size())};
+    to->all.push_back(*coat);
+  }
+}
+
+}  // namespace
+
+PreparedMaterials PrepareMaterials(const Scene& scene, const Rgb& ambient) {
+  PreparedMaterials made;
+  const size_t count = scene.materials.size();
+  made.all.reserve(2 * count + 1);
+  made.all.resize(count + 1);
+  made.black = {static_cast<uint32_t>(count)};
+  made.all[count].model = MatteModel{.diffuse = Rgb(0, 0, 0)};
+  made.coats.resize(count);
+  made.traits.resize(count);
+  std::vector<uint32_t> all(count);
+  std::iota(all.begin(), all.end(), 0u);
+  PrepareMaterials(scene, ambient, all, &made);
+  return made;
+}
+
+void PrepareMaterials(const Scene& scene, const Rgb& ambient, std::span<const uint32_t> changed,
+                      PreparedMaterials* materials) {
+  for (const uint32_t i : changed) Prepare(scene, ambient, i, materials);
+  materials->any = 0;
+  for (const uint16_t traits : materials->traits) {
+    materials->any = static_cast<uint16_t>(materials->any | traits);
+  }
+}
+
+double BurleyGain(const ShadingMaterial& material) {
+  const auto gain = [](const Rgb& diffuse, double roughness) {
+    return LargestChannel(diffuse) * M_PI * BurleyGrazingAlbedo(roughness);
+  };
+  return std::visit(
+      Overloaded{[&](const MatteModel& matte) {
+                   const bool burley = matte.form == DiffuseForm::kBurley;
+                   return burley ? gain(matte.diffuse, matte.roughness) : 0.0;
+                 },
+                 [&](const MicrofacetModel& model) {
+                   // Scaled by what the lobe's albedo leaves, which vanishes at grazing angles, the
+                   // term cannot reflect more than it gets.
+                   const bool burley = model.base_form == DiffuseForm::kBurley &&
+                                       model.coupling == DiffuseCoupling::kNone;
+                   return burley ? gain(model.diffuse, model.base_roughness) : 0.0;
+                 },
+                 [](const PhongFamilyModel&) { return 0.0; }, [](const auto&) { return 0.0; }},
+      material.model);
+}
+
+double PhongGain(const Material& material) {
+  const auto* phong = std::get_if<PhongMaterial>(&material.model);
+  if (phong == nullptr || phong->convention != PhongConvention::kRadiometric) return 0;
+  double lobe = 1;
+  // A map may reduce the exponent to 0, which widens the lobe.
+  const double shininess = phong->shininess_map.valid() ? 0 : phong->shininess;
+  if (phong->model == PhongModel::kPhong) lobe = PhongFurnace(shininess);
+  if (phong->model == PhongModel::kBlinnPhong) lobe = BlinnFurnace(shininess);
+  return LargestChannel(phong->kd * phong->color + phong->ks * lobe);
+}
+
+}  // namespace nacre

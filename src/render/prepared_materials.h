@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// render/prepared_materials.h: what is derived from a scene's materials, from each of them by
+// itself: where one has changed, the others' stays.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "scene/scene.h"
+#include "shading/material.h"
+
+namespace nacre {
+
+// What a plan asks of all materials at once.
+enum class MaterialTrait : uint16_t {
+  kSplit = 1 << 0,
+  kOneSided = 1 << 1,  // emits in front only
+  kEmits = 1 << 2,
+  kCoated = 1 << 3,
+  kTextured = 1 << 4,     // ShadingMaterial::textured, its own or its coat's
+  kDoubleTerms = 1 << 5,  // HasDoubleTerms, itself or its coat
+  kMirror = 1 << 6,
+  kCoatMirror = 1 << 7,
+  kUserModel = 1 << 8,
+  kBurleyGain = 1 << 9,  // BurleyGain above 1
+  kPhongGain = 1 << 10,  // PhongGain that would not be printed as 1.00
+};
+
+inline bool Has(uint16_t traits, MaterialTrait trait) {
+  return (traits & static_cast<uint16_t>(trait)) != 0;
+}
+
+struct PreparedMaterials {
+  std::vector<ShadingMaterial> all;  // one per material of the scene, `black`, and coats
+  MaterialId black;                  // of the back of one-sided emitters
+  std::vector<MaterialId> coats;     // by material of the scene; invalid if it has none
+  std::vector<uint16_t> traits;      // by material of the scene
+  uint16_t any = 0;                  // what any of them has
+};
+
+// `ambient`: the sum of the scene's ambient lights. The scene must outlive what is made.
+PreparedMaterials PrepareMaterials(const Scene& scene, const Rgb& ambient);
+// The same where only these have changed since.
+void PrepareMaterials(const Scene& scene, const Rgb& ambient, std::span<const uint32_t> changed,
+                      PreparedMaterials* materials);
+
+// The share of grazing light that Burley's diffuse term reflects, in the brightest channel; 0 for
+// other models.
+double BurleyGain(const ShadingMaterial& material);
+
+// The largest radiance, in the brightest channel, that a radiometric Phong material reflects in
+// surroundings of radiance 1; else 0. With the classic convention, kd and ks are no reflectances
+// that could exceed 1.
+double PhongGain(const Material& material);
+
+}  // namespace nacre

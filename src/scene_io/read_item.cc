@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_io/read_item.h"
+
+#include <algorithm>
+#include <exception>
+#include <span>
+#include <utility>
+#include <variant>
+
+#include "scene/hash.h"
+#include "scene/material_parameters.h"
+#include "scene/validate.h"
+#include "scene_io/readers.h"
+
+namespace nacre {
+namespace {
+
+// A plain sphere by its run and its number there, or another shape by its number in the tree.
+struct ShapePlace {
+  std::optional<size_t> run;
+  size_t number = 0;
+};
+
+std::optional<ShapePlace> FindShape(size_t place, const SceneTree& tree) {
+  const auto shapes = tree.root.find("shapes");
+  if (shapes == tree.root.end() || !shapes->is_array()) return std::nullopt;
+  size_t plain = 0;  // before the place
+  const std::vector<SphereRun>& runs = tree.spheres.runs;
+  for (size_t i = 0; i < runs.size() && runs[i].first <= place; ++i) {
+    const size_t number = place - runs[i].first;
+    if (number < runs[i].spheres.size()) return ShapePlace{i, number};
+    plain += runs[i].spheres.size();
+  }
+  if (place - plain >= shapes->size()) return std::nullopt;
+  return ShapePlace{std::nullopt, place - plain};
+}
+
+ShapeRead ReadOfSphere(size_t number) { return {{number, 0, 0, 0}, {1, 0, 0, 0}}; }
+
+// The textures that the material's maps name, in the order in which they are read: in it the
+// scene's textures are numbered.
+std::vector<TextureId> TexturesOf(const Material& material) {
+  std::vector<TextureId> ids;
+  const auto add = [&](TextureId id) {
+    if (id.valid()) ids.push_back(id);
+  };
+  const MaterialModel* const model = ModelOf(material);
+  if (model == nullptr) return ids;
+  for (const MaterialMap& map : model->maps) add(map.get(material));
+  for (const MaterialNormalMap& row : model->normal_maps) {
+    add(NormalMapOf(row, material).texture);
+  }
+  add(material.bump_map.texture);
+  return ids;
+}
+
+// Whether nothing but the material itself, and what is made of it, depends on which of the two it
+// is: not the scene's textures, nor what is right for shapes and splits that have it. Materials
+// from `inline_ones` on are a split's own.
+bool AreAlike(const Material& a, const Material& b, size_t inline_ones) {
+  const auto* const split = std::get_if<SplitMaterial>(&a.model);
+  if ((split != nullptr) != std::holds_alternative<SplitMaterial>(b.model)) return false;
+  const bool owns =
+      split != nullptr && std::any_of(split->materials.begin(), split->materials.end(),
+                                      [&](MaterialId id) { return id.index >= inline_ones; });
+  return !owns && CutsHoles(a) == CutsHoles(b) && a.single_sided == b.single_sided &&
+         TexturesOf(a) == TexturesOf(b);
+}
+
+void Truncate(const ShapeCounts& counts, Scene* scene) {
+  scene->spheres.resize(counts.spheres);
+  scene->meshes.resize(counts.meshes);
+  scene->labels.resize(counts.labels);
+  scene->materials.resize(counts.materials);
+}
+
+// Calls read(&context, &faults), which may add to the scene and returns whether all is well. What
+// it has added is taken away again. Nothing else of the scene may have changed if it was not well.
+template <class Read>
+bool TryToRead(const SceneReading& reading, ScenePart part, ReadMembers* members, Scene* scene,
+               const Read& read) {
+  SceneContext context;
+  SceneBudget budget(reading.options->max_primitives.value_or(kDefaultMaxPrimitives));
+  TexelBudget texels(reading.bytes);
+  SetUpContext(reading, &budget, &texels, scene, &context);
+  if (reading.files != nullptr) {
+    context.references.on_file = [&, tell = context.references.on_file](const auto& file) {
+      reading.files->Add(file, part);
+      if (tell) tell(file);
+    };
+  }
+  std::vector<std::string> warnings;
+  if (context.on_warning) {
+    context.on_warning = [&](const std::string& warning) { warnings.push_back(warning); };
+  }
+  std::swap(context.materials, members->names);
+  std::swap(context.textures, members->sources);
+  const ShapeCounts before = CountShapes(*scene);
+  const size_t textures = scene->textures.size(), images = scene->images.size();
+  bool well = false;
+  try {
+    FaultList faults;
+    well = read(&context, &faults) && faults.count() == 0 && scene->textures.size() == textures &&
+           scene->images.size() == images;
+  } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch): reading all will throw it
+  }
+  Truncate(before, scene);
+  scene->textures.resize(textures);
+  scene->images.resize(images);
+  std::swap(context.materials, members->names);
+  std::swap(context.textures, members->sources);
+  members->current = well;
+  if (!well) return false;
+  members->varied.merge(context.varied_materials);
+  for (const std::string& warning : warnings) reading.options->on_warning(warning);
+  return true;
+}
+
+std::vector<uint32_t> Numbers(size_t first, size_t count) {
+  std::vector<uint32_t> numbers(count);
+  for (size_t i = 0; i < count; ++i) numbers[i] = static_cast<uint32_t>(first + i);
+  return numbers;
+}
+
+// What a shape has made at the end of the scene changes places with what it had made before.
+class ShapeSwap {
+ public:
+  ShapeSwap(const ShapeRead& known, Scene* scene)
+      : known_(known), added_(CountShapes(*scene) - known.made), scene_(scene) {}
+
+  // Whether it is as much, and nothing else depends on the difference.
+  bool Fits() const {
+    for (size_t i = 0; i < known_.made.materials; ++i) {
+      const Material& old = scene_->materials[known_.first.materials + i];
+      Material now = scene_->materials[added_.materials + i];
+      MoveIds(&now);
+      // A split's own materials are among them.
+      if (!AreAlike(old, now, known_.first.materials + known_.made.materials)) return false;
+    }
+    for (size_t i = 0; i < known_.made.meshes; ++i) {
+      if (scene_->meshes[known_.first.meshes + i].triangles.size() !=
+          scene_->meshes[added_.meshes + i].triangles.size()) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  // The new ones know their materials by the places that these are going to have.
+  void MoveIds() {
+    Scene& s = *scene_;
+    for (size_t i = added_.spheres; i < s.spheres.size(); ++i) Move(&s.spheres[i].material);
+    for (size_t i = added_.meshes; i < s.meshes.size(); ++i) Move(&s.meshes[i].material);
+    for (size_t i = added_.materials; i < s.materials.size(); ++i) MoveIds(&s.materials[i]);
+  }
+
+  // Whether shapes are what they were: then those stay that others may point to.
+  bool SameShapes() const {
+    const auto& [first, made] = known_;
+    const auto hash = [&](size_t sphere, size_t mesh) {
+      return HashShapes(std::span(scene_->spheres).subspan(sphere, made.spheres),
+                        std::span(scene_->meshes).subspan(mesh, made.meshes));
+    };
+    return hash(first.spheres, first.meshes) == hash(added_.spheres, added_.meshes);
+  }
+
+  void Swap(bool shapes) {
+    const auto swap = [](size_t first, size_t count, size_t added, auto* items) {
+      const auto at = [&](size_t i) { return items->begin() + static_cast<ptrdiff_t>(i); };
+      std::swap_ranges(at(first), at(first + count), at(added));
+    };
+    const auto& [first, made] = known_;
+    if (shapes) {
+      swap(first.spheres, made.spheres, added_.spheres, &scene_->spheres);
+      swap(first.meshes, made.meshes, added_.meshes, &scene_->meshes);
+    }
+    swap(first.labels, made.labels, added_.labels, &scene_->labels);
+    swap(first.materials, made.materials, added_.materials, &scene_->materials);
+  }
+
+  void Validate(FaultList* faults) const {
+    const auto& [first, made] = known_;
+    const Scene& s = *scene_;
+    const std::string place;  // whoever finds faults reads all again
+    for (size_t i = first.materials; i < first.materials + made.materials; ++i) {
+      ValidateMaterial(s, i, faults);
+    }
+    for (size_t i = first.spheres; i < first.spheres + made.spheres; ++i) {
+      ValidateSphere(s.spheres[i], added_.materials, place, faults);
+      ValidateMaterialOfSphere(s, i, faults);
+    }
+    for (size_t i = first.meshes; i < first.meshes + made.meshes; ++i) {
+      ValidateMesh(s.meshes[i], added_.materials, place, faults);
+      ValidateMaterialOfMesh(s, i, faults);
+    }
+  }
+
+ private:
+  void Move(MaterialId* id) const {
+    if (id->index < added_.materials) return;
+    id->index = static_cast<uint32_t>(id->index - added_.materials + known_.first.materials);
+  }
+  void MoveIds(Material* material) const {
+    auto* const split = std::get_if<SplitMaterial>(&material->model);
+    if (split == nullptr) return;
+    for (MaterialId& id : split->materials) Move(&id);
+  }
+
+  const ShapeRead& known_;
+  ShapeCounts added_;  // where the new ones begin
+  Scene* scene_;
+};
+
+}  // namespace
+
+std::optional<Json> ShapeAt(size_t place, const SceneTree& tree) {
+  const std::optional<ShapePlace> found = FindShape(place, tree);
+  if (!found) return std::nullopt;
+  if (!found->run) return tree.root.at("shapes")[found->number];
+  const Sphere& sphere = tree.spheres.runs[*found->run].spheres[found->number];
+  return JsonOf(sphere, tree.spheres.MaterialOf(sphere));
+}
+
+std::optional<size_t> ListShape(size_t place, SceneTree* tree, ReadMembers* members) {
+  const std::optional<ShapePlace> found = FindShape(place, *tree);
+  if (!found) return std::nullopt;
+  if (!found->run) return found->number;
+  std::vector<SphereRun>& runs = tree->spheres.runs;
+  const size_t run = *found->run, number = found->number;
+  const auto at = [](auto& items, size_t i) { return items.begin() + static_cast<ptrdiff_t>(i); };
+  const size_t index = runs[run].in_tree;
+  auto& shapes = tree->root["shapes"].get_ref<Json::array_t&>();
+  shapes.insert(at(shapes, index), *ShapeAt(place, *tree));
+  const size_t sphere = members->runs[run] + number;
+  members->shapes.insert(at(members->shapes, index), ReadOfSphere(sphere));
+  // The run ends before it; what follows is a run of its own.
+  std::vector<Sphere>& spheres = runs[run].spheres;
+  SphereRun rest{place + 1, {at(spheres, number + 1), spheres.end()}, index + 1};
+  spheres.resize(number);
+  for (size_t i = run + 1; i < runs.size(); ++i) ++runs[i].in_tree;
+  if (!rest.spheres.empty()) {
+    runs.insert(at(runs, run + 1), std::move(rest));
+    members->runs.insert(at(members->runs, run + 1), sphere + 1);
+  }
+  if (runs[run].spheres.empty()) {
+    runs.erase(at(runs, run));
+    members->runs.erase(at(members->runs, run));
+  }
+  return index;
+}
+
+void ListShapes(SceneTree* tree, ReadMembers* members) {
+  if (tree->spheres.runs.empty()) return;
+  std::vector<ShapeRead> all;
+  const std::vector<SphereRun>& runs = tree->spheres.runs;
+  size_t run = 0;
+  for (const ShapeRead& read : members->shapes) {
+    all.push_back(read);
+    if (run == runs.size() || runs[run].first != all.size()) continue;
+    const size_t first = members->runs[run];
+    for (size_t i = 0; i < runs[run].spheres.size(); ++i) all.push_back(ReadOfSphere(first + i));
+    ++run;
+  }
+  members->shapes = std::move(all);
+  members->runs.clear();
+  CompleteTree("/shapes", tree);
+}
+
+std::optional<SceneChange> ReadMaterialAlone(const SceneTree& tree, const std::string& name,
+                                             const SceneReading& reading, ReadMembers* members,
+                                             Scene* scene) {
+  const auto found = members->names.find(name);
+  if (!members->current || found == members->names.end()) return std::nullopt;
+  const uint32_t index = found->second.index;
+  if (members->varied.contains(index)) return std::nullopt;
+  const auto& materials = tree.root.at("materials").get_ref<const Json::object_t&>();
+  const Json& json = (materials.begin() + index)->second;  // found by name it would take longer
+  const bool well =
+      TryToRead(reading, ScenePart::kMaterials, members, scene,
+                [&](SceneContext* context, FaultList* faults) {
+                  const JsonPath root{}, all = root.Member("materials");
+                  const ShapeCounts before = CountShapes(*scene);
+                  Material now = ReadNamedMaterial({json, all.Member(name), faults}, name, context);
+                  Material& old = scene->materials[index];
+                  if (faults->count() > 0 || CountShapes(*scene) != before ||
+                      !AreAlike(old, now, context->materials.size())) {
+                    return false;
+                  }
+                  std::swap(old, now);
+                  ValidateMaterial(*scene, index, faults);
+                  if (faults->count() > 0) std::swap(old, now);
+                  return true;
+                });
+  if (!well) return std::nullopt;
+  SceneChange change = ScenePart::kMaterials;
+  change.materials = {index};
+  return change;
+}
+
+std::optional<SceneChange> ReadShapeAlone(const SceneTree& tree, size_t index, size_t place,
+                                          const SceneReading& reading, ReadMembers* members,
+                                          Scene* scene) {
+  const Json& json = tree.root.at("shapes")[index];
+  // Displacement names a texture, too, and makes more of it than a look can tell.
+  if (!members->current || !json.is_object() || json.contains("displacement")) return std::nullopt;
+  const ShapeRead known = members->shapes[index];
+  bool same_shapes = false;
+  const bool well = TryToRead(
+      reading, ScenePart::kShapes, members, scene, [&](SceneContext* context, FaultList* faults) {
+        const JsonPath root{}, all = root.Member("shapes");
+        const ShapeCounts before = CountShapes(*scene);
+        ReadShape({json, all.Element(place), faults}, context);
+        if (faults->count() > 0 || CountShapes(*scene) - before != known.made) return false;
+        ShapeSwap swap(known, scene);
+        if (!swap.Fits()) return false;
+        swap.MoveIds();
+        same_shapes = swap.SameShapes();
+        swap.Swap(!same_shapes);
+        swap.Validate(faults);
+        if (faults->count() > 0) swap.Swap(!same_shapes);
+        return true;
+      });
+  if (!well) return std::nullopt;
+  SceneChange change;
+  const auto& [first, made] = known;
+  if (!same_shapes) change.parts |= ScenePart::kShapes;
+  if (!same_shapes && made.meshes == 0 && made.labels == 0)
+    change.spheres = Numbers(first.spheres, made.spheres);
+  if (made.materials > 0) {
+    change.parts |= ScenePart::kMaterials;
+    change.materials = Numbers(first.materials, made.materials);
+  }
+  return change;
+}
+
+}  // namespace nacre
