@@ -86,7 +86,7 @@ void TriangleBounds(const RTCBoundsFunctionArguments* args) {
 
 // From so many on incoherent rays are faster one by one than in packets, which visit all boxes that
 // any of their rays meets. Measured (waiting_bench packets) with random rays on SSE4, AVX2 and
-// AVX-512: one by one they take .4 to .8 times as long, the less the more shapes there are. With
+// AVX-512: one by one they take .4 to .9 times as long, the less the more shapes there are. With
 // light from all directions on neighbouring pixels and packets of 16: 3000 spheres .7 times, a
 // million triangles .8 times, but some thousand triangles 1.1 times.
 constexpr size_t kLargeSpheres = 64, kLargeTriangles = size_t{1} << 16;
