@@ -34,8 +34,9 @@ namespace limits {
 inline constexpr Range kCoordinate{-1e15, 1e15};
 inline constexpr Range kLength{1e-15, 1e15};
 
-// Radiance, irradiance, radiant intensity: finite in float with room for a sum of many lights.
-inline constexpr Range kRadiance{0, 1e30};
+// Radiance, irradiance, radiant intensity: finite in float with room for a sum of many lights. As
+// float has it, 1e30 is a little more than in double: values that were floats are in the range.
+inline constexpr Range kRadiance{0, 1e30f};
 inline constexpr Range kUnit{0, 1};
 // Indices of refraction: of metals eta may be far below 1, and k reaches 10 or more in the red.
 inline constexpr Range kIor{1, 10};

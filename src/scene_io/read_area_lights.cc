@@ -72,8 +72,7 @@ struct PictureReading {
   bool clamp_negative = false;  // samples below 0 count as 0
 };
 
-// The float nearest to the bound: 1e30 itself, as floats have it, is a little more.
-constexpr float kMostRadiance = static_cast<float>(limits::kRadiance.max);
+constexpr float kMostRadiance = limits::kRadiance.max;
 
 // Whether all samples are as they must be.
 bool AreRadiances(std::span<const float> samples, int threads) {

@@ -211,6 +211,9 @@ void ViewDocument::Set(const std::string& pointer, const Json& value, uint64_t g
 }
 
 void ViewDocument::Remember(Change change, uint64_t gesture) {
+  // They have grown as they were written, to as much as twice their size.
+  change.before.shrink_to_fit();
+  change.after.shrink_to_fit();
   const bool same = gesture != 0 && !past_.empty() && past_.back().gesture == gesture &&
                     past_.back().changes.size() < kMaxChanges;
   if (!same) past_.push_back({gesture, {}});

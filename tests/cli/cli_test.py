@@ -871,7 +871,7 @@ class CliTest(unittest.TestCase):
             result = run('pair', '--layout', 'difference', '--a', 'lambert', '--b', 'burley', '-o',
                          self.out / 'a.png', '--sphere-size', str(size), '--spp', '1')
             self.assertEqual(result.returncode, 0, result.stderr)
-            height = int(re.search(r'\dx(\d+)', run('info', self.out / 'a.png').stdout)[1])
+            height = int(re.search(r'window +\d+x(\d+)', run('info', self.out / 'a.png').stdout)[1])
             strips.append(height - size / 0.88)
         self.assertAlmostEqual(strips[0] - strips[1], 3.6 * 18, delta=2)
 

@@ -112,6 +112,28 @@ TEST_CASE("what is chosen is got, presets set parameters") {
   CHECK(std::get<DielectricMaterial>(diamond.model).ior == 2.417);
 }
 
+TEST_CASE("the ends of ranges are within them as floats, too") {
+  // Numbers come from float arrays and files: 1e30 as float is above, .001 below that in double.
+  const auto check = [](const Range& range) {
+    INFO(Describe(range));
+    CHECK((range.min_open || range.Contains(static_cast<float>(range.min))));
+    CHECK((range.max_open || range.Contains(static_cast<float>(range.max))));
+  };
+  for (const MaterialModel& model : MaterialModels()) {
+    for (const MaterialParameter& parameter : model.parameters) {
+      INFO(model.name << " " << parameter.name);
+      check(parameter.range);
+    }
+  }
+  for (const Range& range :
+       {limits::kCoordinate, limits::kLength, limits::kRadiance, limits::kIor, limits::kEta,
+        limits::kExtinction, limits::kExponent, limits::kAttenuation, limits::kCutoffDeg,
+        limits::kInnerDeg, limits::kSkyTerm, limits::kTextureScale, limits::kAngleDeg,
+        limits::kNormalScale, limits::kFilterWidth, limits::kCreaseAngleDeg}) {
+    check(range);
+  }
+}
+
 TEST_CASE("ranges contain their ends unless they are open, and never NaN") {
   CHECK(limits::kUnit.Contains(0));
   CHECK(limits::kUnit.Contains(1));
