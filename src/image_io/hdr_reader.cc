@@ -58,6 +58,8 @@ class HdrBytes {
     return end_ - next_ >= count ? buffer_.data() + next_ : nullptr;
   }
   void Skip(size_t count) { next_ += count; }
+  // How many have been taken.
+  uint64_t position() const { return read_ - (end_ - next_); }
   std::string Line() {
     constexpr size_t kLongest = 1 << 16;
     std::string line;
@@ -73,6 +75,7 @@ class HdrBytes {
  private:
   size_t ReadInto(size_t first) {
     file_.read(buffer_.data() + first, static_cast<std::streamsize>(buffer_.size() - first));
+    read_ += static_cast<uint64_t>(file_.gcount());
     return static_cast<size_t>(file_.gcount());
   }
   void Fill() {
@@ -85,6 +88,7 @@ class HdrBytes {
   std::ifstream file_;
   std::vector<char> buffer_;
   size_t next_ = 0, end_ = 0;
+  uint64_t read_ = 0;
 };
 
 struct HdrHeader {
@@ -231,7 +235,15 @@ using Row = std::vector<std::array<uint8_t, 4>>;
 
 class RowReader {
  public:
-  RowReader(const std::string& path, HdrBytes* bytes) : path_(path), bytes_(bytes) {}
+  // `pixels`: all that come.
+  RowReader(const std::string& path, HdrBytes* bytes, uint64_t pixels)
+      : path_(path), bytes_(bytes) {
+    // A file of just as many bytes repeats nothing: there, (1, 1, 1, n) is a colour. Coded rows,
+    // which may come to that many, begin with their sign.
+    const bool as_many = std::filesystem::file_size(path) == bytes->position() + 4 * pixels;
+    const char* const first = bytes->Peek(2);
+    repeats_nothing_ = as_many && first != nullptr && !(first[0] == 2 && first[1] == 2);
+  }
 
   void Read(Row* row) {
     if (TakePlain(row)) return;
@@ -253,12 +265,14 @@ class RowReader {
   bool TakePlain(Row* row) {
     const size_t size = 4 * row->size();
     const char* const bytes = bytes_->Peek(size);
-    if (bytes == nullptr || (bytes[0] == 2 && bytes[1] == 2)) return false;
-    bool repeats = false;
-    for (size_t i = 0; i < size; i += 4) {
-      repeats |= bytes[i] == 1 && bytes[i + 1] == 1 && bytes[i + 2] == 1;
+    if (bytes == nullptr) return false;
+    if (!repeats_nothing_) {
+      bool repeats = false;
+      for (size_t i = 0; i < size; i += 4) {
+        repeats |= bytes[i] == 1 && bytes[i + 1] == 1 && bytes[i + 2] == 1;
+      }
+      if (repeats || (bytes[0] == 2 && bytes[1] == 2)) return false;
     }
-    if (repeats) return false;
     std::memcpy(row->data(), bytes, size);
     bytes_->Skip(size);
     return true;
@@ -306,6 +320,7 @@ class RowReader {
 
   const std::string& path_;
   HdrBytes* bytes_;
+  bool repeats_nothing_ = false;
 };
 
 // `size`: of the image when it was opened.
@@ -316,7 +331,7 @@ void ReadPixels(const std::string& path, const Window& size, const Window& regio
   const RowPlacer placer(header.orientation, {0, 0, header.width, header.height}, region, targets);
   CheckUnchanged(path, header.width == size.width() && header.height == size.height());
   const auto width = static_cast<size_t>(placer.stored_width());
-  RowReader reader(path, &bytes);
+  RowReader reader(path, &bytes, static_cast<uint64_t>(header.width) * header.height);
   std::array<double, 256> scales{};  // by exponent
   for (int exponent = 1; exponent < 256; ++exponent) {
     scales[static_cast<size_t>(exponent)] = std::ldexp(1.0, exponent - (128 + 8));

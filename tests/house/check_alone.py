@@ -72,16 +72,22 @@ def fault_of(file, words, build, root):
 
 
 def check(build, root):
-    """All faults, and how many sources and headers were compiled."""
+    """Prints all faults. Returns how many they are, and how many sources and headers were compiled."""
     commands = read_commands(build, root)
     with_a_source = {first_include(source) for source in commands}
     headers = [header for folder in FOLDERS for header in sorted((root / folder).rglob("*.h"))
                if header.relative_to(root / folder).as_posix() not in with_a_source]
     sources = [item for item in commands.items() if not item[0].name.endswith("_kernel.cc")]
     files = [*sources, *((header, flags_for(header, commands)) for header in headers)]
+    faults = []
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        faults = list(filter(None, pool.map(lambda file: fault_of(*file, build, root), files)))
-    return faults, len(sources), len(headers)
+        for done, fault in enumerate(pool.map(lambda file: fault_of(*file, build, root), files), 1):
+            if fault:
+                print(fault, flush=True)
+                faults.append(fault)
+            if done % 50 == 0:
+                print(f"{done} of {len(files)}", flush=True)
+    return len(faults), len(sources), len(headers)
 
 
 def main():
@@ -90,9 +96,7 @@ def main():
     parser.add_argument("root", type=pathlib.Path, help="the root of the repository")
     arguments = parser.parse_args()
     faults, sources, headers = check(arguments.build.resolve(), arguments.root.resolve())
-    for fault in faults:
-        print(fault)
-    print(f"{sources} sources and {headers} headers compiled alone, {len(faults)} faults")
+    print(f"{sources} sources and {headers} headers compiled alone, {faults} faults")
     # Nothing compiled is a fault too: a check that saw nothing has checked nothing.
     return 1 if faults or sources == 0 or headers == 0 else 0
 

@@ -151,6 +151,14 @@ TEST_CASE("the oldest files' repetitions") {
   CHECK(RgbOf(Header(263, 1) + pixel + once + high + "\24\11\12\201") == Expected(pixels));
 }
 
+TEST_CASE("a file as long as its pixels repeats nothing") {
+  Pixels pixels = MakePixels(24);
+  pixels[0] = {1, 1, 1, 200};
+  pixels[5] = pixels[6] = {1, 1, 1, 130};
+  pixels[8] = {2, 2, 0, 129};  // the second row begins as a coded one of another length would
+  CHECK(RgbOf(Header(8, 3) + Flat(pixels)) == Expected(pixels));
+}
+
 TEST_CASE("an exposure is divided out") {
   const Pixels pixels = MakePixels(16);
   std::string header = Header(8, 2);

@@ -9,6 +9,7 @@
 #include "catch.h"
 #include "image_io/png_writer.h"
 #include "messages.h"
+#include "scene/limits.h"
 #include "scene_io/gltf_builder.h"
 #include "scene_io/obj.h"
 
@@ -400,7 +401,7 @@ TEST_CASE("numbers out of range are clamped, with one warning that names the fir
   const auto& blue = std::get<MetallicRoughnessMaterial>(scene.materials.at(1).model);
   CHECK(blue.roughness == 1);
   CHECK(blue.metallic == 0);
-  CHECK(scene.materials.at(2).emission == Rgb(1e30));
+  CHECK(scene.materials.at(2).emission == Rgb(limits::kRadiance.max));
   CHECK(Load(kOneRed, "newmtl red\nKd 0 1 0.5\nNs 1e9\n").warnings.empty());
 }
 
