@@ -104,7 +104,7 @@ PartVersions VersionsOfLights(const FramePlan& plan, const PreparedScene& prepar
 }
 
 std::shared_ptr<const PreparedMaterials> MaterialsOf(const FramePlan& plan, const Rgb& ambient,
-                                                     PreparedScene* prepared) {
+                                                     int threads, PreparedScene* prepared) {
   const Scene& scene = *plan.scene;
   const MaterialsKey key{plan.with_lights ? prepared->shapes_made : 0,
                          VersionsOfLights(plan, *prepared), ambient, scene.materials.data(),
@@ -115,8 +115,11 @@ std::shared_ptr<const PreparedMaterials> MaterialsOf(const FramePlan& plan, cons
   if (kept.IsUpToDate(key)) {
     if (!changed->empty()) PrepareMaterials(scene, ambient, *changed, kept.value.get());
   } else {
-    kept.Get(key,
-             [&] { return std::make_shared<PreparedMaterials>(PrepareMaterials(scene, ambient)); });
+    kept.Get(key, [&] {
+      const auto made = kept.value ? kept.value : std::make_shared<PreparedMaterials>();
+      PrepareMaterials(scene, ambient, threads, made.get());
+      return made;
+    });
   }
   prepared->materials_prepared = prepared->versions.materials();
   return kept.value;
@@ -156,7 +159,8 @@ FramePlan MakePlan(const Scene& given, const RenderSettings& settings, PreparedS
   stop_if_cancelled();
   PlanLayers(scene, settings, &plan.film, why);
   const Rgb ambient = SumAmbient(scene);
-  const std::shared_ptr<const PreparedMaterials> materials = MaterialsOf(plan, ambient, prepared);
+  const std::shared_ptr<const PreparedMaterials> materials =
+      MaterialsOf(plan, ambient, settings.threads, prepared);
   const std::vector<bool>& used = UsedMaterials(plan, *materials, prepared);
   plan.direct = PlanLights(scene, settings, plan.film.layers, plan.with_lights.get(),
                            Has(materials->any, MaterialTrait::kCoated), prepared, why);

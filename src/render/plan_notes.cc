@@ -133,19 +133,16 @@ void NoteDarkness(const NotedMaterials& of, std::vector<std::string>* notes) {
 }
 
 void NotePhongGain(const NotedMaterials& of, std::vector<std::string>* notes) {
-  for (const auto& [model, name] : {std::pair{PhongModel::kPhong, "phong"},
-                                    std::pair{PhongModel::kModifiedPhong, "modified_phong"},
-                                    std::pair{PhongModel::kBlinnPhong, "blinn_phong"}}) {
+  for (const auto& [trait, name] : {std::pair{MaterialTrait::kPhongGain, "phong"},
+                                    std::pair{MaterialTrait::kModifiedPhongGain, "modified_phong"},
+                                    std::pair{MaterialTrait::kBlinnPhongGain, "blinn_phong"}}) {
     double most = 1;
-    const std::string names =
-        NameMaterials(of, MaterialTrait::kPhongGain, [&, m = model](size_t i) {
-          const Material& material = of.scene.materials[i];
-          if (std::get<PhongMaterial>(material.model).model != m) return false;
-          most = std::max(most, PhongGain(material));
-          return true;
-        });
+    const std::string names = NameMaterials(of, trait, [&](size_t i) {
+      most = std::max(most, PhongGain(of.scene.materials[i]));
+      return true;
+    });
     if (names.empty()) continue;
-    const bool modified = model == PhongModel::kModifiedPhong;
+    const bool modified = trait == MaterialTrait::kModifiedPhongGain;
     notes->push_back(fmt::format(
         "{}: {} reflects up to {:.2f} times the light from all around{}; {}kd + ks of 1 at most "
         "keeps energy",

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/prepared_materials.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numeric>
 #include <variant>
 
+#include "base/float_mode.h"
 #include "base/overloaded.h"
+#include "base/parallel.h"
 #include "brdf/burley.h"
 #include "brdf/phong.h"
 
@@ -33,13 +35,21 @@ uint16_t TraitsOf(const Material& material, const ShadingMaterial& prepared) {
   add(coat != nullptr && HasDeltaLobe(*coat), MaterialTrait::kCoatMirror);
   add(std::holds_alternative<UserModel>(prepared.model), MaterialTrait::kUserModel);
   add(BurleyGain(prepared) > 1, MaterialTrait::kBurleyGain);
-  add(PhongGain(material) >= kPrintedGain, MaterialTrait::kPhongGain);
+  if (PhongGain(material) >= kPrintedGain) {
+    const PhongModel model = std::get<PhongMaterial>(material.model).model;
+    add(model == PhongModel::kPhong, MaterialTrait::kPhongGain);
+    add(model == PhongModel::kModifiedPhong, MaterialTrait::kModifiedPhongGain);
+    add(model == PhongModel::kBlinnPhong, MaterialTrait::kBlinnPhongGain);
+  }
   return traits;
 }
 
 void Prepare(const Scene& scene, const Rgb& ambient, size_t i, PreparedMaterials* to) {
   to->all[i] = PrepareMaterial(scene.materials[i], ambient);
   to->traits[i] = TraitsOf(scene.materials[i], to->all[i]);
+}
+
+void PlaceCoat(size_t i, PreparedMaterials* to) {
   const std::shared_ptr<const ShadingMaterial> coat = to->all[i].coat;
   MaterialId& id = to->coats[i];
   if (!coat) {
@@ -52,30 +62,41 @@ void Prepare(const Scene& scene, const Rgb& ambient, size_t i, PreparedMaterials
   }
 }
 
-}  // namespace
-
-PreparedMaterials PrepareMaterials(const Scene& scene, const Rgb& ambient) {
-  PreparedMaterials made;
-  const size_t count = scene.materials.size();
-  made.all.reserve(2 * count + 1);
-  made.all.resize(count + 1);
-  made.black = {static_cast<uint32_t>(count)};
-  made.all[count].model = MatteModel{.diffuse = Rgb(0, 0, 0)};
-  made.coats.resize(count);
-  made.traits.resize(count);
-  std::vector<uint32_t> all(count);
-  std::iota(all.begin(), all.end(), 0u);
-  PrepareMaterials(scene, ambient, all, &made);
-  return made;
-}
-
-void PrepareMaterials(const Scene& scene, const Rgb& ambient, std::span<const uint32_t> changed,
-                      PreparedMaterials* materials) {
-  for (const uint32_t i : changed) Prepare(scene, ambient, i, materials);
+void CollectTraits(PreparedMaterials* materials) {
   materials->any = 0;
   for (const uint16_t traits : materials->traits) {
     materials->any = static_cast<uint16_t>(materials->any | traits);
   }
+}
+
+}  // namespace
+
+void PrepareMaterials(const Scene& scene, const Rgb& ambient, int threads,
+                      PreparedMaterials* materials) {
+  const size_t count = scene.materials.size();
+  materials->all.resize(count + 1);
+  materials->black = {static_cast<uint32_t>(count)};
+  materials->all[count] = {};
+  materials->all[count].model = MatteModel{.diffuse = Rgb(0, 0, 0)};
+  materials->coats.assign(count, {});
+  materials->traits.resize(count);
+  constexpr size_t kPiece = 256;
+  ParallelFor((count + kPiece - 1) / kPiece, threads, [&](size_t piece) {
+    const DefaultFloatMode mode;  // colours may be denormal
+    const size_t end = std::min(count, (piece + 1) * kPiece);
+    for (size_t i = piece * kPiece; i < end; ++i) Prepare(scene, ambient, i, materials);
+  });
+  for (size_t i = 0; i < count; ++i) PlaceCoat(i, materials);
+  CollectTraits(materials);
+}
+
+void PrepareMaterials(const Scene& scene, const Rgb& ambient, std::span<const uint32_t> changed,
+                      PreparedMaterials* materials) {
+  for (const uint32_t i : changed) {
+    Prepare(scene, ambient, i, materials);
+    PlaceCoat(i, materials);
+  }
+  CollectTraits(materials);
 }
 
 double BurleyGain(const ShadingMaterial& material) {

@@ -24,7 +24,10 @@ enum class MaterialTrait : uint16_t {
   kCoatMirror = 1 << 7,
   kUserModel = 1 << 8,
   kBurleyGain = 1 << 9,  // BurleyGain above 1
-  kPhongGain = 1 << 10,  // PhongGain that would not be printed as 1.00
+  // PhongGain that would not be printed as 1.00, by model
+  kPhongGain = 1 << 10,
+  kModifiedPhongGain = 1 << 11,
+  kBlinnPhongGain = 1 << 12,
 };
 
 inline bool Has(uint16_t traits, MaterialTrait trait) {
@@ -39,8 +42,10 @@ struct PreparedMaterials {
   uint16_t any = 0;                  // what any of them has
 };
 
-// `ambient`: the sum of the scene's ambient lights. The scene must outlive what is made.
-PreparedMaterials PrepareMaterials(const Scene& scene, const Rgb& ambient);
+// `ambient`: the sum of the scene's ambient lights. The scene must outlive what is made. What
+// `materials` was is lost, its memory used again.
+void PrepareMaterials(const Scene& scene, const Rgb& ambient, int threads,
+                      PreparedMaterials* materials);
 // The same where only these have changed since.
 void PrepareMaterials(const Scene& scene, const Rgb& ambient, std::span<const uint32_t> changed,
                       PreparedMaterials* materials);

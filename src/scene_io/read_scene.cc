@@ -263,7 +263,9 @@ std::optional<ReadMembers> ReadScene(const SceneTree& tree, SceneParts parts,
     return std::nullopt;
   }
   // Last: generators may vary what a material leaves idle.
-  for (Material& material : scene->materials) RemoveIdleLayers(*scene, &material);
+  if (parts.Has(ScenePart::kMaterials) || parts.Has(ScenePart::kShapes)) {
+    for (Material& material : scene->materials) RemoveIdleLayers(*scene, &material);
+  }
   AddValidation(*scene, parts, faults);
   return read;
 }
