@@ -14,6 +14,9 @@
 //   packets TARGET COUNT     such rays in packets and one by one, on a SIMD target, by the number
 //   of
 //                            spheres and triangles: the table that src/embree/box_trees.cc is from
+//   clouds SPHERES SAMPLES COUNT
+//       a frame of a cloud of spheres by tiles and by a tree, by how many of them a ray passes on
+//       average: the table that src/render/camera_cost.cc is from
 //   spng FILE COUNT          decodes a PNG file by libspng alone
 //   jpeg IN OUT              writes a picture as JPEG
 //   brdf PAIRS COUNT         evaluates a model at pairs of directions, by the float kernels
@@ -42,6 +45,9 @@
 #include "hit/batch.h"
 #define NACRE_OWN_SOURCE  // the renderer's own types are here as well
 #include "nacre.h"
+#include "render/camera.h"
+#include "render/camera_cost.h"
+#include "render/render.h"
 #include "scene/scene.h"
 #include "visibility/intersector.h"
 
@@ -395,6 +401,71 @@ void TraceRays(int spheres, int count) {
   PrintList("embree_occluded1_ns", occluded1, "}\n");
 }
 
+// ---- Clouds -------------------------------------------------------------------------------------
+
+double MedianOf(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Spheres all over a cube that fills the picture: a ray passes `depth` of them on average.
+nacre::Scene MakeCloud(int count, double depth, int samples) {
+  std::minstd_rand random(1);
+  nacre::Scene scene = MakeSpheres(count, &random);
+  for (nacre::Sphere& sphere : scene.spheres) sphere.radius *= std::sqrt(2 * depth);
+  scene.camera.position = {0, 0, 8};
+  scene.camera.look_at = {0, 0, 0};
+  scene.camera.fov_y_deg = 12;
+  scene.image.width = 1280;
+  scene.image.height = 720;
+  scene.image.spp = samples;
+  return scene;
+}
+
+// On one thread, in turn, in milliseconds: the plan of a new view (bins, or nothing new), and what
+// camera rays take in a frame; once, the tree. Then what TreeSaves says of it all.
+void CompareClouds(int spheres, int samples, int count) {
+  std::printf(
+      " spheres   depth  tiles: view  rays   tree: built  view  rays  saves, says the model\n");
+  for (const double depth : {0.1, 1.0, 4.0, 16.0, 64.0, 256.0}) {
+    const nacre::Scene scene = MakeCloud(spheres, depth, samples);
+    std::array<std::vector<double>, 2> view, rays;
+    std::array<nacre::PreparedScene, 2> prepared;
+    double built = 0;
+    for (int turn = 0; turn <= count; ++turn) {
+      for (size_t i = 0; i < 2; ++i) {
+        nacre::RenderSettings settings;
+        settings.threads = 1;
+        settings.time_stages = true;
+        settings.intersector =
+            i == 0 ? nacre::IntersectorChoice::kTiles : nacre::IntersectorChoice::kEmbree;
+        prepared[i].versions.Change(nacre::ScenePart::kCamera);
+        nacre::FramePlan plan;
+        const double planned =
+            1e3 * Time(1, [&] { plan = nacre::MakePlan(scene, settings, &prepared[i]); })[0];
+        nacre::RenderStats stats;
+        nacre::RenderImage(plan, settings, &stats);
+        if (turn == 0) {
+          built = planned;
+        } else {
+          view[i].push_back(planned);
+          rays[i].push_back(1e3 * stats.seconds(nacre::Stage::kIntersect));
+        }
+      }
+    }
+    const nacre::CameraWork work = nacre::EstimateCameraWork(
+        scene, nacre::MakeCameraFrame(scene.camera, scene.image.width, scene.image.height),
+        {0, 0, scene.image.width, scene.image.height});
+    const double tiles = MedianOf(view[0]) + MedianOf(rays[0]);
+    const double tree = MedianOf(view[1]) + MedianOf(rays[1]);
+    std::printf("%8d %7.1f %12.1f %5.0f %13.0f %5.1f %5.0f %6.0f %15.0f\n", spheres, depth,
+                MedianOf(view[0]), MedianOf(rays[0]), built, MedianOf(view[1]), MedianOf(rays[1]),
+                tiles - tree, nacre::TreeSaves(work) / 1e6);
+    std::fflush(stdout);
+  }
+}
+
 // ---- Images -------------------------------------------------------------------------------------
 
 void DecodePng(const char* path, int count) {
@@ -458,6 +529,8 @@ bool Run(int argc, char** argv) {
     TraceRays(std::atoi(argv[2]), std::atoi(argv[3]));
   } else if (what == "packets" && argc == 4) {
     ComparePackets(argv[2], std::atoi(argv[3]));
+  } else if (what == "clouds" && argc == 5) {
+    CompareClouds(std::atoi(argv[2]), std::atoi(argv[3]), std::atoi(argv[4]));
   } else if (what == "spng" && argc == 4) {
     DecodePng(argv[2], std::atoi(argv[3]));
   } else if (what == "jpeg" && argc == 4) {

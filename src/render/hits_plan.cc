@@ -8,8 +8,10 @@
 
 #include "base/parallel.h"
 #include "base/target.h"
+#include "render/camera_cost.h"
 #include "render/mesh_windows.h"
 #include "scene/primitives.h"
+#include "visibility/box_trees.h"
 #include "visibility/sphere_bins.h"
 
 namespace nacre {
@@ -120,7 +122,7 @@ HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Wind
   plan.intersector = FindIntersector(scene, settings, prepared);
   const bool nested = plan.intersector->SpheresAreNested();
   const char* const tree_asked_for = TreeAskedFor(settings.intersector);
-  const bool want_tiles = tree_asked_for == nullptr && !scene.spheres.empty() && !nested;
+  const bool may_tile = tree_asked_for == nullptr && !scene.spheres.empty() && !nested;
   report(0.15);
   const double sample_margin = std::max(scene.image.filter.width / 2 - 0.5, 0.0);
   const bool adaptive = settings.max_error > 0;
@@ -130,15 +132,29 @@ HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Wind
   // Adaptive sampling reads footprints and outlines from the bins even if a tree traces the rays,
   // because bits must not depend on the intersector. It bins the whole frame, because they must not
   // depend on the region either, whose bins may fit into memory where the frame's do not.
+  // Adaptive sampling reads footprints and outlines from the bins even if a tree traces the rays,
+  // because bits must not depend on the intersector. It bins the whole frame, because they must not
+  // depend on the region either, whose bins may fit into memory where the frame's do not.
+  const Window binned =
+      adaptive ? ExtendToCells({0, 0, scene.image.width, scene.image.height}) : window;
+  const bool centers = sampler.centered && !adaptive;
+  const double margin = centers ? kPixelCenterMargin : sample_margin;
+  const ViewKey bins =
+      view(prepared->intersectors_made,
+           {static_cast<double>(binned.x0), static_cast<double>(binned.y0),
+            static_cast<double>(binned.x1), static_cast<double>(binned.y1), margin});
+  CameraWork work;
+  bool tree_pays_off = false;
+  if (may_tile && !adaptive && settings.intersector == IntersectorChoice::kAuto &&
+      EmbreeVersion() != nullptr) {
+    work = EstimateCameraWork(scene, camera, window);
+    work.to_bin = !prepared->camera_bins.IsUpToDate(bins);
+    double& lost =
+        prepared->lost_to_tiles.Get({prepared->intersectors_made, {}, {}}, [] { return 0.0; });
+    tree_pays_off = TreePaysOff(work, plan.intersector->HasTree(), &lost);
+  }
+  const bool want_tiles = may_tile && !tree_pays_off;
   if (want_tiles || adaptive) {
-    const Window binned =
-        adaptive ? ExtendToCells({0, 0, scene.image.width, scene.image.height}) : window;
-    const bool centers = sampler.centered && !adaptive;
-    const double margin = centers ? kPixelCenterMargin : sample_margin;
-    const ViewKey bins =
-        view(prepared->intersectors_made,
-             {static_cast<double>(binned.x0), static_cast<double>(binned.y0),
-              static_cast<double>(binned.x1), static_cast<double>(binned.y1), margin});
     plan.binned = prepared->camera_bins.Get(
         bins, [&] { return plan.intersector->BinForCamera(camera, binned, margin); });
     plan.trace_by_bins = want_tiles && plan.binned;
@@ -146,7 +162,10 @@ HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Wind
   why->items.push_back(
       {"intersector tiles, for camera rays", plan.trace_by_bins,
        plan.trace_by_bins ? "spheres binned to 16x16 pixels need no tree: " + DescribeShapes(scene)
-       : want_tiles       ? fmt::format("the bins would not fit {} MiB", kMaxCameraBinBytes >> 20)
+       : tree_pays_off
+           ? fmt::format("a ray passes about {:.3g} spheres: in such a cloud a tree is faster",
+                         work.depth)
+       : want_tiles ? fmt::format("the bins would not fit {} MiB", kMaxCameraBinBytes >> 20)
        : scene.spheres.empty() ? "there are no spheres"
        : nested                ? kNestedSpheres
                                : tree_asked_for});

@@ -68,6 +68,8 @@ bool Intersector::MoveTo(const Scene& scene, const Vec3d& camera_position) {
 
 bool Intersector::SpheresAreNested() const { return state_->nested; }
 
+bool Intersector::HasTree() const { return state_->tree; }
+
 bool Intersector::HasShells() const { return state_->HasShells(); }
 
 void Intersector::BuildTriangleTree(CancelPointer cancel) {

@@ -75,6 +75,9 @@ class Intersector {
   // for the spheres and of boxes for the triangles. Throws Cancelled; then there is no new tree.
   void BuildTree(CancelPointer cancel = nullptr);
 
+  // Whether BuildTree has made it.
+  bool HasTree() const;
+
   // Whether the spheres are in shells: once BuildTree is called.
   bool HasShells() const;
 
