@@ -72,7 +72,7 @@ def fault_of(file, words, build, root):
 
 
 def check(build, root):
-    """Prints all faults. Returns how many they are, and how many sources and headers were compiled."""
+    """Prints all faults. Returns them, and how many sources and headers were compiled."""
     commands = read_commands(build, root)
     with_a_source = {first_include(source) for source in commands}
     headers = [header for folder in FOLDERS for header in sorted((root / folder).rglob("*.h"))
@@ -87,7 +87,7 @@ def check(build, root):
                 faults.append(fault)
             if done % 50 == 0:
                 print(f"{done} of {len(files)}", flush=True)
-    return len(faults), len(sources), len(headers)
+    return faults, len(sources), len(headers)
 
 
 def main():
@@ -96,7 +96,7 @@ def main():
     parser.add_argument("root", type=pathlib.Path, help="the root of the repository")
     arguments = parser.parse_args()
     faults, sources, headers = check(arguments.build.resolve(), arguments.root.resolve())
-    print(f"{sources} sources and {headers} headers compiled alone, {faults} faults")
+    print(f"{sources} sources and {headers} headers compiled alone, {len(faults)} faults")
     # Nothing compiled is a fault too: a check that saw nothing has checked nothing.
     return 1 if faults or sources == 0 or headers == 0 else 0
 
