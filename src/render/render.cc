@@ -207,13 +207,18 @@ void FitImage(const FramePlan& plan, const RenderSettings& settings, Image* imag
   image->data = plan.window;
   const std::vector<ChannelSpec> specs = StripChannels(plan.film.layers, PixelType::kFloat);
   image->channels.resize(specs.size());
-  ParallelFor(specs.size(), settings.threads, [&](size_t i) {
-    ThrowIfCancelled(settings.cancel);
-    Channel& channel = image->channels[i];
-    channel.name = specs[i].name;
-    channel.type = specs[i].type;
-    channel.samples.resize(plan.window.pixel_count());
-  });
+  try {
+    ParallelFor(specs.size(), settings.threads, [&](size_t i) {
+      ThrowIfCancelled(settings.cancel);
+      Channel& channel = image->channels[i];
+      channel.name = specs[i].name;
+      channel.type = specs[i].type;
+      channel.samples.resize(plan.window.pixel_count());
+    });
+  } catch (...) {  // cancelled, or no memory for it
+    image->channels.clear();
+    throw;
+  }
 }
 
 RenderStats RenderInto(const FramePlan& plan, const RenderSettings& settings, Image* image) {

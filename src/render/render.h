@@ -37,8 +37,8 @@ RenderStats RenderPass(const FramePlan& plan, const RenderSettings& settings, in
                        FrameFilm* film, Image* image);
 
 // Gives the image the plan's channels, all as float, and the size of its window. What it holds is
-// not cleared if it had them. Throws Cancelled if the settings say so: to clear a large one takes
-// longer than a cancelled render may.
+// not cleared if it had them. Throws Cancelled if the settings say so, and leaves no channels: to
+// clear a large one takes longer than a cancelled render may.
 void FitImage(const FramePlan& plan, const RenderSettings& settings, Image* image);
 
 // Renders the whole window into an image, which is made to fit: each pixel is written once, to

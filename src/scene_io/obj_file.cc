@@ -28,7 +28,6 @@ namespace nacre {
 namespace {
 
 constexpr uint64_t kMaxObjBytes = uint64_t{4} << 30;
-constexpr size_t kMaxObjCorners = 65535;
 
 // Statements that say nothing about what is shown here.
 constexpr std::array<std::string_view, 14> kIgnored = {
@@ -325,8 +324,8 @@ class PieceReader {
     const size_t first = piece_.corners.size();
     for (std::string_view word = NextWord(&line); !word.empty() && !word.starts_with('#');
          word = NextWord(&line)) {
-      if (piece_.corners.size() - first == kMaxObjCorners) {
-        Refuse(fmt::format("a face has more than {} corners", kMaxObjCorners),
+      if (piece_.corners.size() - first == kMaxCorners) {
+        Refuse(fmt::format("a face has more than {} corners", kMaxCorners),
                "cut it into triangles before");
       }
       const uint32_t position = PositionAt(NextIndex(&word));
@@ -495,6 +494,7 @@ ObjFile ReadObjFile(const std::filesystem::path& path, int threads,
   ObjFile obj;
   ReadPieces(file, budget + 1, threads, &pieces, &obj);
   PieceJoiner(file, warn, budget, &obj).Join(std::move(pieces));
+  CheckCuts(obj.corner_counts, file);
   return obj;
 }
 

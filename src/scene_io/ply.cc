@@ -204,7 +204,6 @@ class PlyReader {
     if (indices == PlyElement::kNone) Refuse("its faces have no list \"vertex_indices\"");
     data_.has_face_colors = FindFirst(element, kColorNames)[0] != PlyElement::kNone;
     data_.has_face_uvs = element.Find("texcoord") != PlyElement::kNone;
-    constexpr size_t kMaxCorners = 65535;
     for (uint64_t i = 0; i < element.count; ++i) {
       for (size_t k = 0; k < element.properties.size(); ++k) {
         const PlyProperty& property = element.properties[k];
@@ -270,6 +269,7 @@ class PlyReader {
     std::vector<Vec3d> corners;
     std::vector<uint32_t> local;
     const uint32_t* face = corners_.data();
+    CheckCuts(corner_counts_, file_);
     for (const uint16_t count : corner_counts_) {
       corners.clear();
       local.clear();

@@ -3,8 +3,10 @@
 // few bytes can ask for a hundred million spheres, and for them again and again.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include <fmt/format.h>
@@ -23,6 +25,22 @@ inline uint64_t TrianglesOfBytes(uint64_t bytes) { return 1'000'000 + bytes / 4;
 // Upper bound on the materials of a model file. A name of a few bytes makes one, which takes a
 // kilobyte or two.
 inline constexpr size_t kMaxModelMaterials = size_t{1} << 16;
+
+// Upper bounds on the corners of a face, and on what it takes to cut those of more than 255, which
+// is n^2 steps of nanoseconds: a few seconds a file. Throws Error (kBadInput).
+inline constexpr size_t kMaxCorners = 32767;
+inline void CheckCuts(std::span<const uint16_t> corner_counts, const std::string& file) {
+  constexpr double kMaxSteps = 1 << 30;
+  double steps = 0;
+  for (const uint16_t count : corner_counts) {
+    if (count > 255) steps += static_cast<double>(count) * count;
+  }
+  if (steps <= kMaxSteps) return;
+  throw Error(ExitCode::kBadInput, file,
+              fmt::format("its faces of up to {} corners take too long to cut into triangles",
+                          *std::ranges::max_element(corner_counts)),
+              "let the program that made it cut them");
+}
 
 class SceneBudget {
  public:

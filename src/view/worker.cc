@@ -311,6 +311,10 @@ void Worker::Serve(const Request& request) {
   } catch (...) {
     sinks_.say(request.client, CaughtFault(""));
   }
+  // A change may have ended this one; the next is another.
+  const std::lock_guard lock(mutex_);
+  refining_ = false;
+  cancel_ = stop_;
 }
 
 void Worker::Answer(const Request& request) {
@@ -455,9 +459,15 @@ void Worker::Explain(ClientId client, const ExplainRequest& request) {
   const auto pixel_with = [&](size_t index, const Material& other) {
     const Material own = document_->scene().materials[index];
     document_->UseMaterial(index, other);
-    Image of_other = render();
-    document_->UseMaterial(index, own);
-    return of_other;
+    const auto put_back = [&] { document_->UseMaterial(index, own); };
+    try {
+      Image of_other = render();
+      put_back();
+      return of_other;
+    } catch (...) {
+      put_back();
+      throw;
+    }
   };
   Json json = ExplainPixel(document_->scene(), pixel, pixel_with);
   json["x"] = request.x;
@@ -651,20 +661,20 @@ int Worker::FitDivisor() const {
 void Worker::Plan(int divisor, bool moving) {
   plan_.reset();
   ImageSettings image = FullImage();
-  if (moving) image.spp = 1;  // which takes the ways of pictures that have no more
+  if (moving) image.spp = 1;  // one sample a pixel has fast paths of its own
   image.width = DividedBy(image.width, divisor);
   image.height = DividedBy(image.height, divisor);
   document_->UseImage(image);
   plan_.emplace(MakePlan(document_->scene(), Settings(), document_->prepared()));
   film_ = {};
-  FitImage(*plan_, Settings(), &image_);
 }
 
 void Worker::RenderMoving() {
   const auto start = Clock::now();
   const int divisor = std::max(divisor_, FitDivisor());
   Plan(divisor, true);
-  RenderInto(*plan_, Settings(), &image_);
+  RenderInto(*plan_, Settings(), &next_);
+  std::swap(image_, next_);
   plan_.reset();  // refined pictures have more samples
   moved_ = false;
   render_ms_ = MsSince(start);
@@ -703,7 +713,8 @@ void Worker::Refine() {
     settings.max_samples = options_.samples > 0 ? options_.samples : settings.max_samples;
     plan_.reset();
     FramePlan plan = MakePlan(document_->scene(), settings, document_->prepared());
-    RenderInto(plan, settings, &image_);
+    RenderInto(plan, settings, &next_);
+    std::swap(image_, next_);
     plan_.emplace(std::move(plan));
     render_ms_ = MsSince(start);
     done_ = true;
@@ -714,7 +725,9 @@ void Worker::Refine() {
   double last_shown = film_.samples == 0 ? -kRefinedEveryMs : 0;
   do {
     const int end = std::min(std::max(1, 2 * film_.samples), spp);
-    RenderPass(*plan_, settings, end, &film_, &image_);
+    FitImage(*plan_, settings, &next_);
+    RenderPass(*plan_, settings, end, &film_, &next_);
+    std::swap(image_, next_);
     // Pictures follow one another no faster than pages can show them beside the rendering.
     if (film_.samples < spp && MsSince(start) - last_shown < kRefinedEveryMs) continue;
     last_shown = MsSince(start);

@@ -128,7 +128,8 @@ class Worker {
   bool moved_ = true;
   std::optional<FramePlan> plan_;
   FrameFilm film_;
-  Image image_;
+  Image image_;  // the last that was finished, which is what pages see
+  Image next_;   // being rendered, which may end half-way
   bool done_ = false;
   std::map<ClientId, KeptPicture> kept_;
   double render_ms_ = 0;

@@ -95,6 +95,7 @@ TEST_CASE("no image is cleared for a render that was cancelled") {
   settings.cancel = &cancel;
   Image image;
   CHECK_THROWS_AS(FitImage(plan, settings, &image), Cancelled);
+  CHECK(image.channels.empty());  // and none is half as large as the image says
   FitImage(plan, {}, &image);
   CHECK(image.channels.size() == 4);
 }

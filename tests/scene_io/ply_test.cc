@@ -291,6 +291,11 @@ TEST_CASE("faces of fewer than three corners are left out, those of many are cut
     face += fmt::format(" {}", i);
   }
   CHECK(LoadPly(disc + face + "\n").meshes.at(0).triangles.size() == 3 * 298);
+  const std::string five = disc.replace(disc.find("face 1"), 6, "face 5");
+  std::string large = "16384";
+  for (int i = 0; i < 16'384; ++i) large += fmt::format(" {}", i % 300);
+  large += "\n";
+  CHECK(Refused(five + large + large + large + large + large, "up to 16384 corners"));
 }
 
 TEST_CASE("spoilt PLY files never do worse than be refused") {

@@ -14,6 +14,7 @@ import socket
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 import urllib.parse
@@ -346,6 +347,37 @@ class AttackTest(unittest.TestCase):
         page.until(lambda m: m.get('serial') == 4711)
         page.send({'history': 'reset'})
         page.close()
+
+    def test_looks_while_pictures_grow(self):
+        """What is shown is whole, though the next picture, a larger one, is given up as it begins."""
+        rng = random.Random(7)
+        with Server(PROGRAM, SCENE, '--size', '320x180', '--spp', '64', '--quiet') as server:
+            page, moved = server.upgrade(), threading.Event()
+
+            def take_all():
+                while True:
+                    try:
+                        message = page.message()
+                    except OSError:
+                        return
+                    if message.get('kind') == 1:
+                        page.send('taken')
+                        if message['moving']:
+                            moved.set()
+
+            reader = threading.Thread(target=take_all)
+            reader.start()
+            for height in range(300, 2160, 47):
+                moved.clear()
+                page.send({'set': '/image', 'value': {'width': height * 16 // 9, 'height': height, 'spp': 64}})
+                self.assertTrue(moved.wait(10))
+                time.sleep(rng.uniform(0.08, 0.12))  # it is refined 90 ms after a change
+                for i in range(6):
+                    page.send({'look': 'neutral', 'exposure': i / 100})
+                    time.sleep(0.004)
+                time.sleep(0.1)
+            page.close()
+            reader.join()
 
     def test_a_page_that_takes_nothing(self):
         """Pictures do not pile up for it, and do not wait for it."""
