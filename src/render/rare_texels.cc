@@ -158,7 +158,7 @@ class TexelFinder {
   template <class At>
   void Search(int x, int y, const MappedPixel& pixel, const At& at, const TexelGrid& grid,
               const TexelExtremes* extremes, const std::vector<TexelMeasure>& measures) {
-    const double w = grid.width, h = grid.height;
+    const double w = grid.texels.width, h = grid.texels.height;
     clusters_.clear();
     FindTexelClusters(grid, extremes,
                       {pixel.uv.x * w, pixel.uv.y * h, pixel.dx.x * w, pixel.dx.y * h,

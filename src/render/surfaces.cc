@@ -241,7 +241,7 @@ void PlanTextures(const Scene& scene, const RenderSettings& settings, const Came
   const double footprint = std::max(1 / std::sqrt(samples), 0.125);
   plan->textures = PrepareTextures(scene, camera, footprint, settings.threads, tables);
   size_t bytes = 0;
-  for (const SceneImage& image : scene.images) bytes += image.texels->values.size() * sizeof(float);
+  for (const SceneImage& image : scene.images) bytes += image.texels->ImageBytes();
   why->items.push_back(
       {"textures", true,
        scene.images.empty()
@@ -249,7 +249,7 @@ void PlanTextures(const Scene& scene, const RenderSettings& settings, const Came
                          "ambient light and emission are found hit by hit",
                          count)
            : fmt::format("maps on {} materials, those with coats or layers in ambient light "
-                         "included: {} images, {:.1f} MiB with their mip levels; a sample's "
+                         "included: {} images, {:.1f} MiB before their mip levels; a sample's "
                          "footprint is {:g} pixels wide",
                          count, scene.images.size(), static_cast<double>(bytes) / (1 << 20),
                          footprint)});

@@ -32,7 +32,7 @@ void AddMeasures(const MapTarget& target, const Material& material, double max_e
 void AddMap(const Scene& scene, TextureId texture, std::vector<TexelMeasure> measures,
             std::vector<TexelMap>* maps) {
   // Channels beyond the image's repeat its last one.
-  const int channels = GridOf(scene, texture, 0).channels;
+  const int channels = GridOf(scene, texture, 0).texels.channels;
   std::vector<TexelMeasure> kept;
   for (TexelMeasure& measure : measures) {
     measure.channel = std::min(measure.channel, channels - 1);
@@ -70,7 +70,9 @@ void AddSky(const DirectPlan& direct, double max_error, TexelMaps* maps) {
   const SampledLight& sky = direct.sampled_lights[*direct.sky].light;
   if (sky.form != SampledForm::kPictureSky) return;
   const EnvironmentMap& map = *sky.sky.picture;
-  maps->sky = {&map.texels[0].x, 3, map.width, map.height, Wrap::kRepeat, Wrap::kClamp};
+  maps->sky = {{TexelKind::kFloats, &map.texels[0].x, nullptr, 3, map.width, map.height},
+               Wrap::kRepeat,
+               Wrap::kClamp};
   maps->sky_extremes = std::make_unique<const TexelExtremes>(maps->sky);
   for (int channel = 0; channel < 3; ++channel) {
     maps->sky_measures.push_back({TexelMeasure::Kind::kValue, channel, 0, max_error / 2});
@@ -81,13 +83,7 @@ void AddSky(const DirectPlan& direct, double max_error, TexelMaps* maps) {
 
 TexelGrid GridOf(const Scene& scene, TextureId texture, size_t mip_level) {
   const Texture& of = scene.textures[texture.index];
-  const MipChain& image = *scene.images[of.image.index].texels;
-  const MipLevel& level = image.levels[mip_level];
-  return {image.values.data() + level.first,
-          image.channels,
-          level.width,
-          level.height,
-          of.sampling.wrap_u,
+  return {scene.images[of.image.index].texels->Level(mip_level), of.sampling.wrap_u,
           of.sampling.wrap_v};
 }
 

@@ -33,14 +33,6 @@ double LeastDistance(const Scene& scene, const std::vector<Imath::Box3d>& meshes
   return least;
 }
 
-// The largest value of an image. Its other mip levels are means, and so no larger.
-double LargestTexel(const MipChain& image) {
-  const MipLevel& level = image.levels[0];
-  const auto count = static_cast<std::ptrdiff_t>(level.width) * level.height * image.channels;
-  const auto first = image.values.begin() + level.first;
-  return *std::max_element(first, first + count);
-}
-
 }  // namespace
 
 bool IsClassic(const Material& material) {
@@ -49,15 +41,13 @@ bool IsClassic(const Material& material) {
 }
 
 double LargestEmission(const Scene& scene) {
-  std::vector<double> texels(scene.images.size(),
-                             -1);  // the largest of each image; -1: not computed
   double largest = 0;
   for (const Material& material : scene.materials) {
     double emission = LargestChannel(material.emission);
     if (emission > 0 && material.emission_map.valid()) {
-      const size_t image = scene.textures[material.emission_map.index].image.index;
-      if (texels[image] < 0) texels[image] = LargestTexel(*scene.images[image].texels);
-      emission *= texels[image];
+      // Mip levels are means, and so no larger.
+      const ImageId image = scene.textures[material.emission_map.index].image;
+      emission *= double{scene.images[image.index].texels->greatest};
     }
     largest = std::max(largest, emission);
   }

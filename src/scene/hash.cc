@@ -79,12 +79,18 @@ void AddPieces(size_t count, size_t at_a_time, Hasher* hash, const HashPieceOf& 
   for (const uint64_t piece : pieces) hash->Word(piece);
 }
 
+constexpr size_t kPiece = size_t{1} << 20;  // bytes of a long array
+
+template <class T>
+std::span<const unsigned char> BytesOf(std::span<const T> values) {
+  static_assert(std::is_standard_layout_v<T> && sizeof(T) % sizeof(float) == 0);
+  return {reinterpret_cast<const unsigned char*>(values.data()), values.size_bytes()};
+}
+
 // Long arrays.
 template <class T>
 void AddArray(std::span<const T> values, Hasher* hash) {
-  static_assert(std::is_standard_layout_v<T> && sizeof(T) % sizeof(float) == 0);
-  constexpr size_t kPiece = size_t{1} << 20;
-  const std::span bytes(reinterpret_cast<const unsigned char*>(values.data()), values.size_bytes());
+  const std::span<const unsigned char> bytes = BytesOf(values);
   AddPieces(bytes.size(), kPiece, hash,
             [&](size_t first, size_t end) { return HashPiece(bytes.subspan(first, end - first)); });
 }
@@ -152,10 +158,13 @@ void Add(const SceneImage& image, SharedHashes* shared, Hasher* hash) {
   hash->Word(static_cast<uint64_t>(whole.height));
   hash->Word(static_cast<uint64_t>(image.texels->channels));
   hash->Word(std::bit_cast<uint32_t>(image.middle));
-  const size_t count = static_cast<size_t>(whole.width) * static_cast<size_t>(whole.height) *
-                       static_cast<size_t>(image.texels->channels);
   hash->Word(shared->Of(image.texels, [&](Hasher* own) {
-    AddArray(std::span<const float>(image.texels->values.data(), count), own);
+    const TexelView texels = image.texels->Level(0);
+    AddPieces(texels.size(), kPiece / sizeof(float), own, [&](size_t first, size_t end) {
+      std::vector<float> values(end - first);
+      texels.Read(first, values);
+      return HashPiece(BytesOf(std::span<const float>(values)));
+    });
   }));
 }
 

@@ -455,8 +455,8 @@ class ObjMaterials {
     const auto value = [&](const std::shared_ptr<const MipChain>& image, size_t texel,
                            size_t packed_channel) {
       if (image == nullptr) return 1.0f;
-      return image
-          ->values[texel * static_cast<size_t>(image->channels) + (is_packed ? packed_channel : 0)];
+      return image->Level(
+          0)[texel * static_cast<size_t>(image->channels) + (is_packed ? packed_channel : 0)];
     };
     const MtlImage& first = roughness != nullptr ? source.map_pr : source.map_pm;
     const auto has_room = WithImage(first, [&] {
@@ -472,8 +472,8 @@ class ObjMaterials {
     }
     SceneImage& image = scene_.images.emplace_back();
     image.file = first.file;
-    image.texels = std::make_shared<const MipChain>(
-        MakeMipChain(size.width, size.height, 3, std::move(values)));
+    image.texels =
+        std::make_shared<const MipChain>(MakeMipChain(size.width, size.height, 3, values));
     return ImageId{static_cast<uint32_t>(scene_.images.size() - 1)};
   }
 

@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "base/float_mode.h"
+#include "base/huge_pages.h"
 #include "base/parallel.h"
 #include "color/transfer.h"
 #include "image_io/color_channels.h"
@@ -45,12 +46,20 @@ struct CodeTable {
     const float code = value * maximum;
     return std::abs(static_cast<float>(NearestCode(value)) - code) <= maximum * 0x1p-22f;
   }
-  float Decode(float value) const { return decoded[static_cast<size_t>(NearestCode(value))]; }
-
- private:
   // Of a value in [0, 1]. std::round is a call of a function, for each texel.
   int NearestCode(float value) const { return static_cast<int>(value * maximum + 0.5f); }
 };
+
+// Shared by all textures.
+template <int kCodes>
+std::shared_ptr<const CodeTable> TableOf(TextureEncoding encoding) {
+  if (encoding == TextureEncoding::kSrgb) {
+    static const auto srgb = std::make_shared<const CodeTable>(kCodes, TextureEncoding::kSrgb);
+    return srgb;
+  }
+  static const auto linear = std::make_shared<const CodeTable>(kCodes, TextureEncoding::kLinear);
+  return linear;
+}
 
 // Calls body(some) for the values in pieces, on several threads.
 template <class Body>
@@ -61,11 +70,11 @@ void ForEachPiece(std::span<float> values, int threads, const Body& body) {
   });
 }
 
-template <class Holds>
-bool AllHold(std::span<float> values, int threads, const Holds& holds) {
+bool AreFinite(std::span<float> values, int threads) {
   std::atomic<bool> all = true;
   ForEachPiece(values, threads, [&](std::span<float> piece) {
-    if (all && !std::all_of(piece.begin(), piece.end(), holds)) all = false;
+    const auto is_finite = [](float value) { return std::isfinite(value); };
+    if (all && !std::all_of(piece.begin(), piece.end(), is_finite)) all = false;
   });
   return all;
 }
@@ -88,24 +97,59 @@ std::vector<size_t> ChannelsOf(const ImageFile& image, TextureEncoding encoding)
   return {colors->r, colors->g, colors->b};
 }
 
-// Decodes the values of an integer file and returns the code that a normal map has as 0.
-float DecodeIntegers(TextureEncoding encoding, int threads, std::span<float> values) {
-  const CodeTable bytes(1 << 8, encoding);
-  if (AllHold(values, threads, [&](float value) { return bytes.Holds(value); })) {
-    ForEachPiece(values, threads, [&](std::span<float> piece) {
-      for (float& value : piece) value = bytes.Decode(value);
-    });
-    return 128.0f / 255;
+// TextureReading::glossiness of values.
+void TurnGlossIntoRoughness(double glossiness, std::span<float> values) {
+  const auto factor = static_cast<float>(glossiness);
+  if (factor > 0) {
+    for (float& value : values) value = 1 - factor * value;
   }
-  const CodeTable words(1 << 16, encoding);
-  ForEachPiece(values, threads, [&](std::span<float> piece) {
-    for (float& value : piece) {
-      value = words.Holds(value)                   ? words.Decode(value)
-              : encoding == TextureEncoding::kSrgb ? SrgbEotf(value)
-                                                   : value;
+}
+
+// The values of an integer file as its codes, if each is one of these.
+template <typename Code>
+std::optional<Texels> FindCodes(const TextureReading& reading, std::span<float> values) {
+  const auto codes = TableOf<1 << 8 * sizeof(Code)>(reading.encoding);
+  TexelTable table(codes, &codes->decoded);
+  if (reading.glossiness > 0) {
+    std::vector<float> changed = codes->decoded;
+    TurnGlossIntoRoughness(reading.glossiness, changed);
+    table = std::make_shared<const std::vector<float>>(std::move(changed));
+  }
+  Texels texels(std::move(table), values.size());
+  Code* const all = texels.As<Code>();
+  std::atomic<bool> found = true;
+  ForEachPiece(values, reading.threads, [&](std::span<float> piece) {
+    Code* to = all + (piece.data() - values.data());
+    for (const float value : piece) {
+      if (!codes->Holds(value)) {
+        found = false;
+        return;
+      }
+      *to++ = static_cast<Code>(codes->NearestCode(value));
     }
   });
-  return 32768.0f / 65535;
+  if (!found) return std::nullopt;
+  return texels;
+}
+
+// `middle`: the code that a normal map has as 0.
+Texels DecodeIntegers(const TextureReading& reading, std::span<float> values, float* middle) {
+  *middle = 128.0f / 255;
+  if (auto bytes = FindCodes<uint8_t>(reading, values)) return *std::move(bytes);
+  *middle = 32768.0f / 65535;
+  if (auto words = FindCodes<uint16_t>(reading, values)) return *std::move(words);
+  const auto words = TableOf<1 << 16>(reading.encoding);
+  ForEachPiece(values, reading.threads, [&](std::span<float> piece) {
+    for (float& value : piece) {
+      if (words->Holds(value)) {
+        value = words->decoded[static_cast<size_t>(words->NearestCode(value))];
+      } else if (reading.encoding == TextureEncoding::kSrgb) {
+        value = SrgbEotf(value);
+      }
+    }
+  });
+  TurnGlossIntoRoughness(reading.glossiness, values);
+  return PackTexels(values);
 }
 
 }  // namespace
@@ -180,9 +224,7 @@ SceneImage DecodeTextureImage(const OpenTexture& open, const TextureReading& rea
   const Window& window = open.window;
   const std::vector<size_t>& channels = open.channels;
   const size_t kept = open.kept();
-  MipChain chain = MakeEmptyMipChain(window.width(), window.height(), static_cast<int>(kept));
-  const size_t count = window.pixel_count() * kept;
-  const std::span<float> values(chain.values.data(), count);
+  HugeVector<float> values(window.pixel_count() * kept);
   if (channels.empty()) {
     std::fill(values.begin(), values.end(), 1.0f);  // opaque
   } else {
@@ -199,29 +241,27 @@ SceneImage DecodeTextureImage(const OpenTexture& open, const TextureReading& rea
   }
   SceneImage texture;
   texture.lacks_alpha = channels.empty();
-  const int threads = reading.threads;
   // What comes from a table is finite.
-  if (open.is_integer) {
-    texture.middle = DecodeIntegers(reading.encoding, threads, values);
-  } else if (!AllHold(values, threads, [](float v) { return std::isfinite(v); })) {
-    throw Error(ExitCode::kBadInput, open.image.path, "holds NaN or infinities",
-                "a texture needs finite values");
-  }
-  if (open.conversion.matrix) {
-    ConvertColors(*open.conversion.matrix, {&values[0], &values[1], &values[2]}, kept,
-                  window.pixel_count(), /*clip=*/true, threads);
-  }
-  if (reading.glossiness > 0) {
-    const auto factor = static_cast<float>(reading.glossiness);
-    for (float& value : values) value = 1 - factor * value;
-  }
-  const auto are_all = [&](float all) {
-    return std::all_of(values.begin(), values.end(), [&](float value) { return value == all; });
+  const auto decode = [&]() -> Texels {
+    if (open.is_integer) return DecodeIntegers(reading, values, &texture.middle);
+    if (!AreFinite(values, reading.threads)) {
+      throw Error(ExitCode::kBadInput, open.image.path, "holds NaN or infinities",
+                  "a texture needs finite values");
+    }
+    if (open.conversion.matrix) {
+      ConvertColors(*open.conversion.matrix, {&values[0], &values[1], &values[2]}, kept,
+                    window.pixel_count(), /*clip=*/true, reading.threads);
+    }
+    TurnGlossIntoRoughness(reading.glossiness, values);
+    return PackTexels(values);
+  };
+  texture.texels = std::make_shared<const MipChain>(window.width(), window.height(),
+                                                    static_cast<int>(kept), decode());
+  const auto are_all = [&](float value) {
+    return texture.texels->least == value && texture.texels->greatest == value;
   };
   texture.is_black = are_all(0);
   texture.is_white = are_all(1);
-  FillMipLevels(&chain);
-  texture.texels = std::make_shared<const MipChain>(std::move(chain));
   return texture;
 }
 

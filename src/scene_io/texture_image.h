@@ -92,7 +92,7 @@ class TexturesAhead {
 // colours (kSrgb) are converted to Rec. 709 from the file's primaries, with a warning; what is
 // outside of its gamut is cut off at 0. `file` is what SceneImage and warnings call it.
 //
-// Memory: 16/3 bytes a value, which is what the texture keeps, and what the reader takes.
+// Memory: that of the file's samples (texture/texels.h), and 4 bytes a value while it is read.
 // `ahead`, which may be null, has some that are decoded.
 SceneImage ReadTextureImage(const std::filesystem::path& path, const std::string& file,
                             const TextureReading& reading, TexelBudget* budget,

@@ -44,12 +44,6 @@ HWY_INLINE V WrapCoordinate(D d, V u, Wrap wrap) {
   return hn::IfThenElseZero(hn::Ge(wrapped, zero), wrapped);
 }
 
-// A mip level in each lane.
-template <class D>
-struct MipLevelV {
-  TexelIndex<D> width, height, first;
-};
-
 template <class D>
 struct TapsV {
   TexelIndex<D> near, far;
@@ -79,15 +73,60 @@ HWY_INLINE TapsV<D> FindTaps(D d, V wrapped, TexelIndex<D> size, Wrap wrap) {
   return taps;
 }
 
-// The index of the first channel of a texel.
+// What reads a level whose values are of one kind. Find takes the index of a texel's first channel;
+// Value decodes a channel of what it found.
 template <class D>
-HWY_INLINE TexelIndex<D> TexelIndexAt(const MipLevelV<D>& level, TexelIndex<D> x, TexelIndex<D> y,
-                                      TexelIndex<D> channels) {
-  return hn::Add(level.first, hn::Mul(hn::Add(hn::Mul(y, level.width), x), channels));
+struct FloatTexels {
+  const float* values;
+
+  HWY_INLINE TexelIndex<D> Find(TexelIndex<D> at) const { return at; }
+  HWY_INLINE TexelFloat<D> Value(TexelIndex<D> found, int channel) const {
+    return hn::GatherIndex(TexelFloatTag<D>(), values + channel, found);
+  }
+};
+
+// The codes of all channels are found at once.
+template <class D>
+struct ByteTexels {
+  const int32_t* codes;
+  const float* table;
+
+  HWY_INLINE TexelIndex<D> Find(TexelIndex<D> at) const {
+    return hn::GatherOffset(TexelIndexTag<D>(), codes, at);
+  }
+  HWY_INLINE TexelFloat<D> Value(TexelIndex<D> found, int channel) const {
+    const auto code =
+        hn::And(hn::ShiftRightSame(found, 8 * channel), hn::Set(TexelIndexTag<D>(), 0xff));
+    return hn::GatherIndex(TexelFloatTag<D>(), table, code);
+  }
+};
+
+template <class D>
+struct WordTexels {
+  const int32_t* codes;
+  const float* table;
+
+  HWY_INLINE TexelIndex<D> Find(TexelIndex<D> at) const { return hn::Add(at, at); }
+  HWY_INLINE TexelFloat<D> Value(TexelIndex<D> found, int channel) const {
+    const TexelIndexTag<D> di;
+    const auto word = hn::GatherOffset(di, codes, hn::Add(found, hn::Set(di, 2 * channel)));
+    return hn::GatherIndex(TexelFloatTag<D>(), table, hn::And(word, hn::Set(di, 0xffff)));
+  }
+};
+
+template <class D, class Use>
+HWY_INLINE void WithTexels(D, const TexelView& level, const Use& use) {
+  if (level.kind == TexelKind::kBytes) {
+    use(ByteTexels<D>{static_cast<const int32_t*>(level.data), level.table});
+  } else if (level.kind == TexelKind::kWords) {
+    use(WordTexels<D>{static_cast<const int32_t*>(level.data), level.table});
+  } else {
+    use(FloatTexels<D>{static_cast<const float*>(level.data)});
+  }
 }
 
-// The four texels of a bilinear look-up and their weights, the same for all channels. A nearest
-// look-up reads `near_near` only.
+// The four texels of a bilinear look-up, as indices or found, and their weights, the same for all
+// channels. A nearest look-up reads `near_near` only.
 template <class D>
 struct FootprintV {
   TexelIndex<D> near_near, far_near, near_far, far_far;  // along u, along v
@@ -95,49 +134,42 @@ struct FootprintV {
 };
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE FootprintV<D> FindFootprint(D d, const MipChain& image, const MipLevelV<D>& level,
-                                       const SampleSettings& settings, V u, V v) {
+HWY_INLINE FootprintV<D> FindFootprint(D d, const TexelView& level, const SampleSettings& settings,
+                                       V u, V v) {
   const TexelIndexTag<D> di;
-  const auto channels = hn::Set(di, image.channels);
-  const TapsV<D> x = FindTaps(d, u, level.width, settings.wrap_u);
-  const TapsV<D> y = FindTaps(d, v, level.height, settings.wrap_v);
-  return {TexelIndexAt<D>(level, x.near, y.near, channels),
-          TexelIndexAt<D>(level, x.far, y.near, channels),
-          TexelIndexAt<D>(level, x.near, y.far, channels),
-          TexelIndexAt<D>(level, x.far, y.far, channels),
+  const auto width = hn::Set(di, level.width), channels = hn::Set(di, level.channels);
+  const TapsV<D> x = FindTaps(d, u, width, settings.wrap_u);
+  const TapsV<D> y = FindTaps(d, v, hn::Set(di, level.height), settings.wrap_v);
+  const auto index = [&](TexelIndex<D> column, TexelIndex<D> row) HWY_ATTR {
+    return hn::Mul(hn::Add(hn::Mul(row, width), column), channels);
+  };
+  return {index(x.near, y.near),
+          index(x.far, y.near),
+          index(x.near, y.far),
+          index(x.far, y.far),
           x.weight,
           y.weight};
 }
 
-template <class D>
-HWY_INLINE TexelFloat<D> BilinearChannel(D, const float* HWY_RESTRICT values,
-                                         const FootprintV<D>& f) {
-  const TexelFloatTag<D> df;
+template <class D, class Texels>
+HWY_INLINE FootprintV<D> FindTexels(D, const Texels& texels, const FootprintV<D>& at) {
+  return {texels.Find(at.near_near),
+          texels.Find(at.far_near),
+          texels.Find(at.near_far),
+          texels.Find(at.far_far),
+          at.weight_u,
+          at.weight_v};
+}
+
+template <class D, class Texels>
+HWY_INLINE TexelFloat<D> BilinearChannel(D, const Texels& texels, const FootprintV<D>& found,
+                                         int channel) {
   const auto row = [&](TexelIndex<D> near, TexelIndex<D> far) HWY_ATTR {
-    const auto a = hn::GatherIndex(df, values, near);
-    return hn::MulAdd(f.weight_u, hn::Sub(hn::GatherIndex(df, values, far), a), a);
+    const auto a = texels.Value(near, channel);
+    return hn::MulAdd(found.weight_u, hn::Sub(texels.Value(far, channel), a), a);
   };
-  const auto near = row(f.near_near, f.far_near);
-  return hn::MulAdd(f.weight_v, hn::Sub(row(f.near_far, f.far_far), near), near);
-}
-
-template <class D>
-HWY_INLINE MipLevelV<D> WholeImage(D, const MipChain& image) {
-  const TexelIndexTag<D> di;
-  const MipLevel& l = image.levels[0];
-  return {hn::Set(di, l.width), hn::Set(di, l.height), hn::Set(di, l.first)};
-}
-
-static_assert(sizeof(MipLevel) == 3 * sizeof(int32_t));
-
-template <class D>
-HWY_INLINE MipLevelV<D> MipLevelAt(D, const MipChain& image, TexelIndex<D> level) {
-  const TexelIndexTag<D> di;
-  const int32_t* const table = &image.levels[0].width;
-  const auto at = hn::Add(hn::Add(level, level), level);
-  const auto one = hn::Set(di, 1);
-  return {hn::GatherIndex(di, table, at), hn::GatherIndex(di, table, hn::Add(at, one)),
-          hn::GatherIndex(di, table, hn::Add(at, hn::Add(one, one)))};
+  const auto near = row(found.near_near, found.far_near);
+  return hn::MulAdd(found.weight_v, hn::Sub(row(found.near_far, found.far_far), near), near);
 }
 
 // MipLevelOf for footprints in float. The logarithm has an error of 2e-7.
@@ -159,40 +191,56 @@ HWY_INLINE V MipLevelOf(D, const MipChain& image, const TextureFootprint<V>& f) 
   return hn::Min(hn::Mul(Log2(df, longer), hn::Set(df, 0.5f)), last);
 }
 
-// Calls store(channel, value) for the channels 0 .. count - 1. Channels that the image lacks are
-// copies of its last one. (u, v) need not be wrapped; mip_level is used by trilinear look-ups only.
+// Calls store(channel, value, lanes) for the channels 0 .. channels - 1, with masks that together
+// hold each of the first `count` lanes once. Channels that the image lacks are copies of its last
+// one. (u, v) need not be wrapped; mip_level is 0 unless the look-up is trilinear.
 template <class D, class V = hn::Vec<D>, class Store>
 HWY_INLINE void SampleImage(D d, const MipChain& image, const SampleSettings& settings,
-                            TexelFloat<D> mip_level, V u, V v, int count, const Store& store) {
+                            TexelFloat<D> mip_level, V u, V v, size_t count, int channels,
+                            const Store& store) {
   const TexelFloatTag<D> df;
   const TexelIndexTag<D> di;
   const V wrapped_u = WrapCoordinate(d, u, settings.wrap_u);
   const V wrapped_v = WrapCoordinate(d, v, settings.wrap_v);
-  const float* const values = image.values.data();
-  const auto find = [&](const MipLevelV<D>& level) HWY_ATTR {
-    return FindFootprint(d, image, level, settings, wrapped_u, wrapped_v);
+  const auto find = [&](const TexelView& level) HWY_ATTR {
+    return FindFootprint(d, level, settings, wrapped_u, wrapped_v);
   };
-  const auto channel = [&](int c) {
-    return values + (c < image.channels ? c : image.channels - 1);
-  };
-  if (settings.filter == TextureFilter::kNearest) {
-    const FootprintV<D> at = find(WholeImage(d, image));
-    for (int c = 0; c < count; ++c) store(c, hn::GatherIndex(df, channel(c), at.near_near));
-  } else if (settings.filter == TextureFilter::kBilinear ||
-             hn::AllTrue(df, hn::Le(mip_level, hn::Zero(df)))) {
-    const FootprintV<D> at = find(WholeImage(d, image));
-    for (int c = 0; c < count; ++c) store(c, BilinearChannel(d, channel(c), at));
-  } else {
-    const auto level = hn::ConvertTo(di, mip_level);
-    const auto last = hn::Set(di, static_cast<int32_t>(image.levels.size()) - 1);
-    const auto next = hn::Min(hn::Add(level, hn::Set(di, 1)), last);
-    const FootprintV<D> near = find(MipLevelAt(d, image, level));
-    const FootprintV<D> far = find(MipLevelAt(d, image, next));
-    const auto t = hn::Sub(mip_level, hn::ConvertTo(df, level));
-    for (int c = 0; c < count; ++c) {
-      const auto a = BilinearChannel(d, channel(c), near);
-      store(c, hn::MulAdd(t, hn::Sub(BilinearChannel(d, channel(c), far), a), a));
-    }
+  const auto channel = [&](int c) { return c < image.channels ? c : image.channels - 1; };
+  // Lanes at the same level are looked up together: levels differ in kind, and those that no lane
+  // needs are not made.
+  const int32_t last = static_cast<int32_t>(image.levels.size()) - 1;
+  const auto done = hn::Set(di, last + 1);
+  auto left = hn::IfThenElse(hn::FirstN(di, count), hn::ConvertTo(di, mip_level), done);
+  for (int32_t number; (number = hn::GetLane(hn::MinOfLanes(di, left))) <= last;) {
+    const auto is_here = hn::Eq(left, hn::Set(di, number));
+    left = hn::IfThenElse(is_here, done, left);
+    const auto lanes = hn::RebindMask(df, is_here);
+    const auto t = hn::Sub(mip_level, hn::Set(df, static_cast<float>(number)));
+    const bool between = !hn::AllFalse(df, hn::And(lanes, hn::Gt(t, hn::Zero(df))));
+    const TexelView level = image.Level(static_cast<size_t>(number));
+    const FootprintV<D> at = find(level);
+    WithTexels(d, level, [&](const auto& texels) HWY_ATTR {
+      if (settings.filter == TextureFilter::kNearest) {
+        const auto found = texels.Find(at.near_near);
+        for (int c = 0; c < channels; ++c) store(c, texels.Value(found, channel(c)), lanes);
+        return;
+      }
+      const FootprintV<D> near = FindTexels(d, texels, at);
+      if (!between) {
+        for (int c = 0; c < channels; ++c) {
+          store(c, BilinearChannel(d, texels, near, channel(c)), lanes);
+        }
+        return;
+      }
+      const TexelView next = image.Level(static_cast<size_t>(number) + 1);
+      const FloatTexels<D> next_texels{static_cast<const float*>(next.data)};
+      const FootprintV<D> far = find(next);
+      for (int c = 0; c < channels; ++c) {
+        const auto a = BilinearChannel(d, texels, near, channel(c));
+        const auto b = BilinearChannel(d, next_texels, far, channel(c));
+        store(c, hn::MulAdd(t, hn::Sub(b, a), a), lanes);
+      }
+    });
   }
 }
 

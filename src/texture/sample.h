@@ -74,21 +74,21 @@ Taps<Real> FindTaps(Real wrapped, int size, Wrap wrap) {
 template <typename Real>
 Real SampleNearest(const MipChain& image, size_t level, const SampleSettings& settings, Real u,
                    Real v, int channel) {
-  const MipLevel& l = image.levels[level];
+  const TexelView l = image.Level(level);
   const auto x = FindTaps(WrapCoordinate(u, settings.wrap_u), l.width, settings.wrap_u);
   const auto y = FindTaps(WrapCoordinate(v, settings.wrap_v), l.height, settings.wrap_v);
-  return image.Value(level, x.near, y.near, channel);
+  return l.At(x.near, y.near, channel);
 }
 
 template <typename Real>
 Real SampleBilinear(const MipChain& image, size_t level, const SampleSettings& settings, Real u,
                     Real v, int channel) {
-  const MipLevel& l = image.levels[level];
+  const TexelView l = image.Level(level);
   const auto x = FindTaps(WrapCoordinate(u, settings.wrap_u), l.width, settings.wrap_u);
   const auto y = FindTaps(WrapCoordinate(v, settings.wrap_v), l.height, settings.wrap_v);
   const auto row = [&](int at) {
-    const Real near = image.Value(level, x.near, at, channel);
-    return near + x.weight * (image.Value(level, x.far, at, channel) - near);
+    const Real near = l.At(x.near, at, channel);
+    return near + x.weight * (l.At(x.far, at, channel) - near);
   };
   const Real near = row(y.near);
   return near + y.weight * (row(y.far) - near);

@@ -38,8 +38,9 @@ void SampleSlopesT(const MipChain& image, const SampleSettings& settings,
     const V u = hn::LoadU(d, points.u + i), v = hn::LoadU(d, points.v + i);
     const auto at = [&](V x, V y) HWY_ATTR {
       auto height = hn::Zero(df);
-      SampleImage(d, image, settings, level, x, y, 1,
-                  [&](int, auto value) HWY_ATTR { height = value; });
+      SampleImage(d, image, settings, level, x, y, points.count - i, 1,
+                  [&](int, auto value, auto lanes)
+                      HWY_ATTR { height = hn::IfThenElse(lanes, value, height); });
       return hn::PromoteTo(d, height);
     };
     const auto slope = [&](int size, bool along_u, float* to) HWY_ATTR {
@@ -61,7 +62,9 @@ void SampleTextureT(const MipChain& image, const SampleSettings& settings,
   for (size_t i = 0; i < points.count; i += hn::Lanes(d)) {
     const auto level = LevelAt(d, image, settings, points, i);
     SampleImage(d, image, settings, level, hn::LoadU(d, points.u + i), hn::LoadU(d, points.v + i),
-                channels, [&](int c, auto value) HWY_ATTR { hn::StoreU(value, df, to[c] + i); });
+                points.count - i, channels, [&](int c, auto value, auto lanes) HWY_ATTR {
+                  hn::BlendedStore(value, lanes, df, to[c] + i);
+                });
   }
 }
 

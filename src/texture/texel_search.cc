@@ -61,20 +61,20 @@ void FindPlaces(const TexelGrid& grid, const TexelFootprint& f, int side,
   };
   for (double row = first(f.y, half.y); (row + 0.5) * side <= f.y + half.y + beyond; ++row) {
     const double y = (row + 0.5) * side;
-    const int texel_y = WrapTexel(y, grid.height, grid.wrap_v);
+    const int texel_y = WrapTexel(y, grid.texels.height, grid.wrap_v);
     for (double column = first(f.x, half.x); (column + 0.5) * side <= f.x + half.x + beyond;
          ++column) {
       const double x = (column + 0.5) * side;
       const Vec2d offset = OffsetInPixels(f, x, y);
       if (!(std::abs(offset.x) <= most_dx && std::abs(offset.y) <= most_dy)) continue;
-      const int texel_x = WrapTexel(x, grid.width, grid.wrap_u);
+      const int texel_x = WrapTexel(x, grid.texels.width, grid.wrap_u);
       places->push_back({{x, y}, offset, texel_x / side, texel_y / side});
     }
   }
 }
 
-double Measure(const TexelMeasure& measure, const float* texel) {
-  const double value = texel[measure.channel];
+double Measure(const TexelMeasure& measure, const TexelGrid& grid, int x, int y) {
+  const double value = grid.texels.At(x, y, measure.channel);
   switch (measure.kind) {
     case TexelMeasure::Kind::kSharpness: {
       const double square = std::max(value * value, 1e-30);  // so that the inverse stays finite
@@ -103,9 +103,9 @@ Vec2d FindExtremeTexel(const TexelGrid& image, const std::vector<Level>& levels,
     double best = 0;
     for (int k = 0; k < kSquareSide * kSquareSide; ++k) {
       const Vec2d at = first + Vec2d(k % kSquareSide * side, k / kSquareSide * side);
-      const int x = WrapTexel(at.x, image.width, image.wrap_u) / side;
-      const int y = WrapTexel(at.y, image.height, image.wrap_v) / side;
-      const double value = Measure(measure, parts.At(x, y));
+      const int x = WrapTexel(at.x, image.texels.width, image.wrap_u) / side;
+      const int y = WrapTexel(at.y, image.texels.height, image.wrap_v) / side;
+      const double value = Measure(measure, parts, x, y);
       if (k > 0 && !(greatest ? value > best : value < best)) continue;
       best = value;
       center = at;
@@ -149,27 +149,27 @@ Extreme FindExtreme(const std::vector<double>& values, double mean, double side,
 // The next level of a pyramid: of squares of `from`, the value that `join` makes of theirs.
 template <class Join>
 TexelGrid Reduce(const TexelGrid& from, const Join& join, std::vector<float>* values) {
-  TexelGrid grid = from;
-  grid.width = (from.width + kSquareSide - 1) / kSquareSide;
-  grid.height = (from.height + kSquareSide - 1) / kSquareSide;
-  for (int y = 0; y < grid.height; ++y) {
-    for (int x = 0; x < grid.width; ++x) {
-      const int end_x = std::min((x + 1) * kSquareSide, from.width);
-      const int end_y = std::min((y + 1) * kSquareSide, from.height);
-      for (int c = 0; c < grid.channels; ++c) {
-        float joined = from.At(x * kSquareSide, y * kSquareSide)[c];
+  const TexelView& f = from.texels;
+  const int width = (f.width + kSquareSide - 1) / kSquareSide;
+  const int height = (f.height + kSquareSide - 1) / kSquareSide;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const int end_x = std::min((x + 1) * kSquareSide, f.width);
+      const int end_y = std::min((y + 1) * kSquareSide, f.height);
+      for (int c = 0; c < f.channels; ++c) {
+        float joined = f.At(x * kSquareSide, y * kSquareSide, c);
         int count = 0;
         for (int j = y * kSquareSide; j < end_y; ++j) {
-          for (int i = x * kSquareSide; i < end_x; ++i) {
-            joined = join(joined, from.At(i, j)[c], count++);
-          }
+          for (int i = x * kSquareSide; i < end_x; ++i)
+            joined = join(joined, f.At(i, j, c), count++);
         }
         values->push_back(joined);
       }
     }
   }
-  grid.values = values->data();
-  return grid;
+  return {{TexelKind::kFloats, values->data(), nullptr, f.channels, width, height},
+          from.wrap_u,
+          from.wrap_v};
 }
 
 }  // namespace
@@ -177,7 +177,8 @@ TexelGrid Reduce(const TexelGrid& from, const Join& join, std::vector<float>* va
 const std::vector<Level>& TexelExtremes::Levels() const {
   std::call_once(made_, [this] {
     TexelGrid low = image_, high = image_, mean = image_;
-    for (int side = kSquareSide; low.width > 1 || low.height > 1; side *= kSquareSide) {
+    for (int side = kSquareSide; low.texels.width > 1 || low.texels.height > 1;
+         side *= kSquareSide) {
       Level level{side, {}, {}, {}, {}};
       low = level.low = Reduce(
           low, [](float a, float b, int) { return std::min(a, b); }, &level.values[0]);
@@ -198,7 +199,7 @@ void FindTexelClusters(const TexelGrid& grid, const TexelExtremes* extremes,
   double texels = TexelsInPixel(f);
   // Also if it is not finite.
   if (!(texels > 2 && texels < 1e15 && std::abs(f.x) < 1e15 && std::abs(f.y) < 1e15)) return;
-  if (grid.width == 1 && grid.height == 1) return;
+  if (grid.texels.width == 1 && grid.texels.height == 1) return;
   std::vector<Place>& places = room->places;
   const std::vector<Level>* levels = nullptr;
   size_t level = 0;
@@ -215,8 +216,9 @@ void FindTexelClusters(const TexelGrid& grid, const TexelExtremes* extremes,
       FindPlaces(grid, f, side, &places);
     } else {
       // The image is repeated very often in the pixel: once, in its middle, is enough.
-      texels = double{1} * grid.width * grid.height;
-      const double period_x = 2.0 * grid.width, period_y = 2.0 * grid.height;  // if mirrored
+      texels = double{1} * grid.texels.width * grid.texels.height;
+      const double period_x = 2.0 * grid.texels.width;
+      const double period_y = 2.0 * grid.texels.height;  // if mirrored
       const Vec2d first(std::floor(f.x / period_x) * period_x,
                         std::floor(f.y / period_y) * period_y);
       places.assign(1, {first + Vec2d(side / 2.0), Vec2d(0), 0, 0});
@@ -229,7 +231,7 @@ void FindTexelClusters(const TexelGrid& grid, const TexelExtremes* extremes,
     double sum = 0;
     for (const Place& place : places) {
       const auto of = [&](const TexelGrid& from) {
-        return Measure(measure, from.At(place.column, place.row));
+        return Measure(measure, from, place.column, place.row);
       };
       if (levels == nullptr) {
         const double value = of(grid);

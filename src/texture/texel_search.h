@@ -12,16 +12,10 @@
 
 namespace nacre {
 
-// Texels row by row, with interleaved channels: an image, or a mip level of one.
+// An image, or a mip level of one, and how it is wrapped.
 struct TexelGrid {
-  const float* values = nullptr;
-  int channels = 1, width = 0, height = 0;
+  TexelView texels;
   Wrap wrap_u = Wrap::kRepeat, wrap_v = Wrap::kRepeat;
-
-  const float* At(int x, int y) const {
-    return values + (static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)) *
-                        static_cast<size_t>(channels);
-  }
 };
 
 // The least, the greatest and the mean of the texels, by channel, in squares of an image: a

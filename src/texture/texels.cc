@@ -2,7 +2,13 @@
 #include "texture/texels.h"
 
 #include <algorithm>
+#include <bit>
+#include <optional>
 #include <utility>
+
+#include <Imath/half.h>
+
+#include "base/float_mode.h"
 
 namespace nacre {
 namespace {
@@ -57,28 +63,25 @@ void SumPairs(size_t columns, const double* row, float* out) {
   }
 }
 
-// Fills `level` from the one before it.
-void FillLevel(size_t level, MipChain* chain) {
-  const MipLevel& from = chain->levels[level - 1];
-  const MipLevel& to = chain->levels[level];
-  const auto channels = static_cast<size_t>(chain->channels);
+// The level after `from`.
+HugeVector<float> MakeNextLevel(const TexelView& from, const MipLevel& to) {
+  const auto channels = static_cast<size_t>(from.channels);
   const std::vector<Cover> columns = CoversOf(from.width, to.width);
   const std::vector<Cover> rows = CoversOf(from.height, to.height);
   const size_t from_stride = static_cast<size_t>(from.width) * channels;
-  const size_t to_stride = static_cast<size_t>(to.width) * channels;
-  const float* const source = chain->values.data() + from.first;
-  float* const target = chain->values.data() + to.first;
+  const auto width = static_cast<size_t>(to.width);
+  HugeVector<float> values(rows.size() * width * channels);
+  std::vector<float> line(from_stride);
   std::vector<double> sums(from_stride);
   double* const column_sums = sums.data();
   for (size_t y = 0; y < rows.size(); ++y) {
     const Cover& row = rows[y];
     std::fill_n(column_sums, from_stride, 0.0);
     for (size_t k = 0; k < row.weights.size(); ++k) {
-      const float* const line = source + (static_cast<size_t>(row.first) + k) * from_stride;
+      from.Read((static_cast<size_t>(row.first) + k) * from_stride, line);
       for (size_t i = 0; i < from_stride; ++i) column_sums[i] += row.weights[k] * double{line[i]};
     }
-    float* const out = target + y * to_stride;
-    const auto width = static_cast<size_t>(to.width);
+    float* const out = values.data() + y * width * channels;
     if (from.width == 2 * to.width && channels == 3) {
       SumPairs<3>(width, column_sums, out);
     } else if (from.width == 2 * to.width && channels == 1) {
@@ -87,32 +90,139 @@ void FillLevel(size_t level, MipChain* chain) {
       SumColumns(columns, channels, column_sums, out);
     }
   }
+  return values;
+}
+
+// codes / most, rounded once.
+TexelTable MakeLinearTable(int most) {
+  auto table = std::make_shared<std::vector<float>>();
+  for (int code = 0; code <= most; ++code) {
+    table->push_back(static_cast<float>(static_cast<double>(code) / most));
+  }
+  return table;
+}
+
+TexelTable MakeHalfTable() {
+  auto table = std::make_shared<std::vector<float>>();
+  for (int code = 0; code < 1 << 16; ++code) {
+    table->push_back(imath_half_to_float(static_cast<uint16_t>(code)));
+  }
+  return table;
+}
+
+// The values as codes of the table, code_of(value) each; nothing unless each has its bits there.
+template <typename Code, class CodeOf>
+std::optional<Texels> Encode(std::span<const float> values, const TexelTable& table,
+                             const CodeOf& code_of) {
+  Texels texels(table, values.size());
+  for (size_t i = 0; i < values.size(); ++i) {
+    const auto code = static_cast<Code>(code_of(values[i]));
+    if (std::bit_cast<uint32_t>((*table)[code]) != std::bit_cast<uint32_t>(values[i])) return {};
+    texels.As<Code>()[i] = code;
+  }
+  return texels;
 }
 
 }  // namespace
 
-MipChain MakeEmptyMipChain(int width, int height, int channels) {
-  MipChain chain;
-  chain.channels = channels;
-  size_t total = 0;
+void TexelView::Read(size_t first, std::span<float> to) const {
+  const auto read = [&](const auto* codes) {
+    for (size_t i = 0; i < to.size(); ++i) to[i] = table[codes[first + i]];
+  };
+  if (kind == TexelKind::kBytes) {
+    read(static_cast<const uint8_t*>(data));
+  } else if (kind == TexelKind::kWords) {
+    read(static_cast<const uint16_t*>(data));
+  } else {
+    std::copy_n(static_cast<const float*>(data) + first, to.size(), to.begin());
+  }
+}
+
+Texels::Texels(TexelTable codes, size_t count) : table(std::move(codes)) {
+  constexpr size_t kBytesOfValue[] = {sizeof(float), sizeof(uint8_t), sizeof(uint16_t)};
+  constexpr size_t kReadBeyond = sizeof(uint32_t) - sizeof(uint8_t);  // the kernels read 32 bits
+  data.resize(count * kBytesOfValue[static_cast<size_t>(kind())] + kReadBeyond);
+}
+
+Texels PackTexels(std::span<const float> values) {
+  static const TexelTable bytes = MakeLinearTable(255), words = MakeLinearTable(65535);
+  static const TexelTable halves = MakeHalfTable();
+  const auto nearest = [](float most) {
+    return [most](float value) {
+      return value >= 0 && value <= 1 ? static_cast<uint16_t>(value * most + 0.5f) : uint16_t{0};
+    };
+  };
+  if (auto texels = Encode<uint8_t>(values, bytes, nearest(255))) return *std::move(texels);
+  if (auto texels = Encode<uint16_t>(values, words, nearest(65535))) return *std::move(texels);
+  if (auto texels = Encode<uint16_t>(values, halves, imath_float_to_half)) {
+    return *std::move(texels);
+  }
+  Texels texels(nullptr, values.size());
+  std::copy(values.begin(), values.end(), texels.As<float>());
+  return texels;
+}
+
+MipChain::MipChain(int width, int height, int channels_of_image, Texels image)
+    : channels(channels_of_image), image_(std::move(image)) {
   for (int w = width, h = height;; w = std::max(w / 2, 1), h = std::max(h / 2, 1)) {
-    chain.levels.push_back({w, h, static_cast<int32_t>(total)});
-    total += static_cast<size_t>(w) * static_cast<size_t>(h) * static_cast<size_t>(channels);
+    levels.push_back({w, h});
     if (w == 1 && h == 1) break;
   }
-  chain.values.resize(total);
-  return chain;
+  smaller_ = std::make_unique<SmallerLevels>(levels.size());
+  whole_ = {image_.kind(),
+            image_.data.data(),
+            image_.table ? image_.table->data() : nullptr,
+            channels,
+            width,
+            height};
+  least = greatest = whole_[0];
+  const auto widen = [&](float value) {
+    least = std::min(least, value);
+    greatest = std::max(greatest, value);
+  };
+  if (whole_.kind == TexelKind::kFloats) {
+    std::for_each_n(image_.As<const float>(), whole_.size(), widen);
+    return;
+  }
+  std::vector<uint8_t> occurs(image_.table->size());
+  const auto mark = [&](size_t code) { occurs[code] = 1; };
+  if (whole_.kind == TexelKind::kBytes) {
+    std::for_each_n(image_.As<const uint8_t>(), whole_.size(), mark);
+  } else {
+    std::for_each_n(image_.As<const uint16_t>(), whole_.size(), mark);
+  }
+  for (size_t code = 0; code < occurs.size(); ++code) {
+    if (occurs[code] != 0) widen(whole_.table[code]);
+  }
 }
 
-void FillMipLevels(MipChain* chain) {
-  for (size_t level = 1; level < chain->levels.size(); ++level) FillLevel(level, chain);
+size_t MipChain::LevelBytes() const {
+  size_t bytes = 0;
+  for (size_t level = 1; level < levels.size(); ++level) {
+    if (smaller_->made[level]) bytes += FloatLevel(level, nullptr).size() * sizeof(float);
+  }
+  return bytes;
 }
 
-MipChain MakeMipChain(int width, int height, int channels, std::vector<float> image) {
-  MipChain chain = MakeEmptyMipChain(width, height, channels);
-  std::copy(image.begin(), image.end(), chain.values.begin());
-  FillMipLevels(&chain);
-  return chain;
+const float* MipChain::MakeLevel(size_t level) const {
+  const std::lock_guard lock(smaller_->making);
+  const DefaultFloatMode keeps_denormals;
+  size_t from = level;  // or the next larger one that there is
+  while (from > 0 && smaller_->made[from] == nullptr) --from;
+  if (from == level) return smaller_->made[level];  // by another thread
+  TexelView larger = Level(from);
+  HugeVector<float> values;
+  for (size_t l = from + 1; l <= level; ++l) {
+    values = MakeNextLevel(larger, levels[l]);
+    larger = FloatLevel(l, values.data());
+  }
+  smaller_->values[level] = std::move(values);
+  smaller_->made[level].store(smaller_->values[level].data(), std::memory_order_release);
+  return smaller_->made[level];
+}
+
+MipChain MakeMipChain(int width, int height, int channels, const std::vector<float>& image) {
+  return {width, height, channels, PackTexels(image)};
 }
 
 }  // namespace nacre

@@ -35,7 +35,7 @@ std::optional<CutOut> MakeCutOut(const Scene& scene, const Mesh& mesh) {
   if (material.opacity_map.valid()) {
     made.texture = scene.textures[material.opacity_map.index];
     made.image = scene.images[made.texture.image.index].texels;
-    least *= std::max(double{LeastOf(made.image->values)}, 0.0);
+    least *= std::max(double{made.image->least}, 0.0);
   }
   if (least >= made.cutoff) return std::nullopt;
   made.opacities = mesh.opacities;

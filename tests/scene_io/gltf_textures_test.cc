@@ -63,7 +63,8 @@ TEST_CASE("an image inside the file") {
   CHECK(texels.levels.at(0).width == 2);
   CHECK(texels.levels.at(0).height == 2);
   // Rows from the bottom, decoded from sRGB: blue first.
-  const std::vector<float> values(texels.values.begin(), texels.values.begin() + 12);
+  std::vector<float> values(12);
+  texels.Level(0).Read(0, values);
   CHECK(values == std::vector<float>{0, 0, 1, 1, 1, 1, 1, 0, 0, 0, 1, 0});
   REQUIRE(scene.textures.size() == 1);
   CHECK(MaterialOf(scene).base_color_map == TextureId{0});
@@ -644,7 +645,8 @@ TEST_CASE("alphaMode MASK cuts holes by the base colour's alpha") {
   REQUIRE(map.valid());
   const MipChain& texels = *scene.images.at(scene.textures.at(map.index).image.index).texels;
   CHECK(texels.channels == 1);
-  const std::vector<float> values(texels.values.begin(), texels.values.begin() + 4);
+  std::vector<float> values(4);
+  texels.Level(0).Read(0, values);
   CHECK(values == std::vector<float>{51.0f / 255, 128.0f / 255, 1, 0});  // from the bottom
 
   material["alphaCutoff"] = 0.25;

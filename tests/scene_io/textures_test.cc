@@ -36,9 +36,9 @@ class Folder {
 
   // `kind` is 6 for colours and 5 for greys.
   void WritePnm(const std::string& name, int kind, int width, int height,
-                const std::vector<uint8_t>& bytes) const {
+                const std::vector<uint8_t>& bytes, int most = 255) const {
     std::ofstream file(path_ / name, std::ios::binary);
-    file << 'P' << kind << '\n' << width << ' ' << height << "\n255\n";
+    file << 'P' << kind << '\n' << width << ' ' << height << '\n' << most << '\n';
     file.write(reinterpret_cast<const char*>(bytes.data()),
                static_cast<std::streamsize>(bytes.size()));
   }
@@ -130,7 +130,9 @@ TEST_CASE("textures are the same however many threads decode them") {
     CAPTURE(i);
     CHECK(one.images[i].file == two.images[i].file);
     CHECK(one.images[i].middle == two.images[i].middle);
-    CHECK(one.images[i].texels->values == two.images[i].texels->values);
+    const TexelView first = one.images[i].texels->Level(0), second = two.images[i].texels->Level(0);
+    REQUIRE(first.size() == second.size());
+    for (size_t k = 0; k < first.size(); ++k) REQUIRE(first[k] == second[k]);
   }
   // Faults are those of the first map, whoever meets one first.
   folder.WritePnm("b.ppm", 6, 333, 301, Noise(100));
@@ -145,6 +147,49 @@ TEST_CASE("textures are the same however many threads decode them") {
   };
   CHECK(error_of(1).find("b.ppm") != std::string::npos);
   CHECK(error_of(1) == error_of(2));
+}
+
+TEST_CASE("texels take no more memory than their file's samples") {
+  const Folder folder;
+  const auto read = [&](const std::filesystem::path& path, const TextureReading& reading) {
+    TexelBudget budget(0);
+    return ReadTextureImage(path, "file", reading, &budget).texels;
+  };
+  const TextureReading srgb, linear{.encoding = TextureEncoding::kLinear, .part = {}},
+      alpha{.encoding = TextureEncoding::kAlpha, .part = {}},
+      gloss{.encoding = TextureEncoding::kLinear, .glossiness = 0.7, .part = {}};
+  std::vector<uint8_t> all(256);
+  for (size_t i = 0; i < all.size(); ++i) all[i] = static_cast<uint8_t>(i);
+  folder.WritePnm("bytes.pgm", 5, 16, 16, all);
+  folder.WritePnm("bytes.ppm", 6, 16, 16, Noise(3 * 256));
+  folder.WritePnm("words.pgm", 5, 16, 16, Noise(2 * 256), 65535);
+  for (const TextureReading& reading : {srgb, linear, gloss}) {
+    CHECK(read(folder.path() / "bytes.pgm", reading)->ImageBytes() == 256 + 3);
+    CHECK(read(folder.path() / "bytes.ppm", reading)->ImageBytes() == 3 * 256 + 3);
+    CHECK(read(folder.path() / "words.pgm", reading)->ImageBytes() == 2 * 256 + 3);
+  }
+  CHECK(read(folder.path() / "bytes.ppm", alpha)->ImageBytes() == 256 + 3);  // opaque
+  // Halves.
+  const auto sky =
+      read(std::filesystem::path(NACRE_SOURCE_DIR) / "scenes/textures/evening.exr", srgb);
+  CHECK(sky->ImageBytes() == 2 * sky->Level(0).size() + 3);
+
+  // To the bit what each code stands for, computed in double; row 0 is the file's last.
+  const auto at = [](const std::shared_ptr<const MipChain>& texels, int i) {
+    return texels->Value(0, i % 16, 15 - i / 16, 0);
+  };
+  const auto as_srgb = read(folder.path() / "bytes.pgm", srgb);
+  const auto as_linear = read(folder.path() / "bytes.pgm", linear);
+  const auto as_gloss = read(folder.path() / "bytes.pgm", gloss);
+  const auto words = Noise(2 * 256);
+  const auto of_words = read(folder.path() / "words.pgm", srgb);
+  for (int i = 0; i < 256; ++i) {
+    REQUIRE(at(as_srgb, i) == static_cast<float>(SrgbEotf(i / 255.0)));
+    REQUIRE(at(as_linear, i) == static_cast<float>(i / 255.0));
+    REQUIRE(at(as_gloss, i) == 1 - 0.7f * static_cast<float>(i / 255.0));
+    const auto byte = [&](int k) { return int{words[static_cast<size_t>(2 * i + k)]}; };
+    REQUIRE(at(of_words, i) == static_cast<float>(SrgbEotf((256 * byte(0) + byte(1)) / 65535.0)));
+  }
 }
 
 TEST_CASE("a texture's settings are read") {
@@ -218,7 +263,7 @@ TEST_CASE("an opacity map without alpha says what it is, and its holes are for m
   CHECK(material.opacity == 0.75);
   CHECK(material.opacity_cutoff == 0.25);
   REQUIRE(material.opacity_map.valid());
-  CHECK(scene.images.at(0).texels->values.at(1) == 1);
+  CHECK(scene.images.at(0).texels->Level(0)[1] == 1);
   const auto fault = [&](const std::string& texture, const std::string& shape) -> std::string {
     try {
       load(texture, shape);

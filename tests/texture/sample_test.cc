@@ -3,11 +3,16 @@
 // twin against the scalar one.
 #include "texture/sample.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <random>
 #include <string>
 
+#include <Imath/half.h>
+
+#include "base/parallel.h"
 #include "catch.h"
 #include "tables.h"
 #include "targets.h"
@@ -176,7 +181,10 @@ TEST_CASE("the mip level follows the footprint, and every level is sampled alike
 TEST_CASE("a constant image has its value everywhere, to the bit") {
   const float value = 0.3f;
   const MipChain image = MakeMipChain(37, 20, 1, std::vector<float>(37 * 20, value));
-  for (const float texel : image.values) REQUIRE(texel == value);
+  for (size_t level = 0; level < image.levels.size(); ++level) {
+    const TexelView texels = image.Level(level);
+    for (size_t i = 0; i < texels.size(); ++i) REQUIRE(texels[i] == value);
+  }
   ForEachTarget([&](Target) {
     for (const TextureFilter filter :
          {TextureFilter::kNearest, TextureFilter::kBilinear, TextureFilter::kTrilinear}) {
@@ -188,6 +196,130 @@ TEST_CASE("a constant image has its value everywhere, to the bit") {
       }
     }
   });
+}
+
+MipChain FloatImage(int width, int height, int channels, const std::vector<float>& values) {
+  Texels texels(nullptr, values.size());
+  std::copy(values.begin(), values.end(), texels.As<float>());
+  return {width, height, channels, std::move(texels)};
+}
+
+// Bits of all that an image gives at some points.
+std::vector<uint32_t> BitsOf(const MipChain& image, TextureFilter filter, Wrap wrap) {
+  constexpr size_t kPoints = 203, kRoom = kPoints + 16;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> coordinate(-2, 3);
+  std::uniform_real_distribution<float> exponent(-8, 2);
+  std::vector<double> u(kRoom), v(kRoom);
+  std::vector<float> footprint[4], out[6];
+  for (size_t i = 0; i < kRoom; ++i) {
+    u[i] = coordinate(random);
+    v[i] = coordinate(random);
+    for (auto& f : footprint) f.push_back(std::exp2(exponent(random)));
+  }
+  for (auto& o : out) o.resize(kRoom);
+  const SamplePoints points{
+      u.data(),
+      v.data(),
+      {footprint[0].data(), footprint[1].data(), footprint[2].data(), footprint[3].data()},
+      kPoints};
+  float* const to[4] = {out[0].data(), out[1].data(), out[2].data(), out[3].data()};
+  SampleTexture(image, {filter, wrap, wrap}, points, 4, to);
+  SampleSlopes(image, {filter, wrap, wrap}, points, out[4].data(), out[5].data());
+  std::vector<uint32_t> bits;
+  for (const auto& o : out) {
+    for (size_t i = 0; i < kPoints; ++i) bits.push_back(std::bit_cast<uint32_t>(o[i]));
+  }
+  return bits;
+}
+
+TEST_CASE("an image keeps its precision, and gives the bits of floats") {
+  struct Case {
+    TexelKind kind;
+    size_t bytes;  // of a value
+    float (*draw)(std::mt19937&);
+  };
+  const Case cases[] = {{TexelKind::kBytes, 1,
+                         [](std::mt19937& random) {
+                           return static_cast<float>(static_cast<double>(random() & 255) / 255);
+                         }},
+                        {TexelKind::kWords, 2,
+                         [](std::mt19937& random) {
+                           return static_cast<float>(static_cast<double>(random() & 65535) / 65535);
+                         }},
+                        // Halves of either sign, denormals among them.
+                        {TexelKind::kWords, 2,
+                         [](std::mt19937& random) {
+                           return imath_half_to_float(static_cast<uint16_t>(random() & 0xbbff));
+                         }},
+                        {TexelKind::kFloats, 4, [](std::mt19937& random) {
+                           return static_cast<float>(random()) * 0x1p-32f;
+                         }}};
+  constexpr int kWidth = 37, kHeight = 20;
+  for (const Case& c : cases) {
+    for (int channels = 1; channels <= 4; ++channels) {
+      CAPTURE(&c - cases, channels);
+      std::mt19937 random(3);
+      std::vector<float> values(static_cast<size_t>(kWidth * kHeight * channels));
+      for (float& value : values) value = c.draw(random);
+      const MipChain image = MakeMipChain(kWidth, kHeight, channels, values);
+      const MipChain floats = FloatImage(kWidth, kHeight, channels, values);
+      REQUIRE(image.Level(0).kind == c.kind);
+      REQUIRE(floats.Level(0).kind == TexelKind::kFloats);
+      CHECK(image.ImageBytes() - values.size() * c.bytes < 4);  // the last one's padding
+      CHECK(image.least == floats.least);
+      CHECK(image.greatest == floats.greatest);
+      for (size_t i = 0; i < values.size(); ++i) {
+        REQUIRE(std::bit_cast<uint32_t>(image.Level(0)[i]) == std::bit_cast<uint32_t>(values[i]));
+      }
+      ForEachTarget([&](Target) {
+        for (const Wrap wrap : kWraps) {
+          for (const TextureFilter filter :
+               {TextureFilter::kNearest, TextureFilter::kBilinear, TextureFilter::kTrilinear}) {
+            REQUIRE(BitsOf(image, filter, wrap) == BitsOf(floats, filter, wrap));
+          }
+        }
+      });
+      for (size_t level = 1; level < image.levels.size(); ++level) {
+        for (size_t i = 0; i < image.Level(level).size(); ++i) {
+          REQUIRE(image.Level(level)[i] == floats.Level(level)[i]);
+        }
+      }
+    }
+  }
+  // The sign of a zero is one of its bits.
+  CHECK(std::signbit(MakeMipChain(2, 1, 1, {1, -0.0f}).Value(0, 1, 0, 0)));
+}
+
+TEST_CASE("a mip level takes memory once a look-up needs it") {
+  constexpr int kSide = 64;
+  const std::vector<float> white(3 * kSide * kSide, 1.0f);
+  const auto size = [](float texels) {
+    return TextureFootprint<float>{texels / kSide, 0, 0, texels / kSide};
+  };
+  const auto bytes = [](int side) { return static_cast<size_t>(3 * side * side) * sizeof(float); };
+  constexpr SampleSettings kNearest{TextureFilter::kNearest}, kBilinear{TextureFilter::kBilinear};
+  ForEachTarget([&](Target) {
+    const MipChain image = MakeMipChain(kSide, kSide, 3, white);
+    for (const SampleSettings& settings : {kNearest, kBilinear}) {
+      SampleAt(image, settings, 0.3, 0.4, size(5));
+    }
+    SampleAt(image, {}, 0.3, 0.4, size(1));
+    CHECK(image.LevelBytes() == 0);
+    SampleAt(image, {}, 0.3, 0.4, size(5));  // between the levels 2 and 3
+    CHECK(image.LevelBytes() == bytes(16) + bytes(8));
+    SampleAt(image, {}, 0.3, 0.4, size(3));
+    CHECK(image.LevelBytes() == bytes(32) + bytes(16) + bytes(8));
+    SampleAt(image, {}, 0.3, 0.4, size(1e9f));
+    CHECK(image.LevelBytes() == bytes(32) + bytes(16) + bytes(8) + bytes(1));
+  });
+}
+
+TEST_CASE("threads that need a level at once get the same one") {
+  const MipChain image = RandomImage(256, 256, 3, 4);
+  std::vector<const void*> found(8);
+  ParallelFor(found.size(), 4, [&](size_t i) { found[i] = image.Level(3 - i % 3).data; });
+  for (size_t i = 3; i < found.size(); ++i) CHECK(found[i] == found[i - 3]);
 }
 
 TEST_CASE("mip levels keep the mean of any size") {
