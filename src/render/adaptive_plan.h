@@ -18,12 +18,13 @@ namespace nacre {
 // their mean.
 inline constexpr int kReplicates = 4;
 
-// A light that causes highlights: a point, or the bounding ball of a light with an extent.
+// A light that causes highlights: a point, the bounding ball of a light with an extent, or a sun of
+// a sky.
 struct HighlightLight {
   size_t number;     // punctual lights first, then those with an extent, as in DirectPlan
   bool directional;  // its light is parallel
   Vec3d position;    // relative to the camera; of a directional light the unit direction to it
-  double radius;     // 0 for a punctual light
+  double radius;     // 0 for a punctual light; in radians for a directional one
 };
 
 // A highlight of a light on a sphere or a mesh. Film positions and areas are in pixels.

@@ -95,8 +95,7 @@ void AddGlint(const FramePlan& plan, const Projector& projector, const TileCandi
   const double half_turn = (1 / mirror.eye.length + 1 / mirror.light.length) / 2;
   const double normal_turn = 1 / sphere.radius;
   const double turns = (normal_turn + half_turn * cosine) * (normal_turn + half_turn / cosine);
-  // A light's angular radius turns the half vector by half as much.
-  const double of_light = shown.radius / mirror.light.length / 2;
+  const double of_light = HalfVectorTurn(shown, mirror.light.length);
   const double width2 = lobe * lobe + of_light * of_light;
   const double scale = PixelsPerLength(projector, place);
   const double facing = projector.perspective ? cosine * mirror.eye.length / depth : cosine;

@@ -14,8 +14,17 @@ namespace nacre {
 
 inline constexpr double kInfiniteDistance = std::numeric_limits<double>::infinity();
 
-// All lights except skies and ambient lights.
+// All lights except ambient ones. Of a sky that is a picture its suns: the brightest small parts,
+// at most four.
 std::vector<HighlightLight> FindHighlightLights(const Scene& scene, const DirectPlan& direct);
+
+// The suns of skies that are pictures: their brightest small parts, at most four of each.
+std::vector<HighlightLight> FindSuns(const DirectPlan& direct);
+
+// How far the extent of the light, seen from this distance, turns the half vector, in radians.
+inline double HalfVectorTurn(const HighlightLight& light, double distance) {
+  return (light.directional ? light.radius : light.radius / distance) / 2;
+}
 
 // The half-width of the material's narrowest lobe, in radians of the angle between normal and half
 // vector; infinite if there is no lobe. A Phong lobe is defined around the mirror direction, which

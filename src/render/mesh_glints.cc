@@ -192,9 +192,7 @@ class GlintFinder {
       return Vec2d(at.x, at.y);
     };
     const Derivatives<Vec2d> moves = Differentiate(on_film, *peak);
-    // A light's angular radius turns the half vector by half as much.
-    const double of_light =
-        light.directional ? 0 : light.radius / (light.position - place).length() / 2;
+    const double of_light = HalfVectorTurn(light, (light.position - place).length());
     const double width2 = t.lobe * t.lobe + of_light * of_light;
     const double area = M_PI * width2 * std::abs(Determinant(moves) / Determinant(turns));
     if (!(area > 0 && area < max_area)) return;

@@ -8,6 +8,7 @@
 
 #include "light/environment.h"
 #include "render/filter_shares.h"
+#include "render/highlights.h"
 #include "render/probes.h"
 #include "render/texel_maps.h"
 #include "scene/mesh.h"
@@ -16,7 +17,7 @@
 namespace nacre {
 namespace {
 
-// The pixels of a cell, and those around it that the filters of its pixels cover the middles of.
+// The pixels of a cell, and those around it that the filters of its pixels reach.
 Window PixelsAround(const Window& cell, const Window& frame, double filter_radius) {
   const int border = static_cast<int>(std::ceil(filter_radius - 0.5));
   return Intersect({cell.x0 - border, cell.y0 - border, cell.x1 + border, cell.y1 + border}, frame);
@@ -50,6 +51,16 @@ Vec3d MeetPrimitive(const FramePlan& plan, uint32_t primitive, const FilmRay& ra
   return ray.origin + ray.direction * ((c > 0 ? -half_b - root : -half_b + root) / dd);
 }
 
+// The weights of the second and the third corner at a point of the triangle's plane.
+Vec2d BarycentricsAt(const FramePlan& plan, const TriangleRef& triangle, const Vec3d& point) {
+  const Mesh& mesh = *triangle.mesh;
+  const Vec3d& a = mesh.positions[triangle.Vertex(0)];
+  const Vec3d e1 = mesh.positions[triangle.Vertex(1)] - a;
+  const Vec3d e2 = mesh.positions[triangle.Vertex(2)] - a;
+  const Vec3d n = e1.cross(e2), from_a = point + plan.scene->camera.position - a;
+  return {e2.cross(n).dot(from_a) / n.length2(), n.cross(e1).dot(from_a) / n.length2()};
+}
+
 // (u, v) at a point of the primitive, not wrapped.
 Vec2d MapPoint(const FramePlan& plan, uint32_t primitive, const Texture& texture,
                const Vec3d& point) {
@@ -65,21 +76,81 @@ Vec2d MapPoint(const FramePlan& plan, uint32_t primitive, const Texture& texture
   const TriangleRef triangle = TriangleOf(plan.surfaces.primitives, primitive);
   const Mesh& mesh = *triangle.mesh;
   const auto& uvs = texture.second_uvs && !mesh.second_uvs.empty() ? mesh.second_uvs : mesh.uvs;
-  const Vec3d& a = mesh.positions[triangle.Vertex(0)];
-  const Vec3d e1 = mesh.positions[triangle.Vertex(1)] - a;
-  const Vec3d e2 = mesh.positions[triangle.Vertex(2)] - a;
-  const Vec3d n = e1.cross(e2), from_a = in_world - a;
-  const double b1 = e2.cross(n).dot(from_a) / n.length2();
-  const double b2 = n.cross(e1).dot(from_a) / n.length2();
+  const Vec2d b = BarycentricsAt(plan, triangle, point);
   const Vec2d uv = uvs[triangle.Vertex(0)];
-  return TransformOf(texture).Apply(uv + (uvs[triangle.Vertex(1)] - uv) * b1 +
-                                    (uvs[triangle.Vertex(2)] - uv) * b2);
+  return TransformOf(texture).Apply(uv + (uvs[triangle.Vertex(1)] - uv) * b.x +
+                                    (uvs[triangle.Vertex(2)] - uv) * b.y);
+}
+
+// What the components of a normal map are multiplied by.
+struct MapFrame {
+  Vec3d tangent, bitangent, normal;
+};
+
+// The frame at a point of a primitive, given how the point and (u, v) change along the film, as
+// hits have it (shading/turn_kernel.cc).
+MapFrame FrameAt(const FramePlan& plan, uint32_t primitive, TextureId texture, const Vec3d& point,
+                 const Vec3d& to_view, const Vec3d (&point_by)[2], const Vec2d (&uv_by)[2]) {
+  const TextureScene& textures = plan.surfaces.textures;
+  const PrimitiveNumbers& primitives = plan.surfaces.primitives;
+  const Scene& scene = *plan.scene;
+  const CornerTangents* made = nullptr;
+  Vec3d normal, tangent(0);
+  double sign = 0;
+  if (IsSphere(primitives, primitive)) {
+    const Sphere& sphere = scene.spheres[primitive];
+    normal = (point + scene.camera.position - sphere.center) / sphere.radius;
+  } else {
+    const TriangleRef triangle = TriangleOf(primitives, primitive);
+    const Mesh& mesh = *triangle.mesh;
+    const Vec2d b = BarycentricsAt(plan, triangle, point);
+    const double weights[3] = {1 - b.x - b.y, b.x, b.y};
+    normal = HasSmoothNormals(mesh) ? Vec3d(0) : FaceNormal(mesh, triangle.triangle);
+    if (!textures.mesh_tangents.empty()) {
+      for (const MapTangents& of_map : textures.mesh_tangents[triangle.number]) {
+        if (of_map.texture == texture.index) made = textures.tangents[of_map.tangents].get();
+      }
+    }
+    for (size_t k = 0; k < 3; ++k) {
+      if (HasSmoothNormals(mesh)) normal += mesh.normals[triangle.Vertex(k)] * weights[k];
+      if (made == nullptr) continue;
+      const Tangent& corner = made->tangents[made->corners[3 * size_t{triangle.triangle} + k]];
+      tangent += corner.direction * weights[k];
+      sign += corner.sign * weights[k];
+    }
+  }
+  const double side = normal.dot(to_view) < 0 ? -1 : 1;
+  if (made != nullptr) {
+    return {tangent * side, normal.cross(tangent) * (sign < 0 ? -side : side), normal * side};
+  }
+  const Vec3d n = normal.normalized() * side;
+  const Vec3d along_u = (point_by[0] * uv_by[1].y - point_by[1] * uv_by[0].y) *
+                        (uv_by[0].cross(uv_by[1]) < 0 ? -1 : 1);
+  const Vec3d along_v = (point_by[1] * uv_by[0].x - point_by[0] * uv_by[1].x) *
+                        (uv_by[0].cross(uv_by[1]) < 0 ? -1 : 1);
+  const Vec3d t = (along_u - n * along_u.dot(n)).normalized();
+  return {t * side, n.cross(t) * (n.cross(t).dot(along_v) < 0 ? -side : side), n};
+}
+
+// The components in which a frame's map makes a direction, unit.
+Vec3d InFrame(const MapFrame& frame, const Vec3d& direction) {
+  const Vec3d by_tangent = frame.bitangent.cross(frame.normal);
+  const Vec3d components(direction.dot(by_tangent),
+                         direction.dot(frame.normal.cross(frame.tangent)),
+                         direction.dot(frame.tangent.cross(frame.bitangent)));
+  return (frame.tangent.dot(by_tangent) < 0 ? -components : components).normalized();
 }
 
 // (u, v) at the middle of a pixel, not wrapped, and their derivatives along the film.
 struct MappedPixel {
   Vec2d uv, dx, dy;
 };
+
+TexelFootprint FootprintOn(const TexelGrid& grid, const MappedPixel& pixel) {
+  const double w = grid.texels.width, h = grid.texels.height;
+  return {pixel.uv.x * w, pixel.uv.y * h, pixel.dx.x * w,
+          pixel.dx.y * h, pixel.dy.x * w, pixel.dy.y * h};
+}
 
 // `at`: (u, v) at an offset from the middle, in pixels.
 template <class At>
@@ -107,6 +178,7 @@ Vec2d Aim(const MappedPixel& pixel, const At& at, const Vec2d& offset) {
 struct FoundTexels {
   int x, y;
   TexelCluster cluster;
+  bool of_normals;
 };
 
 class TexelFinder {
@@ -124,15 +196,46 @@ class TexelFinder {
         return MapPoint(plan_, primitive, texture, MeetPrimitive(plan_, primitive, ray));
       };
       const MappedPixel pixel = MapPixel(at);
-      size_t level = 0;
-      if (texture.sampling.filter == TextureFilter::kTrilinear && !whole_image) {
-        const Vec2d dx = pixel.dx * plan_.surfaces.textures.footprint;
-        const Vec2d dy = pixel.dy * plan_.surfaces.textures.footprint;
-        level = static_cast<size_t>(MipLevelOf(*plan_.scene->images[texture.image.index].texels,
-                                               TextureFootprint<double>{dx.x, dx.y, dy.x, dy.y}));
-      }
+      const auto level = whole_image ? 0 : static_cast<size_t>(MipLevelAt(texture, pixel));
       Search(x, y, pixel, at, GridOf(*plan_.scene, map.texture, level),
              level == 0 ? maps_.extremes[map.texture.index].get() : nullptr, map.measures);
+    }
+  }
+
+  // In the normal maps of what the ray through the middle of the pixel meets.
+  void SearchNormals(int x, int y, uint32_t primitive, const std::vector<LobeNormalMap>& maps) {
+    for (const LobeNormalMap& map : maps) {
+      const Texture& texture = plan_.scene->textures[map.map.texture.index];
+      const SceneImage& image = plan_.scene->images[texture.image.index];
+      const auto point_at = [&](double dx, double dy) {
+        return MeetPrimitive(plan_, primitive,
+                             RayThrough(plan_.camera, x + 0.5 + dx, y + 0.5 + dy));
+      };
+      const auto at = [&](double dx, double dy) {
+        return MapPoint(plan_, primitive, texture, point_at(dx, dy));
+      };
+      const MappedPixel pixel = MapPixel(at);
+      FindLobes(map, primitive, pixel, point_at);
+      if (lobes_.empty()) continue;
+      const double mip_level = MipLevelAt(texture, pixel);
+      const TexelGrid grid =
+          GridOf(*plan_.scene, map.map.texture, static_cast<size_t>(std::lround(mip_level)));
+      const bool literal = map.map.convention == NormalMap::Convention::kLiteral;
+      const double middle = literal ? 0.5 : double{image.middle};
+      const auto normal_at = [&](const Vec2d& place) {
+        Vec3d n;
+        for (int c = 0; c < 3; ++c) {
+          const double value =
+              SampleChannel(*image.texels, texture.sampling, mip_level, place.x / grid.texels.width,
+                            place.y / grid.texels.height, std::min(c, image.texels->channels - 1));
+          n[c] = (value - middle) / (1 - middle) * (c < 2 ? map.map.scale : 1);
+        }
+        return n;
+      };
+      clusters_.clear();
+      FindNormalClusters(grid, normal_at, FootprintOn(grid, pixel), lobes_,
+                         plan_.adaptive.max_error / 2, &room_, &clusters_);
+      AddFound(x, y, pixel, at, true);
     }
   }
 
@@ -155,15 +258,60 @@ class TexelFinder {
   }
 
  private:
+  double MipLevelAt(const Texture& texture, const MappedPixel& pixel) const {
+    if (texture.sampling.filter != TextureFilter::kTrilinear) return 0;
+    const Vec2d dx = pixel.dx * plan_.surfaces.textures.footprint;
+    const Vec2d dy = pixel.dy * plan_.surfaces.textures.footprint;
+    return MipLevelOf(*plan_.scene->images[texture.image.index].texels,
+                      TextureFootprint<double>{dx.x, dx.y, dy.x, dy.y});
+  }
+
+  // The lights that the map's normals may reflect to the eye, and how. `point_at`: the point of the
+  // primitive at an offset from the pixel's middle.
+  template <class PointAt>
+  void FindLobes(const LobeNormalMap& map, uint32_t primitive, const MappedPixel& pixel,
+                 const PointAt& point_at) {
+    constexpr double kStep = 0.25;
+    const bool perspective = plan_.camera.projection == Projection::kPerspective;
+    const Vec3d points[3] = {point_at(0, 0), point_at(kStep, 0), point_at(0, kStep)};
+    const Vec3d point_by[2] = {points[1] - points[0], points[2] - points[0]};
+    const Vec2d uv_by[2] = {pixel.dx, pixel.dy};
+    MapFrame frames[3];
+    Vec3d to_view[3];
+    for (size_t k = 0; k < 3; ++k) {
+      to_view[k] = perspective ? -points[k].normalized() : -plan_.camera.forward;
+      frames[k] =
+          FrameAt(plan_, primitive, map.map.texture, points[k], to_view[k], point_by, uv_by);
+    }
+    lobes_.clear();
+    const auto add_lobe = [&](const HighlightLight& light) {
+      const auto ideal = [&](size_t k) {
+        const Vec3d to_light =
+            light.directional ? light.position : (light.position - points[k]).normalized();
+        return InFrame(frames[k], (to_view[k] + to_light).normalized());
+      };
+      const Vec3d middle = ideal(0);
+      const double width =
+          std::hypot(map.width, HalfVectorTurn(light, (light.position - points[0]).length()));
+      // Also if it is not finite: there are no tangents.
+      if (!(middle.z > 0 && width > 0)) return;
+      lobes_.push_back({middle, (ideal(1) - middle) / kStep, (ideal(2) - middle) / kStep, width});
+    };
+    for (const HighlightLight& light : plan_.adaptive.lights) add_lobe(light);
+    for (const HighlightLight& sun : maps_.suns) add_lobe(sun);
+  }
+
   template <class At>
   void Search(int x, int y, const MappedPixel& pixel, const At& at, const TexelGrid& grid,
               const TexelExtremes* extremes, const std::vector<TexelMeasure>& measures) {
-    const double w = grid.texels.width, h = grid.texels.height;
     clusters_.clear();
-    FindTexelClusters(grid, extremes,
-                      {pixel.uv.x * w, pixel.uv.y * h, pixel.dx.x * w, pixel.dx.y * h,
-                       pixel.dy.x * w, pixel.dy.y * h},
-                      measures, &room_, &clusters_);
+    FindTexelClusters(grid, extremes, FootprintOn(grid, pixel), measures, &room_, &clusters_);
+    AddFound(x, y, pixel, at, false);
+  }
+
+  // Adds `clusters_`.
+  template <class At>
+  void AddFound(int x, int y, const MappedPixel& pixel, const At& at, bool of_normals) {
     const size_t first = found_->size();
     for (const TexelCluster& cluster : clusters_) {
       // A white texel is the extreme of three channels.
@@ -171,7 +319,7 @@ class TexelFinder {
           found_->begin() + static_cast<ptrdiff_t>(first), found_->end(),
           [&](const FoundTexels& other) { return other.cluster.offset == cluster.offset; });
       if (known == found_->end()) {
-        found_->push_back({x, y, cluster});
+        found_->push_back({x, y, cluster, of_normals});
       } else {
         known->cluster.share = std::min(known->cluster.share, cluster.share);
       }
@@ -185,6 +333,7 @@ class TexelFinder {
   const FramePlan& plan_;
   const TexelMaps& maps_;
   std::vector<FoundTexels>* found_;
+  std::vector<NormalLobe> lobes_;
   std::vector<TexelCluster> clusters_;
   TexelSearchRoom room_;
 };
@@ -219,14 +368,16 @@ std::vector<FoundTexels> SearchPixels(const FramePlan& plan, const Window& windo
   const auto search_hits = [&](const std::vector<std::vector<TexelMap>>& of, bool whole_image) {
     for (size_t i = 0; i < hits.count; ++i) {
       const size_t ray = hits.ray[i];
-      const uint32_t material = MaterialAt(plan.surfaces, hits.primitive[i], column(ray)).index;
-      if (of[material].empty()) continue;
+      const uint32_t material =
+          MaterialAt(plan.surfaces, hits.primitive[i], work->samples.film.x[ray]).index;
       finder.SearchMaps(column(ray), row(ray), hits.primitive[i], of[material], whole_image);
+      if (whole_image) continue;
+      finder.SearchNormals(column(ray), row(ray), hits.primitive[i], maps.normals[material]);
     }
   };
-  if (maps.any_looks || maps.sky_extremes) {
+  if (maps.any_looks || maps.any_normals || maps.sky_extremes) {
     TraceMiddles(plan, window, false, work, stats);
-    if (maps.any_looks) search_hits(maps.looks, false);
+    search_hits(maps.looks, false);
     if (maps.sky_extremes) {
       size_t hit = 0;
       for (size_t ray = 0; ray < work->samples.film.count; ++ray) {
@@ -260,14 +411,36 @@ void FindRareTexels(const FramePlan& plan, const Window& cell, TileWork* work, C
                       static_cast<uint32_t>(IndexIn(plan.frame, texels.x, texels.y))});
   }
   TraceProbes(plan, &probes, work, clock, stats);
+  // As if the texels that look alike were spread evenly over the pixel. Glints that normals make
+  // are much alike: those of several pixels count together.
+  struct Glints {
+    double squares = 0;
+    Rgb radiance{0, 0, 0};
+  };
+  Glints glints[kCellSize][kCellSize];
   for (size_t i = 0; i < found.size(); ++i) {
-    // As if the texels that look alike were spread evenly over the pixel.
     const FilmBox pixel{found[i].x + 0.5, found[i].y + 0.5, 0.5, 0.5};
+    const Rgb& radiance = probes[i].radiance;
     ForEachShare(plan.scene->image.filter, cell, pixel, [&](int column, int row, double share) {
       const double of_texels = share * found[i].cluster.share;
       if (of_texels == 0) return;
-      c->rare_parts.push_back({PixelAt(column, row), of_texels, probes[i].radiance * of_texels});
+      if (found[i].of_normals) {
+        if (of_texels < 0) return;  // of filters with negative lobes
+        glints[row][column].squares += of_texels * radiance.length2();
+        glints[row][column].radiance += radiance * of_texels;
+      } else {
+        c->rare_parts.push_back({PixelAt(column, row), of_texels, radiance * of_texels});
+      }
     });
+  }
+  for (int row = 0; row < kCellSize; ++row) {
+    for (int column = 0; column < kCellSize; ++column) {
+      const auto& [squares, radiance] = glints[row][column];
+      // Glints of this one share and radiance would have the same mean and variance.
+      if (squares > 0) {
+        c->rare_parts.push_back({PixelAt(column, row), radiance.length2() / squares, radiance});
+      }
+    }
   }
 }
 

@@ -4,8 +4,11 @@
 //
 // One ray through the middle of a pixel tells which part of each map lies in it. The texels there
 // that differ most from the others (texture/texel_search.h) are probed by a ray each, which tells
-// what they look like under the scene's lights, whatever the map is of. Not found are texels of
-// surfaces that the middle of a pixel does not show, those that mirrors show, and normals.
+// what they look like under the scene's lights, whatever the map is of. Of a normal map over a
+// narrow lobe (roughness below .45) these are the texels that mirror a light, or the sun of a sky,
+// to the eye. Not found are texels of surfaces that the middle of a pixel does not show, those that
+// mirrors show, what bump maps turn, what normals turn on matte surfaces or between texels that are
+// interpolated, and normals where more than 256 x 256 texels lie in a pixel.
 #pragma once
 
 #include "render/cell_state.h"

@@ -2,6 +2,8 @@
 #include "render/texel_maps.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 #include <variant>
 
@@ -13,19 +15,23 @@ namespace {
 
 // What a map's texels are compared by where it multiplies a parameter. Radiance is a linear
 // function of most of them, so that texels that change the mean by less than half the wanted error
-// do not matter.
+// do not matter. What is no metal among metal may be bright, too, and so may lobes of a low
+// exponent among sharp ones, beside their peaks.
 void AddMeasures(const MapTarget& target, const Material& material, double max_error,
                  std::vector<TexelMeasure>* measures) {
+  using enum TexelMeasure::Kind;
   if (IsBlack(target.factor(material))) return;
-  const bool is_roughness = target.number == MappedNumber::kWidth &&
-                            !std::holds_alternative<PhongMaterial>(material.model);
-  TexelMeasure measure;
-  measure.kind = is_roughness ? TexelMeasure::Kind::kSharpness : TexelMeasure::Kind::kValue;
-  measure.least_change = max_error / 2;
   const int first = target.is_color ? 0 : target.channel;
   for (int channel = first; channel < (target.is_color ? 3 : first + 1); ++channel) {
-    measure.channel = channel;
-    measures->push_back(measure);
+    const auto add = [&](TexelMeasure::Kind kind, double number) {
+      measures->push_back({kind, channel, number, max_error / 2});
+    };
+    const bool is_width = target.number == MappedNumber::kWidth;
+    const bool is_exponent = is_width && std::holds_alternative<PhongMaterial>(material.model);
+    // The height of a microfacet lobe's peak is as its roughness to the power of -4.
+    add(kPower, is_width && !is_exponent ? -4 : 1);
+    if (is_exponent) add(kPower, -1);
+    if (target.number == MappedNumber::kMetallic) add(kRest, 0);
   }
 }
 
@@ -37,7 +43,8 @@ void AddMap(const Scene& scene, TextureId texture, std::vector<TexelMeasure> mea
   for (TexelMeasure& measure : measures) {
     measure.channel = std::min(measure.channel, channels - 1);
     const bool known = std::any_of(kept.begin(), kept.end(), [&](const TexelMeasure& other) {
-      return other.kind == measure.kind && other.channel == measure.channel;
+      return other.kind == measure.kind && other.channel == measure.channel &&
+             other.number == measure.number;
     });
     if (!known) kept.push_back(measure);
   }
@@ -57,11 +64,45 @@ void AddLooks(const Scene& scene, const Material& material, double max_error,
   }
 }
 
+// The mean of a map's channel over the whole image.
+double MeanOfMap(const Scene& scene, TextureId texture, int channel) {
+  const MipChain& image = *scene.images[scene.textures[texture.index].image.index].texels;
+  return image.Value(image.levels.size() - 1, 0, 0, std::min(channel, image.channels - 1));
+}
+
+// The half-width of the material's own lobe, in the angle between normal and half vector; infinite
+// if it has none.
+double LobeWidth(const Scene& scene, const Material& material) {
+  for (const MaterialMap& map : ModelOf(material)->maps) {
+    for (const MapTarget& target : TargetsOf(map)) {
+      if (target.number != MappedNumber::kWidth) continue;
+      const TextureId texture = map.get(material);
+      const double mapped = texture.valid() ? MeanOfMap(scene, texture, target.channel) : 1;
+      const double width = target.factor(material).x * mapped;
+      const auto* phong = std::get_if<PhongMaterial>(&material.model);
+      if (phong == nullptr) return width * width;
+      // Around the mirrored direction, which turns twice as fast as the half vector.
+      const bool mirrored = phong->model != PhongModel::kBlinnPhong;
+      return std::sqrt(2 / (width + 2)) * (mirrored ? 0.5 : 1);
+    }
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+void AddNormals(const Scene& scene, const Material& material, std::vector<LobeNormalMap>* maps) {
+  // Wider lobes are not much brighter in one texel than in the others: samples find what they make,
+  // and to search for it costs more of them than it tells.
+  constexpr double kWidest = 0.2;
+  const double width = LobeWidth(scene, material);
+  if (!material.normal_map.texture.valid() || !(width < kWidest)) return;
+  maps->push_back({material.normal_map, width});
+}
+
 void AddOpacity(const Scene& scene, const Material& material, std::vector<TexelMap>* maps) {
   if (!material.opacity_map.valid() || !(material.opacity > 0)) return;
   TexelMeasure solid;
   solid.kind = TexelMeasure::Kind::kSolid;
-  solid.threshold = material.opacity_cutoff / material.opacity;
+  solid.number = material.opacity_cutoff / material.opacity;
   AddMap(scene, material.opacity_map, {solid}, maps);
 }
 
@@ -75,7 +116,7 @@ void AddSky(const DirectPlan& direct, double max_error, TexelMaps* maps) {
                Wrap::kClamp};
   maps->sky_extremes = std::make_unique<const TexelExtremes>(maps->sky);
   for (int channel = 0; channel < 3; ++channel) {
-    maps->sky_measures.push_back({TexelMeasure::Kind::kValue, channel, 0, max_error / 2});
+    maps->sky_measures.push_back({TexelMeasure::Kind::kPower, channel, 1, max_error / 2});
   }
 }
 
@@ -92,19 +133,26 @@ std::shared_ptr<const TexelMaps> FindTexelMaps(const Scene& scene, const DirectP
   auto maps = std::make_shared<TexelMaps>();
   for (const Material& material : scene.materials) {
     std::vector<TexelMap>& looks = maps->looks.emplace_back();
+    std::vector<LobeNormalMap>& normals = maps->normals.emplace_back();
     std::vector<TexelMap>& opacities = maps->opacities.emplace_back();
     if (ModelOf(material) == nullptr) continue;
     AddLooks(scene, material, max_error, &looks);
-    if (const auto coat = CoatOf(material)) AddLooks(scene, *coat, max_error, &looks);
+    AddNormals(scene, material, &normals);
+    if (const auto coat = CoatOf(material)) {
+      AddLooks(scene, *coat, max_error, &looks);
+      AddNormals(scene, *coat, &normals);
+    }
     AddOpacity(scene, material, &opacities);
     maps->any_looks = maps->any_looks || !looks.empty();
+    maps->any_normals = maps->any_normals || !normals.empty();
     maps->any_opacity = maps->any_opacity || !opacities.empty();
   }
   for (uint32_t i = 0; i < scene.textures.size(); ++i) {
     maps->extremes.push_back(std::make_unique<const TexelExtremes>(GridOf(scene, {i}, 0)));
   }
   AddSky(direct, max_error, maps.get());
-  const bool any = maps->any_looks || maps->any_opacity || maps->sky_extremes;
+  if (maps->any_normals) maps->suns = FindSuns(direct);
+  const bool any = maps->any_looks || maps->any_normals || maps->any_opacity || maps->sky_extremes;
   return any ? maps : nullptr;
 }
 

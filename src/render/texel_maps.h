@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/direct_plan.h"
+#include "render/highlights.h"
 #include "render/surfaces.h"
 #include "texture/texel_search.h"
 
@@ -17,10 +18,18 @@ struct TexelMap {
   std::vector<TexelMeasure> measures;
 };
 
+// A normal map over a lobe.
+struct LobeNormalMap {
+  NormalMap map;
+  double width;  // NormalLobe::width, of the whole map
+};
+
 struct TexelMaps {
   // By material of the scene: the maps of how it looks, its coat's included, and of its opacity.
   std::vector<std::vector<TexelMap>> looks, opacities;
-  bool any_looks = false, any_opacity = false;
+  std::vector<std::vector<LobeNormalMap>> normals;
+  std::vector<HighlightLight> suns;  // of skies, if there are such maps
+  bool any_looks = false, any_normals = false, any_opacity = false;
   std::vector<std::unique_ptr<const TexelExtremes>> extremes;  // by texture
   // Of a sky that is a picture and is seen.
   TexelGrid sky;

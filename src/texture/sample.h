@@ -124,6 +124,20 @@ Real SampleTrilinear(const MipChain& image, const SampleSettings& settings, Real
   return near + (mip_level - static_cast<Real>(level)) * (far - near);
 }
 
+// By the filter of the settings; `mip_level` is for trilinear ones.
+template <typename Real>
+Real SampleChannel(const MipChain& image, const SampleSettings& settings, Real mip_level, Real u,
+                   Real v, int channel) {
+  switch (settings.filter) {
+    case TextureFilter::kNearest:
+      return SampleNearest(image, 0, settings, u, v, channel);
+    case TextureFilter::kBilinear:
+      return SampleBilinear(image, 0, settings, u, v, channel);
+    default:
+      return SampleTrilinear(image, settings, mip_level, u, v, channel);
+  }
+}
+
 // The derivatives of the first channel with respect to u and v, by central differences over one
 // texel of the level. Unlike the derivatives of a bilinear surface, they have no steps at the texel
 // centres.
@@ -131,14 +145,7 @@ template <typename Real>
 void SampleSlopes(const MipChain& image, const SampleSettings& settings, Real mip_level, Real u,
                   Real v, Real* du, Real* dv) {
   const auto at = [&](Real x, Real y) {
-    switch (settings.filter) {
-      case TextureFilter::kNearest:
-        return SampleNearest(image, 0, settings, x, y, 0);
-      case TextureFilter::kBilinear:
-        return SampleBilinear(image, 0, settings, x, y, 0);
-      default:
-        return SampleTrilinear(image, settings, mip_level, x, y, 0);
-    }
+    return SampleChannel(image, settings, mip_level, x, y, 0);
   };
   const Real texels = settings.filter == TextureFilter::kTrilinear ? std::exp2(mip_level) : Real(1);
   const Real step_u = texels / static_cast<Real>(image.levels[0].width);

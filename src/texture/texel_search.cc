@@ -8,6 +8,7 @@ namespace nacre {
 namespace {
 
 using Place = TexelSearchRoom::Place;
+using Span = TexelSearchRoom::Span;
 using Level = TexelExtremes::Level;
 
 // Footprints of more texels are searched by squares.
@@ -19,6 +20,10 @@ constexpr int kSquareSide = 8;
 // Clusters are sought by halving their contrast this many times: what has less contrast matters
 // only if it covers so much of the pixel that samples find it.
 constexpr int kOctaves = 12;
+
+// Squares whose extreme texels are outside of the pixel, where it ends, are given up one by one, as
+// many as this.
+constexpr int kMaxTries = 16;
 
 // The texel at an unwrapped place along one axis.
 int WrapTexel(double at, int size, Wrap wrap) {
@@ -42,76 +47,110 @@ Vec2d HalfBox(const TexelFootprint& f) {
 }
 
 // About how many squares of this side, in texels, overlap that box.
-double CountPlaces(const TexelFootprint& f, int side) {
+double CountPlaces(const TexelGrid& grid, const TexelFootprint& f, int side) {
   const Vec2d half = HalfBox(f);
-  return (2 * half.x / side + 1) * (2 * half.y / side + 1);
+  return (2 * half.x / std::min(side, grid.texels.width) + 1) *
+         (2 * half.y / std::min(side, grid.texels.height) + 1);
 }
 
-// The texels whose centres lie in the pixel, or the squares (side > 1) that overlap it.
-void FindPlaces(const TexelGrid& grid, const TexelFootprint& f, int side,
-                std::vector<Place>* places) {
-  places->clear();
-  const Vec2d half = HalfBox(f);
-  const double beyond = side > 1 ? side / 2.0 : 0;  // how far its centre may lie outside
-  const double in_pixels = beyond / TexelsInPixel(f);
-  const double most_dx = 0.5 + in_pixels * (std::abs(f.y_dy) + std::abs(f.x_dy));
-  const double most_dy = 0.5 + in_pixels * (std::abs(f.y_dx) + std::abs(f.x_dx));
-  const auto first = [&](double at, double reach) {
-    return std::ceil((at - reach - beyond) / side - 0.5);
-  };
-  for (double row = first(f.y, half.y); (row + 0.5) * side <= f.y + half.y + beyond; ++row) {
-    const double y = (row + 0.5) * side;
-    const int texel_y = WrapTexel(y, grid.texels.height, grid.wrap_v);
-    for (double column = first(f.x, half.x); (column + 0.5) * side <= f.x + half.x + beyond;
-         ++column) {
-      const double x = (column + 0.5) * side;
-      const Vec2d offset = OffsetInPixels(f, x, y);
-      if (!(std::abs(offset.x) <= most_dx && std::abs(offset.y) <= most_dy)) continue;
-      const int texel_x = WrapTexel(x, grid.texels.width, grid.wrap_u);
-      places->push_back({{x, y}, offset, texel_x / side, texel_y / side});
+// The squares of an axis that overlap [begin, end], in texels and not wrapped: they are counted
+// from each edge of the image, where the last may be cut.
+void FindSpans(double begin, double end, int side, int size, Wrap wrap, std::vector<Span>* spans) {
+  spans->clear();
+  const int count = (size + side - 1) / side;
+  for (double first = std::floor(begin / size) * size; first < end; first += size) {
+    // Beyond the edges there is only what lies on them, which no square says.
+    if (wrap == Wrap::kClamp && first != 0 && side > 1) continue;
+    const bool mirrored = wrap == Wrap::kMirror && std::fmod(first / size, 2) != 0;
+    const double origin = mirrored ? first + size - double{1} * count * side : first;
+    for (double k = std::max(std::floor((begin - origin) / side), 0.0); k < count; ++k) {
+      const Span span{std::max(origin + k * side, first),
+                      std::min(origin + (k + 1) * side, first + size), 0};
+      if (span.begin >= end) break;
+      if (span.end <= begin) continue;
+      const double center = (span.begin + span.end) / 2;
+      spans->push_back({span.begin, span.end, WrapTexel(center, size, wrap) / side});
     }
   }
+}
+
+// Whether the centre of a texel lies in the pixel, or a square (side > 1) overlaps it.
+bool IsInPixel(const TexelFootprint& f, const Place& place, int side) {
+  const Vec2d half = side == 1 ? Vec2d(0) : (place.end - place.begin) / 2;
+  const double texels = TexelsInPixel(f);
+  const double most_dx = 0.5 + (std::abs(f.y_dy) * half.x + std::abs(f.x_dy) * half.y) / texels;
+  const double most_dy = 0.5 + (std::abs(f.y_dx) * half.x + std::abs(f.x_dx) * half.y) / texels;
+  return std::abs(place.offset.x) <= most_dx && std::abs(place.offset.y) <= most_dy;
+}
+
+// Calls use() for each texel, or square, of a box that is in the pixel.
+template <class Use>
+void ForEachPlace(const TexelGrid& grid, const TexelFootprint& f, const Vec2d& begin,
+                  const Vec2d& end, int side, TexelSearchRoom* room, const Use& use) {
+  FindSpans(begin.x, end.x, side, grid.texels.width, grid.wrap_u, &room->columns);
+  FindSpans(begin.y, end.y, side, grid.texels.height, grid.wrap_v, &room->rows);
+  for (const Span& row : room->rows) {
+    for (const Span& column : room->columns) {
+      Place place{{column.begin, row.begin}, {column.end, row.end}, {}, column.index, row.index};
+      const Vec2d center = (place.begin + place.end) / 2;
+      place.offset = OffsetInPixels(f, center.x, center.y);
+      if (IsInPixel(f, place, side)) use(place);
+    }
+  }
+}
+
+void FindPlaces(const TexelGrid& grid, const TexelFootprint& f, int side, TexelSearchRoom* room) {
+  room->places.clear();
+  const Vec2d center(f.x, f.y), half = HalfBox(f);
+  ForEachPlace(grid, f, center - half, center + half, side, room,
+               [&](const Place& place) { room->places.push_back(place); });
 }
 
 double Measure(const TexelMeasure& measure, const TexelGrid& grid, int x, int y) {
   const double value = grid.texels.At(x, y, measure.channel);
   switch (measure.kind) {
-    case TexelMeasure::Kind::kSharpness: {
-      const double square = std::max(value * value, 1e-30);  // so that the inverse stays finite
-      return 1 / (square * square);
-    }
+    case TexelMeasure::Kind::kRest:
+      return 1 - value;
     case TexelMeasure::Kind::kSolid:
-      return value >= measure.threshold ? 1 : 0;
+      return value >= measure.number ? 1 : 0;
     default:
-      return value;
+      if (measure.number == 1) return value;
+      return std::pow(std::max(value, 1e-15), measure.number);  // so that inverses stay finite
   }
 }
 
 // Whether the measure is greatest where the channel is.
-bool Ascends(const TexelMeasure& measure) { return measure.kind != TexelMeasure::Kind::kSharpness; }
+bool Ascends(const TexelMeasure& measure) {
+  return measure.kind == TexelMeasure::Kind::kSolid ||
+         (measure.kind == TexelMeasure::Kind::kPower && measure.number > 0);
+}
 
-// The centre of the texel that has the greatest or the least measure in a square of
-// `levels[level]`.
-Vec2d FindExtremeTexel(const TexelGrid& image, const std::vector<Level>& levels, size_t level,
-                       const Place& square, const TexelMeasure& measure, bool greatest) {
+struct Found {
+  Place place;
+  double measure;
+};
+
+// Of the texels of a square of `levels[level]` that are in the pixel, the one with the greatest or
+// the least measure, as far as the pyramid tells. If none is, `none` is the measure.
+Found FindExtremeTexel(const TexelGrid& image, const TexelFootprint& f,
+                       const std::vector<Level>& levels, size_t level, const Place& square,
+                       const TexelMeasure& measure, bool greatest, double none,
+                       TexelSearchRoom* room) {
   const bool high = greatest == Ascends(measure);
-  Vec2d center = square.center;
+  Found found{square, none};
   for (size_t l = level + 1; l-- > 0;) {
-    const int side = levels[l].side / kSquareSide;
     const TexelGrid& parts = l == 0 ? image : high ? levels[l - 1].high : levels[l - 1].low;
-    const Vec2d first = center - Vec2d(side * (kSquareSide - 1) / 2.0);
-    double best = 0;
-    for (int k = 0; k < kSquareSide * kSquareSide; ++k) {
-      const Vec2d at = first + Vec2d(k % kSquareSide * side, k / kSquareSide * side);
-      const int x = WrapTexel(at.x, image.texels.width, image.wrap_u) / side;
-      const int y = WrapTexel(at.y, image.texels.height, image.wrap_v) / side;
-      const double value = Measure(measure, parts, x, y);
-      if (k > 0 && !(greatest ? value > best : value < best)) continue;
-      best = value;
-      center = at;
-    }
+    bool any = false;
+    const Vec2d begin = found.place.begin, end = found.place.end;
+    ForEachPlace(image, f, begin, end, levels[l].side / kSquareSide, room, [&](const Place& part) {
+      const double value = Measure(measure, parts, part.column, part.row);
+      if (any && !(greatest ? value > found.measure : value < found.measure)) return;
+      any = true;
+      found = {part, value};
+    });
+    if (!any) return {square, none};
   }
-  return center;
+  return found;
 }
 
 struct Extreme {
@@ -144,6 +183,15 @@ Extreme FindExtreme(const std::vector<double>& values, double mean, double side,
     if (sum * span > least_change * std::abs(mean) * texels) return {extreme, count / texels};
   }
   return {0, 0};
+}
+
+// Footprints of more texels are not searched for normals.
+constexpr double kMaxNormals = 256 * 256;
+
+// Whether the pixel holds so many texels that some may be rare, and not beyond all bounds; false
+// also if the footprint is not finite.
+bool HoldsTexels(const TexelFootprint& f, double texels) {
+  return texels > 2 && texels < 1e15 && std::abs(f.x) < 1e15 && std::abs(f.y) < 1e15;
 }
 
 // The next level of a pyramid: of squares of `from`, the value that `join` makes of theirs.
@@ -197,23 +245,22 @@ void FindTexelClusters(const TexelGrid& grid, const TexelExtremes* extremes,
                        const TexelFootprint& f, const std::vector<TexelMeasure>& measures,
                        TexelSearchRoom* room, std::vector<TexelCluster>* clusters) {
   double texels = TexelsInPixel(f);
-  // Also if it is not finite.
-  if (!(texels > 2 && texels < 1e15 && std::abs(f.x) < 1e15 && std::abs(f.y) < 1e15)) return;
+  if (!HoldsTexels(f, texels)) return;
   if (grid.texels.width == 1 && grid.texels.height == 1) return;
   std::vector<Place>& places = room->places;
   const std::vector<Level>* levels = nullptr;
   size_t level = 0;
-  if (CountPlaces(f, 1) <= kMaxPlaces) {
-    FindPlaces(grid, f, 1, &places);
+  if (CountPlaces(grid, f, 1) <= kMaxPlaces) {
+    FindPlaces(grid, f, 1, room);
     texels = static_cast<double>(places.size());
   } else {
     if (extremes == nullptr) return;
     levels = &extremes->Levels();
-    while (level + 1 < levels->size() && CountPlaces(f, (*levels)[level].side) > kMaxPlaces)
+    while (level + 1 < levels->size() && CountPlaces(grid, f, (*levels)[level].side) > kMaxPlaces)
       ++level;
     const int side = (*levels)[level].side;
-    if (CountPlaces(f, side) <= kMaxPlaces) {
-      FindPlaces(grid, f, side, &places);
+    if (CountPlaces(grid, f, side) <= kMaxPlaces) {
+      FindPlaces(grid, f, side, room);
     } else {
       // The image is repeated very often in the pixel: once, in its middle, is enough.
       texels = double{1} * grid.texels.width * grid.texels.height;
@@ -221,7 +268,7 @@ void FindTexelClusters(const TexelGrid& grid, const TexelExtremes* extremes,
       const double period_y = 2.0 * grid.texels.height;  // if mirrored
       const Vec2d first(std::floor(f.x / period_x) * period_x,
                         std::floor(f.y / period_y) * period_y);
-      places.assign(1, {first + Vec2d(side / 2.0), Vec2d(0), 0, 0});
+      places.assign(1, {first, first + Vec2d(grid.texels.width, grid.texels.height), {}, 0, 0});
     }
   }
   if (places.empty()) return;  // the footprint is a thin strip between the texels' centres
@@ -246,17 +293,51 @@ void FindTexelClusters(const TexelGrid& grid, const TexelExtremes* extremes,
     }
     const double mean = sum / static_cast<double>(places.size());
     for (const bool greatest : {true, false}) {
-      const Extreme extreme = FindExtreme(greatest && levels != nullptr ? room->high : room->low,
-                                          mean, greatest ? 1 : -1, texels, measure.least_change);
-      if (!(extreme.share > 0 && extreme.share < 0.5)) continue;
-      const Place& place = places[extreme.place];
-      Vec2d offset = place.offset;
-      if (levels != nullptr) {
-        const Vec2d at = FindExtremeTexel(grid, *levels, level, place, measure, greatest);
-        offset = OffsetInPixels(f, at.x, at.y);
+      std::vector<double>& values = greatest && levels != nullptr ? room->high : room->low;
+      for (int tries = 0; tries < kMaxTries; ++tries) {
+        const Extreme extreme =
+            FindExtreme(values, mean, greatest ? 1 : -1, texels, measure.least_change);
+        if (!(extreme.share > 0 && extreme.share < 0.5)) break;
+        const Place& place = places[extreme.place];
+        const Found texel = levels == nullptr ? Found{place, values[extreme.place]}
+                                              : FindExtremeTexel(grid, f, *levels, level, place,
+                                                                 measure, greatest, mean, room);
+        if (texel.measure == values[extreme.place]) {
+          clusters->push_back({texel.place.offset, extreme.share});
+          break;
+        }
+        values[extreme.place] = texel.measure;  // the square's own is outside of the pixel
       }
-      clusters->push_back({offset, extreme.share});
     }
+  }
+}
+
+void FindNormalClusters(const TexelGrid& grid, const std::function<Vec3d(const Vec2d&)>& normal_at,
+                        const TexelFootprint& f, std::span<const NormalLobe> lobes,
+                        double least_change, TexelSearchRoom* room,
+                        std::vector<TexelCluster>* clusters) {
+  if (!HoldsTexels(f, TexelsInPixel(f)) || CountPlaces(grid, f, 1) > kMaxNormals) return;
+  std::vector<Place>& places = room->places;
+  FindPlaces(grid, f, 1, room);
+  if (places.empty()) return;
+  room->normals.clear();
+  for (const Place& place : places)
+    room->normals.push_back(normal_at((place.begin + place.end) / 2).normalized());
+  const auto count = static_cast<double>(places.size());
+  for (const NormalLobe& lobe : lobes) {
+    std::vector<double>& values = room->high;
+    values.clear();
+    double sum = 0;
+    for (size_t i = 0; i < places.size(); ++i) {
+      const Vec2d& offset = places[i].offset;
+      const Vec3d ideal = lobe.ideal + lobe.ideal_dx * offset.x + lobe.ideal_dy * offset.y;
+      const double off = (room->normals[i] - ideal).length2() / (lobe.width * lobe.width);
+      values.push_back(1 / ((1 + off) * (1 + off)));
+      sum += values.back();
+    }
+    const Extreme extreme = FindExtreme(values, sum / count, 1, count, least_change);
+    if (!(extreme.share > 0 && extreme.share < 0.5)) continue;
+    clusters->push_back({places[extreme.place].offset, extreme.share});
   }
 }
 

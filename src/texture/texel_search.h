@@ -4,7 +4,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <mutex>
+#include <span>
 #include <vector>
 
 #include "base/vec.h"
@@ -49,13 +51,13 @@ struct TexelFootprint {
 // What texels are compared by.
 struct TexelMeasure {
   enum class Kind : uint8_t {
-    kValue,      // the channel itself
-    kSharpness,  // its inverse fourth power: of a roughness the height of the lobe's peak
-    kSolid,      // 1 where the channel is at least `threshold`, else 0
+    kPower,  // the channel to the power of `number`
+    kRest,   // 1 minus the channel
+    kSolid,  // 1 where the channel is at least `number`, else 0
   };
-  Kind kind = Kind::kValue;
+  Kind kind = Kind::kPower;
   int channel = 0;
-  double threshold = 0;
+  double number = 1;
   // Texels do not matter if together they change the pixel's mean by less than this part of it.
   double least_change = 0;
 };
@@ -70,12 +72,19 @@ struct TexelCluster {
 struct TexelSearchRoom {
   // A texel of the footprint, or a square of several.
   struct Place {
-    Vec2d center;  // in texels, not wrapped
-    Vec2d offset;  // from the pixel's centre to its own, in pixels
+    Vec2d begin, end;  // in texels, not wrapped
+    Vec2d offset;      // from the pixel's centre to its own, in pixels
     int column, row;
   };
+  // The same along one axis.
+  struct Span {
+    double begin, end;
+    int index;
+  };
   std::vector<Place> places;
+  std::vector<Span> columns, rows;
   std::vector<double> low, high;
+  std::vector<Vec3d> normals;  // unit, by place
 };
 
 // Adds the clusters that cover less than half of the footprint, at most two of each measure.
@@ -83,5 +92,20 @@ struct TexelSearchRoom {
 void FindTexelClusters(const TexelGrid& grid, const TexelExtremes* extremes,
                        const TexelFootprint& footprint, const std::vector<TexelMeasure>& measures,
                        TexelSearchRoom* room, std::vector<TexelCluster>* clusters);
+
+// What normals are compared by: how brightly they reflect one small light to the eye. The `ideal`
+// one mirrors it; with the angle to that one it falls as GGX's lobe does. In the frame of the map.
+struct NormalLobe {
+  Vec3d ideal;               // unit, at the pixel's centre
+  Vec3d ideal_dx, ideal_dy;  // how it changes from pixel to pixel
+  double width;              // the angle at which a quarter is left
+};
+
+// The same for a map of normals, which `normal_at` tells at places in texels: adds at most one
+// cluster of each lobe. Footprints of more than 256 x 256 texels are not searched.
+void FindNormalClusters(const TexelGrid& grid, const std::function<Vec3d(const Vec2d&)>& normal_at,
+                        const TexelFootprint& footprint, std::span<const NormalLobe> lobes,
+                        double least_change, TexelSearchRoom* room,
+                        std::vector<TexelCluster>* clusters);
 
 }  // namespace nacre

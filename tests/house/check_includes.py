@@ -61,7 +61,7 @@ RENDER_ORDER = """
     film_kernel filter_shares small_triangles adaptive_plan interval interval_kernel sampled_kernel shadow_rays_kernel mesh_windows
     outline_coverage sphere_projections
     prepared_scene camera_cost hits_plan tile_shapes samples hits surfaces
-    direct_plan texel_maps highlights mesh_glints shadow_plan brightest_object direct_batch
+    direct_plan highlights texel_maps mesh_glints shadow_plan brightest_object direct_batch
     shadow_origins mapped_horizon sampled_shadows sampled_lights mesh_radiance direct mesh_shading
     film hit_positions film_layers
     frame_plan tile_work tile

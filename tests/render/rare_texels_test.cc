@@ -6,6 +6,7 @@
 #include <memory>
 #include <random>
 
+#include "light/environment.h"
 #include "pictures.h"
 #include "textured_scenes.h"
 #include "told_pixels.h"
@@ -198,6 +199,121 @@ TEST_CASE("few smooth texels of a roughness map are found") {
   scene.materials[0].model = metal;
   scene.lights = {Named("sun", DirectionalLight{Vec3d(0, 0, -1), Rgb(1)})};
   CheckSampled(scene, 0.1, 0.4);
+}
+
+// A direction so many degrees from the square's normal.
+Vec3d Leaning(double degrees) {
+  return {std::sin(degrees * M_PI / 180), 0, std::cos(degrees * M_PI / 180)};
+}
+
+std::shared_ptr<const MipChain> TwoTexels(const MapValues& values, const Rgb& rare,
+                                          const Rgb& common) {
+  std::vector<float> texels;
+  for (int i = 0; i < kTexels * kTexels; ++i) {
+    const Rgb& texel = values(i % kTexels, i / kTexels) > 0 ? rare : common;
+    for (int c = 0; c < 3; ++c) texels.push_back(static_cast<float>(texel[c]));
+  }
+  return std::make_shared<const MipChain>(MakeMipChain(kTexels, kTexels, 3, std::move(texels)));
+}
+
+// The radiance of a square that one texel covers wholly: that of any pixel.
+double OneTexelRadiance(Scene scene, const Rgb& texel) {
+  scene.images[0].texels = std::make_shared<const MipChain>(MakeMipChain(
+      1, 1, 3,
+      {static_cast<float>(texel.x), static_cast<float>(texel.y), static_cast<float>(texel.z)}));
+  scene.image.spp = 1;
+  return RenderImage(scene, {}, nullptr).channels[0].samples[0];
+}
+
+// A map of two kinds of texels under a sun that is 40 degrees from the view: exactly, as all points
+// of the square are seen and lit alike.
+void CheckMapUnderSun(uint32_t seed, const Rgb& rare, const Rgb& common, double irradiance,
+                      const std::function<void(Material*, TextureId)>& use) {
+  for (const double scale : {15.7, 70.3}) {
+    const MappedSquare square{scale, Dots(seed, static_cast<uint32_t>(4 * scale * scale), 1, 0)};
+    TextureId map;
+    Scene scene = square.Make(&map);
+    scene.images[0].texels = TwoTexels(square.values, rare, common);
+    use(&scene.materials[0], map);
+    scene.lights = {Named("sun", DirectionalLight{-Leaning(40), Rgb(irradiance)})};
+    const double of_rare = OneTexelRadiance(scene, rare),
+                 of_common = OneTexelRadiance(scene, common);
+    std::vector<double> truth = square.Means();
+    for (double& value : truth) value = of_common + (of_rare - of_common) * value;
+    CAPTURE(scale, of_rare, of_common);
+    // The rare texels matter.
+    CHECK((of_rare - of_common) / (scale * scale) > 2 * 0.1 * std::max(of_common, 0.05));
+    CheckExactly(scene, truth, 0.1, scale > 64 ? 8 / scale : 0);
+  }
+}
+
+// The texel of a normal map that leans so.
+Rgb NormalTexel(const Vec3d& normal) { return (normal + Vec3d(1)) / 2; }
+
+// Dots that mirror the sun, in a level map that does not.
+TEST_CASE("few texels of a normal map that mirror a light are found") {
+  const Rgb rare = NormalTexel(Leaning(20)), level = NormalTexel(Leaning(0));
+  for (const double roughness : {0.05, 0.1}) {
+    CheckMapUnderSun(10, rare, level, 30, [&](Material* material, TextureId map) {
+      material->model = MetallicRoughnessMaterial{.metallic = 1, .roughness = roughness};
+      material->normal_map = {map, 1, NormalMap::Convention::kLiteral};
+    });
+  }
+  CheckMapUnderSun(11, rare, level, 300, [](Material* material, TextureId map) {
+    MetallicRoughnessMaterial coated;
+    coated.base_color = Rgb(0.02);
+    coated.roughness = 1;
+    coated.coat = 1;
+    coated.coat_roughness = 0.1;
+    coated.coat_normal_map = {map, 1, NormalMap::Convention::kLiteral};
+    material->model = coated;
+  });
+}
+
+// The flank of a wide lobe is bright where the sharp ones around it do not reach.
+TEST_CASE("few rough texels among smooth ones are found, and matte ones in metal") {
+  CheckMapUnderSun(12, Rgb(0.002), Rgb(1), 1e5, [](Material* material, TextureId map) {
+    PhongMaterial phong;
+    phong.model = PhongModel::kBlinnPhong;
+    phong.kd = Rgb(0);
+    phong.ks = Rgb(0.5);
+    phong.shininess = 2000;
+    phong.shininess_map = map;
+    material->model = phong;
+  });
+  CheckMapUnderSun(13, Rgb(1, 1, 0), Rgb(1), 3e4, [](Material* material, TextureId map) {
+    MetallicRoughnessMaterial metal;
+    metal.metallic = 1;
+    metal.roughness = 0.05;
+    metal.metallic_roughness_map = map;
+    material->model = metal;
+  });
+}
+
+// The same sun as a part of a sky, and a lamp of some size.
+TEST_CASE("few texels of a normal map that mirror an area light or a sky's sun are found") {
+  auto sky = std::make_shared<SkyPicture>();
+  sky->width = 512;
+  sky->height = 256;
+  sky->rgb.assign(size_t{512} * 256 * 3, 0.01f);
+  const auto [u, v] = LatLongFromDirection(Leaning(40));
+  const auto sun = static_cast<size_t>(v * 256) * 512 + static_cast<size_t>(u * 512);
+  std::fill_n(sky->rgb.begin() + static_cast<ptrdiff_t>(3 * sun), 3, 6600.0f);
+  const auto environment =
+      EnvironmentLight{.sky = PictureSky{sky, Rgb(1)}, .rotate_deg = 0, .background = false};
+  const SphereAreaLight lamp{Leaning(40) * 900, 10, Rgb(2600), false};
+  for (const Light& light : {Named("sky", environment), Named("lamp", lamp)}) {
+    const MappedSquare square{70.3, Dots(14, 20000, 1, 0), Wrap::kRepeat};
+    TextureId map;
+    Scene scene = square.Make(&map);
+    scene.images[0].texels =
+        TwoTexels(square.values, NormalTexel(Leaning(20)), NormalTexel(Leaning(0)));
+    scene.materials[0].model = MetallicRoughnessMaterial{.metallic = 1, .roughness = 0.1};
+    scene.materials[0].normal_map = {map, 1, NormalMap::Convention::kLiteral};
+    scene.lights = {light};
+    CAPTURE(light.name);
+    CheckSampled(scene, 0.1, 0.35);
+  }
 }
 
 TEST_CASE("few bright texels of the sky behind are found") {
