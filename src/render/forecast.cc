@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <memory>
 #include <mutex>
+#include <utility>
+#include <vector>
 
 #include "base/parallel.h"
 #include "base/seconds_since.h"
+#include "base/strip.h"
 #include "render/adaptive.h"
 #include "sampling/hash.h"
 
@@ -21,30 +24,45 @@ std::optional<Forecast> ForecastRender(const FramePlan& plan, const RenderSettin
   const size_t cells = columns * static_cast<size_t>((window.y1 - y0 + kCellSize - 1) / kCellSize);
   const size_t one_in = std::max(kOneIn, cells / kMostCells), count = cells / one_in;
   if (count < kLeastCells) return std::nullopt;
+  struct Room {
+    TileWork work;
+    CellState cell;
+  };
   std::mutex mutex;
+  std::vector<std::unique_ptr<Room>> rooms;  // those that no thread uses
   RenderStats total;
   double seconds = 0;  // of all threads
   ParallelFor(count, settings.threads, [&](size_t i) {
-    const auto start = std::chrono::steady_clock::now();
     // One of each `one_in` cells, at random, so that what repeats in the picture is met as it is.
     const size_t number = i * one_in + HashCombine(i, one_in) % one_in;
     const int x = x0 + static_cast<int>(number % columns) * kCellSize;
     const int y = y0 + static_cast<int>(number / columns) * kCellSize;
     const Window cell{x, y, x + kCellSize, y + kCellSize}, part = Intersect(cell, window);
-    TileWork work;
-    work.cancel = settings.cancel;
-    const auto cell_state = std::make_unique<CellState>();
+    std::unique_ptr<Room> room;
+    {
+      const std::lock_guard lock(mutex);
+      if (!rooms.empty()) {
+        room = std::move(rooms.back());
+        rooms.pop_back();
+      }
+    }
+    // A render makes one for each thread, which is no part of what a cell takes.
+    if (!room) room = std::make_unique<Room>();
+    const auto start = std::chrono::steady_clock::now();
+    room->work.cancel = settings.cancel;
     Strip strip;
     RenderStats stats;
     StageClock clock(nullptr);
     StartStrip(plan.film, part, nullptr, &strip);
-    RenderCell(plan, cell, part, &work, cell_state.get(), &strip, &clock, &stats);
+    RenderCell(plan, cell, part, &room->work, &room->cell, &strip, &clock, &stats);
+    const double taken = SecondsSince(start);
     const std::lock_guard lock(mutex);
     total.Add(stats);
-    seconds += SecondsSince(start);
+    seconds += taken;
+    rooms.push_back(std::move(room));
   });
-  const double threads =
-      std::min<double>(ThreadCount(settings.threads), static_cast<double>(count));
+  const double threads =  // strips are rendered in parallel
+      std::min(ThreadCount(settings.threads), StripCount(window.height()));
   return Forecast{
       total.pixel_samples.Mean(),
       static_cast<double>(total.unsettled_pixels) / static_cast<double>(total.pixel_samples.pixels),

@@ -84,8 +84,8 @@ using StripRenderer =
     std::function<void(size_t number, Worker* worker, StageClock* clock, RenderStats* stats)>;
 
 // Renders all strips in parallel and hands them to the sink, or into the image, if there is one.
-// on_progress(share) is called after
-// each of them with the share of the strips that are finished, unless it is empty.
+// on_progress(share) is called after each of them with the share of the strips that are finished,
+// unless it is empty.
 RenderStats RenderStrips(const FramePlan& plan, const RenderSettings& settings,
                          const StripRenderer& render_strip, Image* image, const StripSink& sink,
                          const std::function<void(double)>& on_progress) {
