@@ -14,6 +14,7 @@
 #include "cli/help_text.h"
 #include "cli/print.h"
 #include "cli/render_options.h"
+#include "color/primaries.h"
 #include "image_io/image_file.h"
 #include "image_io/oiio.h"
 #include "image_io/verify_image.h"
@@ -56,7 +57,9 @@ void PrintPart(const ImagePart& part, const std::string& indent) {
     PrintOut("{}not read        {}\n", indent, part.refusal);
   }
   for (const auto& [name, value] : part.metadata) {
-    PrintOut("{}{:<15} {}\n", indent, name, value);
+    const bool is_none = name == "chromaticities" && !ParsePrimaries(value);
+    PrintOut("{}{:<15} {}{}\n", indent, name, value,
+             is_none ? " (none: Rec. 709's are taken)" : "");
   }
 }
 

@@ -56,7 +56,7 @@ ColorChannels RequireColors(const ImageFile& image, const TonemapArguments& argu
   throw Error(ExitCode::kBadInput, image.path,
               layer.empty() ? "there are no channels R, G and B, nor one alone"
                             : "there is no layer \"" + layer + "\" of colours",
-              nearest.empty() ? "--layer chooses one; nacre info lists the channels"
+              nearest.empty() ? "--layer chooses one; " + TellChannels(channels)
                               : "did you mean \"" + nearest + "\"? nacre info lists the channels");
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/error.h"
 #include "base/excerpt.h"
@@ -67,11 +68,24 @@ std::optional<ColorChannels> FindColors(const std::vector<Channel>& channels,
   return ColorChannels{others[0], others[0], others[0]};
 }
 
+std::string TellChannels(const std::vector<Channel>& channels) {
+  constexpr size_t kMost = 12;
+  std::vector<std::string> names;
+  for (size_t c = 0; c < std::min(channels.size(), kMost); ++c) {
+    names.push_back(Excerpt(channels[c].name));
+  }
+  return fmt::format("it has {}{}", fmt::join(names, ", "),
+                     channels.size() > kMost ? fmt::format(" and {} more", channels.size() - kMost)
+                                             : std::string());
+}
+
 ColorConversion ConversionToRec709(const std::map<std::string, std::string>& metadata) {
   const auto found = metadata.find("chromaticities");
   if (found == metadata.end()) return {};
   const std::optional<Primaries> primaries = ParsePrimaries(found->second);
   if (!primaries) {
+    // Photoshop writes all of them as 0, which says nothing and is in most of the world's skies.
+    if (found->second.find_first_not_of("0.e+- \t") == std::string::npos) return {};
     return {{},
             fmt::format("its primaries ({}) are none, and its colours are taken as Rec. 709",
                         Excerpt(found->second))};

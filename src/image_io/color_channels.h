@@ -33,6 +33,9 @@ bool IsAlphaChannel(std::string_view name);
 std::optional<ColorChannels> FindColors(const std::vector<Channel>& channels,
                                         std::string_view layer);
 
+// What an image without them has instead, for errors: "it has X, Y2, ...".
+std::string TellChannels(const std::vector<Channel>& channels);
+
 // What is done with colours to have them in linear Rec. 709. White luminance, adopted neutral and
 // the like do not change what samples are, and are left alone.
 struct ColorConversion {

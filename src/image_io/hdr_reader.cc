@@ -220,12 +220,13 @@ void ReadVariable(const std::string& path, const std::string& line, HdrHeader* h
 
 HdrHeader ReadHeader(const std::string& path, HdrBytes* bytes) {
   HdrHeader header;
-  if (!bytes->Line().starts_with("#?")) FailHdr(path, "cannot be read: it is no Radiance picture");
   for (std::string line = bytes->Line(); !line.empty(); line = bytes->Line()) {
     ReadVariable(path, line, &header);
   }
   if (header.is_xyz) header.variables.erase("chromaticities");
-  if (!ParseResolution(bytes->Line(), &header)) {
+  std::string resolution;
+  while (resolution.empty()) resolution = bytes->Line();  // some have several empty lines
+  if (!ParseResolution(resolution, &header)) {
     FailHdr(path, "cannot be read: its resolution is not like -Y 512 +X 1024, up to 65536 a side");
   }
   return header;

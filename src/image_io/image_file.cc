@@ -24,24 +24,29 @@ namespace {
 
 enum class FileFormat : uint8_t { kExr, kHdr, kPng, kJpeg, kPnm, kTga, kTiff, kOther };
 
-// By its first bytes. A file named .exr is opened as EXR in any case, so that the error says what
-// is wrong with the EXR.
+// By its first bytes, whatever it is called. Another file named .exr is opened as EXR, so that the
+// error says what is wrong with the EXR.
 FileFormat FormatOf(const std::string& path) {
   CheckInputFile(path);
-  std::array<char, 4> bytes = {};
+  std::array<char, 4096> bytes = {};
   std::ifstream(path, std::ios::binary).read(bytes.data(), bytes.size());
   const std::string_view head(bytes.data(), bytes.size());
-  if (head == "\x89PNG") return FileFormat::kPng;
+  if (head.starts_with("\x89PNG")) return FileFormat::kPng;
   if (head.starts_with("\xff\xd8")) return FileFormat::kJpeg;
   if (head[0] == 'P' && std::string_view("123456Ff").find(head[1]) != std::string_view::npos) {
     return FileFormat::kPnm;
   }
-  if (HasExtension(path, ".tga")) return FileFormat::kTga;  // has no first bytes of its own
-  if (head == "\x76\x2f\x31\x01" || HasExtension(path, ".exr")) return FileFormat::kExr;
-  if (head.starts_with("#?")) return FileFormat::kHdr;
+  if (head.starts_with("\x76\x2f\x31\x01")) return FileFormat::kExr;
+  // The oldest Radiance pictures have no "#?".
+  if (head.starts_with("#?") || head.starts_with("FORMAT=32-bit_rle_") ||
+      head.find("\nFORMAT=32-bit_rle_") != std::string_view::npos) {
+    return FileFormat::kHdr;
+  }
   if (head.starts_with("II*") || head.starts_with("II+") || head.starts_with("MM")) {
     return FileFormat::kTiff;
   }
+  if (HasExtension(path, ".tga")) return FileFormat::kTga;  // has no first bytes of its own
+  if (HasExtension(path, ".exr")) return FileFormat::kExr;
   return FileFormat::kOther;
 }
 

@@ -89,9 +89,11 @@ bool AreRadiances(std::span<const float> samples, int threads) {
   return all;
 }
 
-// Throws Error (kBadInput) for what is no picture of light. `notes`: what is to be told of it.
+// Throws Error (kBadInput) for what is no picture of light. `light`: where it is in the scene;
+// `notes`: what is to be told of it.
 std::shared_ptr<const SkyPicture> MakePicture(const std::string& path, const std::string& file,
-                                              const PictureReading& reading, int threads,
+                                              const PictureReading& reading,
+                                              const std::string& light, int threads,
                                               std::vector<std::string>* notes) {
   const auto refuse = [&](const std::string& what, const std::string& hint) {
     throw Error(ExitCode::kBadInput, file, what, hint);
@@ -106,7 +108,15 @@ std::shared_ptr<const SkyPicture> MakePicture(const std::string& path, const std
     refuse("it is a cube map", "make latitude and longitude of it: exrenvmap -l IN OUT");
   }
   const std::optional<ColorChannels> colors = FindColors(image.header.channels, "");
-  if (!colors) refuse("no channels R, G and B", "or one alone");
+  if (!colors) {
+    refuse("no channels R, G and B, nor one alone", TellChannels(image.header.channels));
+  }
+  // A fisheye or a photograph would be taken for what it is not without a word.
+  if (envmap == image.header.metadata.end() && std::abs(window.width() - 2 * window.height()) > 2) {
+    notes->push_back(fmt::format(
+        "{} x {} pixels are not 2:1, and are taken as latitude and longitude all the same",
+        window.width(), window.height()));
+  }
   image.CheckSize(window, 3);  // of grey ones, too: radiance has three
   auto picture = std::make_shared<SkyPicture>();
   picture->width = window.width();
@@ -136,7 +146,9 @@ std::shared_ptr<const SkyPicture> MakePicture(const std::string& path, const std
       const bool is_negative = rgb[i] < 0 && std::isfinite(rgb[i]);
       refuse(fmt::format("pixel {},{} has {} = {}{}", pixel % width, pixel / width,
                          image.header.channels[channels[i % 3]].name, rgb[i], of),
-             is_negative ? R"("clamp_negative": true counts samples below 0 as 0)"
+             is_negative ? fmt::format(R"("clamp_negative": true counts samples below 0 as 0; )"
+                                       "--set {}/clamp_negative=true says so",
+                                       light)
                          : "radiance is " + Describe(limits::kRadiance));
     }
     notes->push_back(
@@ -174,7 +186,8 @@ void ReadPicture(const JsonValue& value, const PictureReading& reading, const Sc
       if (sky->picture != nullptr) return;
     }
     std::vector<std::string> notes;
-    sky->picture = MakePicture(path.string(), file, reading, context.threads, &notes);
+    sky->picture = MakePicture(path.string(), file, reading, value.path.parent->ToString(),
+                               context.threads, &notes);
     if (context.kept != nullptr) context.kept->skies[key] = sky->picture;
     for (const std::string& note : notes) {
       if (context.on_warning) context.on_warning(file + ": " + note);

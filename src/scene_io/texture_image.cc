@@ -91,7 +91,7 @@ std::vector<size_t> ChannelsOf(const ImageFile& image, TextureEncoding encoding)
   const std::optional<ColorChannels> colors = FindColors(channels, "");
   if (!colors) {
     throw Error(ExitCode::kBadInput, image.path, "has no colours",
-                "a texture needs R, G and B, or one channel");
+                "a texture needs R, G and B, or one channel; " + TellChannels(channels));
   }
   if (colors->is_grey()) return {colors->r};
   return {colors->r, colors->g, colors->b};

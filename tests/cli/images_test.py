@@ -290,6 +290,9 @@ class ImagesTest(unittest.TestCase):
             self.assertRegex(result.stderr, r'\Aerror: [^\n]*\n(  hint: [^\n]*\n)?\Z')
         return result
 
+    def check_quiet(self, message, *arguments):
+        self.assertNotIn(message, self.check(0, '', *arguments).stderr)
+
     def same(self, a, b):
         self.check(0, 'match', 'compare', a, b)
 
@@ -564,10 +567,43 @@ class ImagesTest(unittest.TestCase):
             Part({'R': below, 'G': rows, 'B': rows}, (0, 0, 7, 3))))
         self.check(65, '"clamp_negative": true', 'render', self.environment(tiny), '-o',
                    self.out / 'x.exr')
+        ball = self.textured(clean)
+        self.check(65, '--set /lights/environment/clamp_negative=true', 'render', ball, '--environment', tiny,
+                   '-o', self.out / 'x.exr')
+        self.check(0, 'count as 0', 'render', ball, '--environment', tiny, '-o', self.out / 'x.exr', '--size', '8x8',
+                   '--set', '/lights/environment/clamp_negative=true')
         scene = self.environment(tiny, clamp_negative=True)
         self.check(0, 'tiny.exr: 1 samples below 0, down to -0.001, count as 0', 'render', scene,
                    '-o', self.out / 'x.exr', '--size', '8x8', '--spp', '1')
         self.same(self.render(scene, 'a.exr'), self.render(self.environment(clean), 'b.exr'))
+
+    def test_formats_are_told_by_first_bytes(self):
+        rows = ramp(8, 4)
+        plain = self.write('p.exr', exr(Part({c: rows for c in 'RGB'}, (0, 0, 7, 3))))
+        radiance = hdr([[(10, 20, 30), (40, 50, 60)]], '-Y 1 +X 2')
+        known = self.write('k.hdr', radiance)
+        old = radiance.replace(b'#?RADIANCE', b'Xim format conversion by:\nFORMAT=32-bit_rle_rgbe')
+        for name in 'a.exr', 'a.png', 'a.tga', 'a.tif', 'a.pic', 'a.jpg':
+            with self.subTest(name):
+                self.same(self.write(name, plain.read_bytes()), plain)
+                self.same(self.write(name, radiance), known)
+                self.same(self.write(name, old), known)
+                self.same(self.write(name, tiff([[10, 20], [30, 40]])), self.write('t.tif', tiff([[10, 20], [30, 40]])))
+
+    def test_channels_of_other_names_are_listed(self):
+        custom = self.write('c.exr', exr(Part({'red2': 0.5, 'green2': 0.5, 'depth': 1.0}, (0, 0, 7, 3))))
+        listed = 'it has depth, green2, red2'
+        self.check(65, listed, 'render', self.environment(custom), '-o', self.out / 'x.exr')
+        self.check(65, listed, 'render', self.textured(custom), '-o', self.out / 'x.exr')
+        self.check(65, listed, 'tonemap', custom, '-o', self.out / 'x.png')
+
+    def test_surroundings_that_are_not_2_to_1_are_told(self):
+        ends = ['-o', self.out / 'x.exr', '--size', '8x8', '--spp', '1']
+        told = 'are not 2:1'
+        self.check(0, '64 x 64 pixels are not 2:1', 'render', self.environment(self.write('f.exr', exr(grey(64, 64)))), *ends)
+        latlong = attribute('envmap', 'envmap', b'\0')  # its maker says what it is
+        for part in grey(64, 32), grey(64, 33), grey(64, 64, extra=latlong):
+            self.check_quiet(told, 'render', self.environment(self.write('f.exr', exr(part))), *ends)
 
     # ---- What files say of their pixels ----
 
@@ -611,7 +647,13 @@ class ImagesTest(unittest.TestCase):
         self.check(0, 'shown as squares', 'tonemap', known, '-o', self.out / 'x.png')
         unknown = self.write('u.hdr', hdr(image, '-Y 2 +X 4', ['PRIMARIES=0 0 0 0 0 0 0 0', 'EXPOSURE=0']))
         self.same(unknown, plain)
-        told = 'u.hdr: its primaries (0 0 0 0 0 0 0 0) are none, and its colours are taken as Rec. 709'
+        # Nobody can act on that: most skies of the world have it.
+        self.check_quiet('primaries', 'tonemap', unknown, '-o', self.out / 'x.png')
+        self.check_quiet('primaries', 'render', self.environment(unknown), '-o', self.out / 'x.exr', '--size', '8x8')
+        self.assertIn("0 0 0 0 0 0 0 0 (none: Rec. 709's are taken)", run('info', unknown).stdout)
+        odd = self.write('u.hdr', hdr(image, '-Y 2 +X 4', ['PRIMARIES=1 1 1 1 1 1 1 1', 'EXPOSURE=0']))
+        self.same(odd, plain)
+        told = 'u.hdr: its primaries (1 1 1 1 1 1 1 1) are none, and its colours are taken as Rec. 709'
         self.check(0, told, 'tonemap', unknown, '-o', self.out / 'x.png')
         self.check(0, told, 'report', self.out / 'x.html', unknown)
         self.check(0, told, 'render', self.environment(unknown), '-o', self.out / 'x.exr', '--size', '8x8')

@@ -189,6 +189,15 @@ TEST_CASE("lines of real files: CRLF, signs, blanks and comments with an = in th
   for (size_t i = 0; i < plain.size(); ++i) CHECK(got[i] == plain[i] / 2);
 }
 
+TEST_CASE("old pictures begin without #?, and some end their header by two empty lines") {
+  const Pixels pixels = MakePixels(16);
+  const std::string bytes = Flat(pixels);
+  CHECK(RgbOf("Xim format conversion by:\nFORMAT=32-bit_rle_rgbe\npfilt -x 8\n\n-Y 2 +X 8\n" +
+              bytes) == Expected(pixels));
+  CHECK(RgbOf("#?RADIANCE\r\nFORMAT=32-bit_rle_rgbe\r\n\n\r\n-Y 2 +X 8\r\n" + bytes) ==
+        Expected(pixels));
+}
+
 // Radiance's own primaries stay as they are; what names none, or others, is left to whoever shows
 // the colours.
 TEST_CASE("PRIMARIES are told as EXR's chromaticities") {
