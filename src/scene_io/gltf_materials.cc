@@ -163,15 +163,16 @@ MetallicRoughnessMaterial FromSpecularGlossiness(const GltfDocument& document,
     return AddTexture(document, extension, name, place, encoding, textures, glossiness);
   };
   const auto factor = [&](const char* name) {
-    Rgb color = extension.Color(name, Rgb(1));
-    for (int c = 0; c < 3; ++c) color[c] = std::clamp(color[c], 0.0, 1.0);
+    const Rgb color = extension.Color(name, Rgb(1));
+    document.Check(place + "/" + name, color, limits::kUnit);
     return color;
   };
   MetallicRoughnessMaterial result;
   result.base_color = factor("diffuseFactor");
   result.base_color_map = map("diffuseTexture", TextureEncoding::kSrgb);
   result.dielectric_f0 = factor("specularFactor");
-  const double glossiness = std::clamp(extension.Number("glossinessFactor", 1), 0.0, 1.0);
+  const double glossiness = extension.Number("glossinessFactor", 1);
+  document.Check(place + "/glossinessFactor", glossiness, limits::kUnit);
   result.roughness = 1 - glossiness;
   const char* const both = "specularGlossinessTexture";
   result.specular_color_map = map(both, TextureEncoding::kSrgb);
@@ -184,11 +185,16 @@ MetallicRoughnessMaterial FromSpecularGlossiness(const GltfDocument& document,
 
 // alphaMode MASK: holes where the base colour's alpha is below alphaCutoff. KHR_materials_unlit has
 // the base colour's members, too.
-void ApplyMask(const gltf::Material& material, double alpha, TextureId alpha_map,
-               GltfTextures* textures, Material* result) {
+// `factor`: where `alpha` is from.
+void ApplyMask(const GltfDocument& document, size_t index, const std::string& factor, double alpha,
+               TextureId alpha_map, GltfTextures* textures, Material* result) {
+  const gltf::Material& material = document.model.materials[index];
   if (material.alphaMode != "MASK") return;
-  result->opacity = std::clamp(alpha, 0.0, 1.0);
-  result->opacity_cutoff = std::clamp(material.alphaCutoff, 0.0, limits::kOpacityCutoff.max);
+  document.Check(factor + "/3", alpha, limits::kUnit);
+  document.Check(fmt::format("/materials/{}/alphaCutoff", index), material.alphaCutoff,
+                 limits::kOpacityCutoff);
+  result->opacity = alpha;
+  result->opacity_cutoff = material.alphaCutoff;
   if (!textures->IsWhite(alpha_map)) result->opacity_map = alpha_map;
 }
 
@@ -252,7 +258,8 @@ Material MakeMaterial(GltfDocument* document, size_t index, std::string name,
     const TextureId alpha = masked ? AddTexture(pbr.baseColorTexture, factors + "baseColorTexture",
                                                 TextureEncoding::kAlpha, textures)
                                    : TextureId{};
-    ApplyMask(material, AlphaOf(pbr.baseColorFactor), alpha, textures, &result);
+    ApplyMask(*document, index, factors + "baseColorFactor", AlphaOf(pbr.baseColorFactor), alpha,
+              textures, &result);
   };
   if (FindExtension(*document, material, index, "KHR_materials_unlit")) {
     document->Check(factors + "baseColorFactor", base_color, limits::kRadiance);
@@ -278,7 +285,8 @@ Material MakeMaterial(GltfDocument* document, size_t index, std::string name,
     const TextureId alpha = masked ? AddTexture(*document, *glossiness, "diffuseTexture", inner,
                                                 TextureEncoding::kAlpha, textures)
                                    : TextureId{};
-    ApplyMask(material, glossiness->Alpha("diffuseFactor", 1), alpha, textures, &result);
+    ApplyMask(*document, index, inner + "/diffuseFactor", glossiness->Alpha("diffuseFactor", 1),
+              alpha, textures, &result);
     result.model = model;
     return result;
   }

@@ -224,9 +224,13 @@ class PieceReader {
   // A group's number, which may be any word: what some programs write behind an "s" of its own is
   // a group, too.
   void ReadSmoothing(std::string_view word) {
-    const bool is_zero = !word.empty() && word.find_first_not_of('0') == std::string_view::npos;
+    const bool is_number = word.find_first_not_of("0123456789") == std::string_view::npos;
     std::string name = LowerCase(word.starts_with('#') ? std::string_view() : word);
-    if (is_zero || name == "none" || name == "null") name = kOff;
+    if (is_number && !word.empty()) {  // 01 is 1, and 0 is none
+      name.erase(0, name.find_first_not_of('0'));
+      if (name.empty()) name = kOff;
+    }
+    if (name == "none" || name == "null") name = kOff;
     piece_.smoothing.push_back({piece_.corner_counts.size(), piece_.groups.Add(name).first});
   }
 

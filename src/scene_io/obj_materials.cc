@@ -72,9 +72,9 @@ class ObjMaterials {
     for (const std::string& line : obj.libraries) ReadLibraries(line);
     if (libraries_.empty() && !obj.material_names.empty()) ReadNamesake();
     for (const std::string& name : missing_libraries_) {
-      Warn(fmt::format("{} left out: there is no file \"{}\"",
+      Warn(fmt::format("{} left out: {}",
                        libraries_.empty() ? "its materials are" : "a material library is",
-                       Excerpt(name)));
+                       WhyMissing(name)));
     }
     DecodeAhead();
     for (size_t i = 0; i < sources_.size(); ++i) AddMaterial(i);
@@ -123,6 +123,17 @@ class ObjMaterials {
     return std::nullopt;
   }
 
+  static bool IsAbsolute(const std::string& name) {
+    return std::filesystem::path(name).is_absolute();
+  }
+
+  // Why there is no file of this name.
+  std::string WhyMissing(const std::string& name) const {
+    const std::string quoted = fmt::format("\"{}\"", Excerpt(name));
+    return IsAbsolute(name) && !options_.allow_paths ? quoted + " is outside the model's folder"
+                                                     : "there is no file " + quoted;
+  }
+
   void WarnOfName(const std::string& name) {
     if (!missing_libraries_.empty() || ++unknown_names_ > kMaxNames)
       return;  // that has been reported
@@ -138,7 +149,8 @@ class ObjMaterials {
   // The file that a name means, or nothing if there is none. Names may have Windows' backslashes,
   // or one before each blank, or a comment behind them, and folders of the machine that the model
   // was made on; they may be relative to the model's folder or to a library's. Throws Error
-  // (kBadInput) for one outside the model's folder.
+  // (kBadInput) for a relative one outside the model's folder. An absolute one is of another
+  // machine mostly, and is none there.
   std::optional<std::filesystem::path> Find(const std::string& name) const {
     std::string with_slashes = name, unescaped = name;
     std::replace(with_slashes.begin(), with_slashes.end(), '\\', '/');
@@ -158,7 +170,7 @@ class ObjMaterials {
         return ResolveReference(folder_, candidates[i], {options_.allow_paths, options_.on_file});
       } catch (const Error& error) {
         const Fault& fault = error.faults().front();
-        if (i == 0 && fault.what.ends_with(kIsOutside)) {
+        if (i == 0 && fault.what.ends_with(kIsOutside) && !IsAbsolute(name)) {
           outside = Error(ExitCode::kBadInput, file_, fault.what, fault.hint);
         }
       }
@@ -381,7 +393,7 @@ class ObjMaterials {
     if (!is_new) return known->second;
     const std::optional<std::filesystem::path> path = Find(name);
     if (!path) {
-      Warn(fmt::format("an image is left out: there is no file \"{}\"", Excerpt(name)));
+      Warn("an image is left out: " + WhyMissing(name));
       return {};
     }
     texels_.AddFile(*path);

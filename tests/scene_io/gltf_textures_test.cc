@@ -270,11 +270,39 @@ TEST_CASE("an index of refraction beside images, and specular colours") {
   CHECK(refused(specular, "specularFactor", 2, "/materials/0/extensions/KHR_materials_specular/"));
   CHECK(refused(specular, "specularFactor", -0.5, "specularFactor"));
   CHECK(refused(specular, "specularColorFactor", {1, -1, 1}, "specularColorFactor"));
+  const char* const glossy = "KHR_materials_pbrSpecularGlossiness";
+  CHECK(refused(glossy, "specularFactor", {2, 0, 0}, "Glossiness/specularFactor"));
+  CHECK(refused(glossy, "diffuseFactor", {1, -1, 0, 1}, "Glossiness/diffuseFactor"));
+  CHECK(refused(glossy, "glossinessFactor", -1, "Glossiness/glossinessFactor"));
   for (const double ior : {-1.0, -0.5, 0.5}) {
     CHECK(refused("KHR_materials_ior", "ior", ior, "KHR_materials_ior/ior"));
   }
   material["extensions"]["KHR_materials_ior"]["ior"] = 1e200;
   CHECK(MaterialOf(LoadFile(file)).dielectric_f0.x == 1);
+}
+
+TEST_CASE("what a mask is cut by is in range") {
+  GltfFile file = MakeTexturedSquare();
+  Json& material = file.json["materials"][0];
+  material["alphaMode"] = "MASK";
+  const auto place = [&] {
+    try {
+      LoadFile(file);
+    } catch (const Error& error) {
+      const std::string& where = error.faults().front().where;
+      return where.substr(where.find("/materials"));
+    }
+    return std::string();
+  };
+  CHECK(place().empty());
+  material["alphaCutoff"] = -1;
+  CHECK(place() == "/materials/0/alphaCutoff");
+  material["alphaCutoff"] = 2;  // nothing is left
+  CHECK(place().empty());
+  material["pbrMetallicRoughness"]["baseColorFactor"] = {1, 1, 1, 1.5};
+  CHECK(place() == "/materials/0/pbrMetallicRoughness/baseColorFactor/3");
+  material["extensions"]["KHR_materials_pbrSpecularGlossiness"]["diffuseFactor"] = {1, 1, 1, -1};
+  CHECK(place() == "/materials/0/extensions/KHR_materials_pbrSpecularGlossiness/diffuseFactor/3");
 }
 
 TEST_CASE("images of specular weights and colours") {

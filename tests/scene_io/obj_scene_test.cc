@@ -491,12 +491,23 @@ TEST_CASE("several libraries are found, however their names are written, and mis
         left_out + "\"no.mtl\"|" + left_out + "\"no such.mtl\"|");
   CHECK(warnings_of("mtllib no.mtl\n", false) ==
         ": its materials are left out: there is no file \"no.mtl\"|");
+  // Of the machine that the model was made on: nothing outside of the folder is opened.
+  CHECK(warnings_of("mtllib /home/artist/no.mtl\n", false) ==
+        ": its materials are left out: \"/home/artist/no.mtl\" is outside the model's folder|");
+  folder.Write("red.mtl", "newmtl red\nKd 1 0 0\nmap_Kd /home/artist/wood.png\n");
+  CHECK(warnings_of("mtllib red.mtl\n", true) ==
+        ": an image is left out: \"/home/artist/wood.png\" is outside the model's folder|");
+  folder.Write("red.mtl", red);
   // What is called as the model is.
   folder.Write("model.mtl", red);
   const std::string namesake =
       ": its materials are read from \"model.mtl\", which it does not name|";
   CHECK(warnings_of("", true) == namesake);
   CHECK(warnings_of("mtllib no.mtl\n", true) == namesake + left_out + "\"no.mtl\"|");
+  CHECK(warnings_of("mtllib /home/artist/no.mtl\n", true) ==
+        namesake +
+            ": a material library is left out: \"/home/artist/no.mtl\" is outside the "
+            "model's folder|");
   CHECK(warnings_of("mtllib red.mtl\n", true).empty());
 }
 

@@ -212,6 +212,8 @@ TEST_CASE("normals are averages within smoothing groups") {
     check("s 1\n" + left + off + "\n" + right, l, r);
   }
   check("s 1\n" + left + "s 2\n" + right, l, r);
+  check("s 1\n" + left + "s 01\n" + right, up, up);  // the same number
+  check("s 01\n" + left + "s 10\n" + right, l, r);
   check("s 1\n" + left + "s 2\ns 1\n" + right, up, up);
   check("s 1\ng a\n" + left + "g b\nusemtl c\n" + right, up, up);
   check(left + "s 1\n" + right, l, r);  // off before the first
