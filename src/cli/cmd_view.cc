@@ -283,8 +283,10 @@ std::unique_ptr<EditsFile> OpenEdits(const std::string& scene, bool quiet) {
   if (!edits) {
     PrintError("note: edits are not kept for the case that the server ends: {}\n", why_not);
   } else if (!edits->offered().empty()) {
-    PrintError("note: {} edits of {:%Y-%m-%d %H:%M} were not taken away; the page offers them\n",
-               edits->offered().size(), fmt::localtime(edits->offered_time()));
+    const size_t count = edits->offered().size();
+    PrintError("note: {} edit{} of {:%Y-%m-%d %H:%M} {} not saved; the page offers {}\n", count,
+               count == 1 ? "" : "s", fmt::localtime(edits->offered_time()),
+               count == 1 ? "was" : "were", count == 1 ? "it" : "them");
   }
   return edits;
 }

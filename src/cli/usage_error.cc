@@ -143,7 +143,8 @@ bool LooksLikeOption(const std::string& word) {
 std::optional<Error> UnknownArgument(const CLI::App& app, const CLI::ParseError& failure) {
   const auto code = static_cast<CLI::ExitCodes>(failure.get_exit_code());
   const CLI::App& command = *NamedCommand(app);
-  const std::vector<std::string> rest = app.remaining(/*recurse=*/true);
+  std::vector<std::string> rest = app.remaining(/*recurse=*/true);
+  const bool options_end = std::erase(rest, "--") > 0;
   // CLI11 gives the values of unknown options as well, and in an order of its own: an option is
   // reported before a value.
   const auto option = std::find_if(rest.begin(), rest.end(), LooksLikeOption);
@@ -161,6 +162,10 @@ std::optional<Error> UnknownArgument(const CLI::App& app, const CLI::ParseError&
   std::vector<std::string> names;
   for (const CLI::Option* known : command.get_options()) {
     for (std::string& name : NamesOf(*known)) names.push_back(std::move(name));
+  }
+  if (options_end && std::find(names.begin(), names.end(), word) != names.end()) {
+    return Error(ExitCode::kUsage, word, "is behind --, which ends the options",
+                 "write it before --");
   }
   const auto way = std::find_if(kOtherWays.begin(), kOtherWays.end(),
                                 [&](const auto& pair) { return pair.first == word; });

@@ -566,6 +566,16 @@ class CliTest(unittest.TestCase):
 
     # ---- What it refuses ----
 
+    def test_two_dashes_end_the_options(self):
+        out, png = self.out / 'a.exr', self.out / 'x.png'
+        for arguments in (['render', '-o', out, '--size', '8x8', '--', FIRST_SCENE], ['info', '--', out],
+                          ['compare', '--', out, out], ['tonemap', '-o', png, '--', out]):
+            with self.subTest(arguments=arguments):
+                self.assertEqual(run(*arguments).returncode, 0)
+        self.check_fails(64, '--output: is required', 'render', '--', FIRST_SCENE)
+        self.check_fails(64, '-o: is behind --', 'render', '--', FIRST_SCENE, '-o', self.out / 'b.exr')
+        self.check_fails(64, 'unexpected argument "c"', 'compare', '--', out, out, 'c')
+
     def test_usage_errors(self):
         scene = FIRST_SCENE
         out = ['-o', self.out / 'a.exr']
