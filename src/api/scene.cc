@@ -6,6 +6,7 @@
 
 #include "api/scene_impl.h"
 #include "scene_io/load_scene.h"
+#include "scene_io/model_tree.h"
 
 namespace nacre::v0 {
 
@@ -57,13 +58,21 @@ void Scene::Set(const std::string& pointer, const Value& value) {
 
 std::optional<Value> Scene::Get(const std::string& pointer) const {
   return AtBorder([&]() -> std::optional<Value> {
-    const std::optional<Json> value = ValueIn(impl_->source.document.tree, pointer);
+    const SceneDocument& document = impl_->source.document;
+    std::optional<Json> value = ValueIn(document.tree, pointer);
+    // What was put of a model is whole where it is no object.
+    if (!document.model.empty() && (!value || value->is_object())) {
+      const auto made = impl_->Made();
+      value = ValueIn({ModelTree(*made, made->image, document.tree.root), {}}, pointer);
+    }
     if (!value) return std::nullopt;
     return Value::Json(JsonText(*value));
   });
 }
 
 bool Scene::Has(const std::string& pointer) const {
+  if (!impl_->source.document.model.empty())
+    return Get(pointer).value_or(Value::Json("null")).json() != "null";
   return AtBorder([&] { return HasValueIn(impl_->source.document.tree, pointer); });
 }
 

@@ -8,6 +8,7 @@
 
 #include "scene/hash.h"
 #include "scene_io/model_scene.h"
+#include "scene_io/model_tree.h"
 #include "scene_io/overrides.h"
 #include "scene_io/read_scene.h"
 
@@ -259,7 +260,9 @@ std::optional<SceneChange> LiveScene::ReadItem(const std::string& pointer,
 SceneReading LiveScene::Reading() { return {folder_, bytes_, &options_, &kept_, &files_}; }
 
 std::optional<std::string> LiveScene::Get(const std::string& pointer) const {
-  const std::optional<Json> value = ValueIn(tree_, pointer);
+  const std::optional<Json> value =
+      model_ ? ValueIn({ModelTree(scene_, own_image_, tree_.root), {}}, pointer)
+             : ValueIn(tree_, pointer);
   return value ? std::optional(JsonText(*value)) : std::nullopt;
 }
 

@@ -75,12 +75,14 @@ class LiveScene {
   // different now. What Set has put stays.
   SceneParts ReadNamedFiles();
 
-  // The value where `pointer` points, as JSON text, of a model only what Set and the options have
-  // put there; nothing if there is none. Throws Error (kUsage) for what is no pointer.
+  // The value where `pointer` points, as JSON text, in ModelTree of a model; nothing if there is
+  // none. Throws Error (kUsage) for what is no pointer.
   std::optional<std::string> Get(const std::string& pointer) const;
 
   // Whether that is something else than null.
-  bool Has(const std::string& pointer) const { return HasValueIn(tree_, pointer); }
+  bool Has(const std::string& pointer) const {
+    return model_ ? Get(pointer).value_or("null") != "null" : HasValueIn(tree_, pointer);
+  }
 
   // Renders it with other settings than its own, until the next change of those. Nothing else
   // follows: a model's camera stays.

@@ -14,6 +14,7 @@
 
 #include "base/error.h"
 #include "scene/idle_layers.h"
+#include "scene_io/model_tree.h"
 #include "scene_io/overrides.h"
 #include "scene_io/readers.h"
 
@@ -126,10 +127,37 @@ void SetMaterials(const JsonValue& value, SceneContext* context) {
   }
 }
 
+// Lights of which members alone are put, as whole ones; null removes one of the scene's.
+Json CompletedLights(const JsonValue& value, Scene* scene) {
+  if (!value.json.is_object()) return value.json;
+  Json lights = Json::object();
+  for (const auto& [name, own] : value.json.items()) {
+    const auto found = std::find_if(scene->lights.begin(), scene->lights.end(),
+                                    [&, &name = name](const Light& l) { return l.name == name; });
+    Json whole = found == scene->lights.end() ? Json() : ModelLightJson(*found);
+    if (own.is_null()) {
+      if (found != scene->lights.end()) scene->lights.erase(found);
+      continue;
+    }
+    if (!own.is_object() || own.contains("type") || whole.is_null()) {
+      whole = own;
+    } else {
+      // Another sky than the room has no scale but its own.
+      const bool other_sky =
+          own.contains("radiance") || own.contains("gradient") || own.contains("quadratic");
+      if (other_sky) whole.erase("scale");
+      whole.update(own);
+    }
+    lights[name] = std::move(whole);
+  }
+  return lights;
+}
+
 // New lights, and others in the place of those of the same name.
 void SetLights(const JsonValue& value, const SceneContext& context, Scene* scene) {
   std::vector<Light> lights;
-  ReadLights(value, context, &lights);
+  const Json whole = CompletedLights(value, scene);
+  ReadLights({whole, value.path, value.faults}, context, &lights);
   for (Light& light : lights) {
     const auto found = std::find_if(scene->lights.begin(), scene->lights.end(),
                                     [&](const Light& old) { return old.name == light.name; });

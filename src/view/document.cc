@@ -9,8 +9,6 @@
 
 #include "base/error.h"
 #include "base/path.h"
-#include "scene/material_parameters.h"
-#include "scene_io/material_json.h"
 #include "view/page_parts.h"
 
 namespace nacre {
@@ -49,59 +47,6 @@ bool AreNested(const std::string& a, const std::string& b) {
   const std::string& above = a.size() < b.size() ? a : b;
   const std::string& below = a.size() < b.size() ? b : a;
   return below.starts_with(above) && (below.size() == above.size() || below[above.size()] == '/');
-}
-
-Json PointJson(const Vec3d& v) { return {v.x, v.y, v.z}; }
-
-Json ColorJson(const Rgb& color) {
-  if (color.x == color.y && color.y == color.z) return color.x;
-  return {color.x, color.y, color.z};
-}
-
-void AddAttenuation(const Attenuation& attenuation, Json* json) {
-  if (attenuation == Attenuation::InverseSquare()) return;
-  (*json)["attenuation"] = {{"constant", attenuation.constant},
-                            {"linear", attenuation.linear},
-                            {"quadratic", attenuation.quadratic}};
-}
-
-// A light as an object of a scene file; null for those that models have none of.
-Json ModelLightJson(const Light& light) {
-  Json json;
-  if (const auto* ambient = std::get_if<AmbientLight>(&light.kind)) {
-    return {{"type", "ambient"}, {"radiance", ColorJson(ambient->radiance)}};
-  }
-  if (const auto* sky = std::get_if<EnvironmentLight>(&light.kind)) {
-    const auto* const room = std::get_if<PictureSky>(&sky->sky);
-    if (room == nullptr) return json;
-    json = {{"type", "environment"},
-            {"scale", ColorJson(room->scale)},
-            {"rotate_deg", sky->rotate_deg},
-            {"background", sky->background}};
-  } else if (const auto* sun = std::get_if<DirectionalLight>(&light.kind)) {
-    json = {{"type", "directional"},
-            {"direction_of_travel", PointJson(sun->direction_of_travel)},
-            {"irradiance", ColorJson(sun->irradiance)}};
-  } else if (const auto* point = std::get_if<PointLight>(&light.kind)) {
-    json = {{"type", "point"},
-            {"position", PointJson(point->position)},
-            {"intensity", ColorJson(point->intensity)}};
-    AddAttenuation(point->attenuation, &json);
-  } else if (const auto* spot = std::get_if<SpotLight>(&light.kind)) {
-    json = {{"type", "spot"},
-            {"position", PointJson(spot->position)},
-            {"intensity", ColorJson(spot->intensity)},
-            {"direction_of_travel", PointJson(spot->direction_of_travel)},
-            {"cutoff_deg", spot->cutoff_deg},
-            {"inner_deg", spot->inner_deg},
-            {"exponent", spot->exponent},
-            {"edge", spot->edge == SpotEdge::kSquare ? "square" : "smoothstep"}};
-    AddAttenuation(spot->attenuation, &json);
-  } else {
-    return json;
-  }
-  if (!light.shadows) json["shadows"] = false;
-  return json;
 }
 
 bool IsImageFile(const std::filesystem::path& path) {
@@ -171,21 +116,6 @@ void ViewDocument::PutAll(const std::vector<Change>& changes, bool after) {
   }
 }
 
-// A model's light that is changed by a member becomes one of the file's own words first: there all
-// of it is said. Returns whether it did.
-bool ViewDocument::CompleteLight(const std::string& pointer) {
-  if (!is_model()) return false;
-  for (const Light& light : scene().lights) {
-    const std::string own = (Json::json_pointer("/lights") / light.name).to_string();
-    if (!pointer.starts_with(own + "/") || live_.root().contains(Json::json_pointer(own))) continue;
-    const Json json = ModelLightJson(light);
-    if (json.is_null()) continue;
-    Put(own, JsonText(json));
-    return true;
-  }
-  return false;
-}
-
 void ViewDocument::Set(const std::string& pointer, const Json& value, uint64_t gesture) {
   // Then none of the model's own would be left, and no value of "/lights" would bring them back.
   if (pointer == "/lights" && is_model()) {
@@ -198,13 +128,7 @@ void ViewDocument::Set(const std::string& pointer, const Json& value, uint64_t g
   if (place == "/lights" && place != pointer && is_model()) place.clear();
   if (place.empty()) ListShapes();
   std::string before = JsonText(live_.root().at(Json::json_pointer(place)));
-  const bool completed = CompleteLight(pointer);
-  try {
-    Put(pointer, JsonText(value));
-  } catch (...) {
-    if (completed) Put(place, before);
-    throw;
-  }
+  Put(pointer, JsonText(value));
   std::string after = JsonText(live_.root().at(Json::json_pointer(place)));
   future_.clear();
   Remember({std::move(place), std::move(before), std::move(after)}, gesture);
@@ -298,14 +222,8 @@ Json ViewDocument::Tree() const {
   Json tree = live_.root();
   if (!lists_all_shapes()) tree.erase("shapes");
   if (!tree.is_object() || !is_model()) return tree;
-  Json& materials = tree["materials"];
-  for (const Material& material : scene().materials) {
-    if (ModelOf(material) == nullptr) continue;
-    Json whole = MaterialJson(material);
-    if (materials.contains(material.name)) whole.update(materials[material.name]);
-    materials[material.name] = std::move(whole);
-  }
-  tree["lights"] = ModelLights();
+  AddMaterials(scene(), &tree);
+  AddLights(scene(), &tree);
   return tree;
 }
 
@@ -318,41 +236,20 @@ Json ViewDocument::OriginalTree() const {
 
 bool ViewDocument::is_model() const { return IsModelFile(path_); }
 
-// The scene's lights that `root` does not name.
-void ViewDocument::AddModelLights(Json* lights) const {
-  const Json own = live_.root().value("lights", Json::object());
-  for (const Light& light : scene().lights) {
-    if (own.contains(light.name)) continue;
-    Json whole = ModelLightJson(light);
-    if (!whole.is_null()) (*lights)[light.name] = std::move(whole);
-  }
-}
-
 Json ViewDocument::ModelLights() const {
-  Json lights = live_.root().value("lights", Json::object());
-  AddModelLights(&lights);
-  return lights;
+  Json tree = live_.root();
+  AddLights(scene(), &tree);
+  return tree["lights"];
 }
 
+// Of those that nobody has changed, what they are now.
 Json ViewDocument::OriginalModelLights() const {
   Json lights = model_original_.value("lights", Json::object());
-  AddModelLights(&lights);
-  return lights;
-}
-
-Json ViewDocument::Camera() const {
-  const nacre::Camera& camera = scene().camera;
-  const bool perspective = camera.projection == Projection::kPerspective;
-  Json json = {{"type", perspective ? "perspective" : "orthographic"},
-               {"position", PointJson(camera.position)},
-               {"look_at", PointJson(camera.look_at)},
-               {"up", PointJson(camera.up)}};
-  if (perspective) {
-    json["fov_y_deg"] = camera.fov_y_deg;
-  } else {
-    json["height"] = camera.height;
+  const Json own = live_.root().value("lights", Json::object()), now = ModelLights();
+  for (const auto& [name, light] : now.items()) {
+    if (!own.contains(name)) lights[name] = light;
   }
-  return json;
+  return lights;
 }
 
 std::vector<std::string> ViewDocument::ImageFiles() const {

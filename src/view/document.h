@@ -10,6 +10,7 @@
 
 #include "render/prepared_scene.h"
 #include "scene_io/live_scene.h"
+#include "scene_io/model_tree.h"
 #include "view/edits.h"
 
 namespace nacre {
@@ -63,7 +64,7 @@ class ViewDocument {
   Json ModelLights() const;
   Json OriginalModelLights() const;
   // The camera that is rendered with, every member of it.
-  Json Camera() const;
+  Json Camera() const { return CameraJson(scene().camera); }
   const std::string& name() const { return name_; }
   // Image files of the scene's folder and of folders in it, as scenes name them: not all of very
   // many.
@@ -88,8 +89,6 @@ class ViewDocument {
   void Put(const std::string& pointer, const std::string& json);
   void PutAll(const std::vector<Change>& changes, bool after);
   void Remember(Change change, uint64_t gesture);
-  bool CompleteLight(const std::string& pointer);
-  void AddModelLights(Json* lights) const;
   void ListShapes();
 
   std::string name_;

@@ -2,6 +2,7 @@
 // A scene that was changed step by step is the one that all changes make as overrides.
 #include "scene_io/live_scene.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
@@ -609,6 +610,38 @@ TEST_CASE("A material is changed without reading shapes again, which have materi
   live.Set("/materials/blue/albedo_map", "\"tiles\"");
   CHECK(Describe(live.scene()) == mapped);
   std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("lights of a model are changed by their members, and removed by null") {
+  const std::string path = NACRE_SOURCE_DIR "/scenes/models/pawns.glb";
+  const auto light = [](const Scene& scene, const std::string& name) {
+    const auto found = std::find_if(scene.lights.begin(), scene.lights.end(),
+                                    [&](const Light& l) { return l.name == name; });
+    return found == scene.lights.end() ? Light() : *found;
+  };
+  const Scene plain = LoadScene(path);
+  LoadOptions options;
+  options.overrides = {
+      {"/lights/key/irradiance", "3"}, {"/lights/fill", "null"}, {"/lights/sky/rotate_deg", "90"}};
+  const Scene loaded = LoadScene(path, options);
+  LiveScene live(path, LoadOptions());
+  for (const auto& [pointer, json] : options.overrides) live.Set(pointer, json);
+  for (const Scene* const scene : {&loaded, &live.scene()}) {
+    CHECK(scene->lights.size() == plain.lights.size() - 1);
+    CHECK(light(*scene, "fill").name.empty());
+    const auto key = std::get<DirectionalLight>(light(*scene, "key").kind);
+    CHECK(key.irradiance == Rgb(3));
+    CHECK(key.direction_of_travel ==
+          std::get<DirectionalLight>(light(plain, "key").kind).direction_of_travel);
+    const auto sky = std::get<EnvironmentLight>(light(*scene, "sky").kind);
+    CHECK(sky.rotate_deg == 90);
+    CHECK(std::holds_alternative<PictureSky>(sky.sky));
+  }
+  live.Set("/lights/sky/radiance", "2");  // another sky than the room
+  CHECK(std::get<ConstantSky>(std::get<EnvironmentLight>(light(live.scene(), "sky").kind).sky)
+            .radiance == Rgb(2));
+  CHECK(live.Get("/lights/key/irradiance") == "3.0");
+  CHECK(live.Get("/lights/fill") == std::nullopt);
 }
 
 }  // namespace
