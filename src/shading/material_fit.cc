@@ -113,6 +113,7 @@ void FitPhong(const Material& original, std::string_view target, MaterialFit* fi
   phong.ks = lobe.strength;
   phong.shininess = lobe.width;
   fit->fitted.model = phong;
+  if (LargestChannel(phong.ks) >= 1) fit->notes.emplace_back("ks is at its limit, 1");
 }
 
 MetallicRoughnessMaterial GuessMetallic(const Summary& summary, double alpha) {
@@ -151,6 +152,21 @@ void FitWeakLobe(const Material& original, const Summary& summary, MaterialFit* 
   material = std::get<MetallicRoughnessMaterial>(white.model);
   material.base_color = BaseUnder(white, summary.base);
   fit->fitted.model = material;
+}
+
+// The roughness at which the lobe of the fit, whose strength is not the one that was fitted, comes
+// nearest to the original's.
+template <class Model>
+void RefitRoughness(const Material& original, MaterialFit* fit) {
+  const double from = std::get<Model>(fit->fitted.model).roughness;
+  const auto with = [&](double log_roughness) {
+    Material material = fit->fitted;
+    std::get<Model>(material.model).roughness = std::min(std::exp(log_roughness), 1.0);
+    return material;
+  };
+  const auto error = [&](double log) { return MeasureResidual(original, with(log)).rms; };
+  fit->fitted =
+      with(ScannedMinimum(error, std::log(from / 2), std::log(std::min(2 * from, 1.0)), 12));
 }
 
 double IndexFromF0(double f0) {
@@ -205,6 +221,7 @@ void FitMetallic(const Material& original, MaterialFit* fit) {
   const Rgb gap = free.strength - f0;
   const double worst = std::max({std::abs(gap.x), std::abs(gap.y), std::abs(gap.z)});
   if (worst > 0.005) {
+    RefitRoughness<MetallicRoughnessMaterial>(original, fit);
     fit->notes.push_back(fmt::format(
         "the lobe asks for F0 {:.3f} {:.3f} {:.3f}, one base colour for both lobe and base allows "
         "{:.3f} {:.3f} {:.3f}{}",
@@ -224,10 +241,14 @@ void FitDielectric(const Material& original, MaterialFit* fit) {
   const FittedLobe lobe = FitGgxLobe(original);
   material.ior = IndexFromF0(Mean(lobe.strength));
   material.roughness = std::sqrt(lobe.width);
-  Material white = fit->guess;
   material.base_color = Rgb(1);
-  white.model = material;
-  material.base_color = BaseUnder(white, summary.base);
+  fit->fitted.model = material;
+  if (material.ior == limits::kIor.max) {
+    RefitRoughness<DielectricMaterial>(original, fit);
+    fit->notes.push_back(fmt::format("its index of refraction is at its limit, {}", material.ior));
+  }
+  material = std::get<DielectricMaterial>(fit->fitted.model);
+  material.base_color = BaseUnder(fit->fitted, summary.base);
   fit->fitted.model = material;
   if (IsTinted(lobe.strength)) fit->notes.emplace_back(kColoredLobe);
   NoteStrength(Mean(lobe.strength), fit);
@@ -304,6 +325,14 @@ MaterialFit FitMaterial(const Material& original, std::string_view target) {
   } else {
     FitMetallic(material, &fit);
   }
+  fit.guess_residual = MeasureResidual(material, fit.guess);
+  fit.residual = MeasureResidual(material, fit.fitted);
+  // What is made small is not quite what is measured: where limits part the two, the start may be
+  // nearer.
+  if (fit.residual.rms > fit.guess_residual.rms) {
+    fit.fitted = fit.guess;
+    fit.residual = fit.guess_residual;
+  }
   const Rgb base = DiffuseAlbedo(material);
   const Rgb fitted_base = DiffuseAlbedo(fit.fitted);
   if (LargestChannel((fitted_base - base) * (fitted_base - base)) > kToldAlbedo * kToldAlbedo) {
@@ -313,8 +342,6 @@ MaterialFit FitMaterial(const Material& original, std::string_view target) {
                     base.x, base.y, base.z, fitted_base.x, fitted_base.y, fitted_base.z));
   }
   NoteLosses(original, to_phong, &fit);
-  fit.guess_residual = MeasureResidual(material, fit.guess);
-  fit.residual = MeasureResidual(material, fit.fitted);
   return fit;
 }
 

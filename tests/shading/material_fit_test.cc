@@ -246,6 +246,25 @@ TEST_CASE("surfaces without a lobe, or with a weak one, stay as dark as they are
   }
 }
 
+// Where the other model has no lobe that is strong enough, what is fitted is not what is measured.
+TEST_CASE("a fit is nearer than where it starts, at the limits of models as well") {
+  const std::vector<Material> originals = {
+      Phong(PhongModel::kPhong, Rgb(0), Rgb(0.9), 100),
+      Phong(PhongModel::kPhong, Rgb(0), Rgb(0.9), 1e6),
+      Phong(PhongModel::kBlinnPhong, Rgb(0.5, 0.1, 0.1), Rgb(0.5), 50),
+      Phong(PhongModel::kBlinnPhong, Rgb(0.5), Rgb(0.5), 1e6)};
+  for (const Material& original : originals) {
+    for (const std::string_view target : {"metallic_roughness", "dielectric"}) {
+      const MaterialFit fit = FitMaterial(original, target);
+      CAPTURE(target, PhongOf(original).shininess, PhongOf(original).ks.x);
+      CHECK(fit.residual.rms < fit.guess_residual.rms);
+    }
+  }
+  const auto notes = FitMaterial(originals[0], "dielectric").notes;
+  CHECK(std::find(notes.begin(), notes.end(), "its index of refraction is at its limit, 10") !=
+        notes.end());
+}
+
 TEST_CASE("what cannot be said is told") {
   // Grey gloss of 30 % over red: neither a metal nor a dielectric of index 1.5.
   const Material strong = Phong(PhongModel::kPhong, Rgb(0.6, 0.1, 0.1), Rgb(0.3), 40);
