@@ -182,8 +182,10 @@ class NACRE_API Scene {
   void Set(const std::string& pointer, const Value& value);
   // The value at a JSON pointer, as the file and what was set since say it; none where neither
   // says anything and a default holds. "" is the whole scene, without what AddSphere and AddMesh
-  // have added. Of a model (glTF, OBJ, PLY) only what was set. Takes as long as what it returns is
-  // large, however much was set.
+  // have added. Of a model (glTF, OBJ, PLY) all but its meshes and maps: camera, image, background,
+  // lights, and materials, whose numbers have six digits; it is read for that, which throws Error
+  // as Check does. Of a scene file it takes as long as what it returns is large, however much was
+  // set.
   std::optional<Value> Get(const std::string& pointer) const;
   // Whether that is something else than null.
   bool Has(const std::string& pointer) const;
@@ -320,6 +322,11 @@ struct RenderStats {
   double plan_seconds = 0, render_seconds = 0;
   int threads = 0;
   std::vector<std::string> notes;  // what the picture cannot show, and why
+  // Under max_error: pixels that have not converged within the samples, which a note tells as well.
+  uint64_t unsettled_pixels = 0;
+  uint32_t fewest_samples = 0, most_samples = 0;  // of a pixel
+  double mean_samples = 0;
+  uint64_t hits = 0, shades = 0;  // a shade is an evaluation of a light at a hit
 };
 
 // Thrown by a render that was ended by RenderSettings::cancel or Session::Cancel.

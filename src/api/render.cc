@@ -74,8 +74,20 @@ Image Finish(const FramePlan& plan, PreparedScene* prepared, nacre::Image render
   header.attributes[kRenderTimeAttribute] = static_cast<float>(counted.render_seconds);
   AddMetadata(header, &rendered);
   if (stats != nullptr) {
-    *stats = {counted.camera_rays,    counted.shadow_rays, plan_seconds,
-              counted.render_seconds, counted.threads,     plan.why.notes};
+    *stats = {.camera_rays = counted.camera_rays,
+              .shadow_rays = counted.shadow_rays,
+              .plan_seconds = plan_seconds,
+              .render_seconds = counted.render_seconds,
+              .threads = counted.threads,
+              .notes = plan.why.notes,
+              .unsettled_pixels = counted.unsettled_pixels,
+              .fewest_samples = counted.pixel_samples.fewest,
+              .most_samples = counted.pixel_samples.most,
+              .mean_samples = counted.pixel_samples.Mean(),
+              .hits = counted.hits,
+              .shades = counted.shades};
+    const std::string unsettled = UnsettledNote(plan, counted);
+    if (!unsettled.empty()) stats->notes.push_back(unsettled);
   }
   return ToPublic(std::move(rendered));
 }

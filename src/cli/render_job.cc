@@ -179,10 +179,8 @@ void RenderJob::Render(const Scene& scene, PreparedScene* prepared,
     for (const std::string& note : plan.why.notes) PrintError("note: {}\n", note);
   }
   if (!options.quiet && stats.unsettled_pixels > 0) {
-    PrintError(
-        "note: {} of {} pixels did not settle within {} samples; give more by --spp, or a larger "
-        "--max-error\n",
-        stats.unsettled_pixels, plan.window.pixel_count(), stats.pixel_samples.most);
+    PrintError("note: {}; give more by --spp, or a larger --max-error\n",
+               UnsettledNote(plan, stats));
   }
   WarnAboutSamples(counts, stats);
   if (!options.quiet && options.progress != "json") Summarize(options, plan, stats, times_);

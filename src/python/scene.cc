@@ -80,6 +80,12 @@ py::dict ToDict(const nacre::RenderStats& stats) {
   dict["render_seconds"] = stats.render_seconds;
   dict["threads"] = stats.threads;
   dict["notes"] = stats.notes;
+  dict["unsettled_pixels"] = stats.unsettled_pixels;
+  dict["samples_per_pixel"] =
+      py::dict(py::arg("min") = stats.fewest_samples, py::arg("mean") = stats.mean_samples,
+               py::arg("max") = stats.most_samples);
+  dict["hits"] = stats.hits;
+  dict["shades"] = stats.shades;
   return dict;
 }
 

@@ -191,6 +191,9 @@ FramePlan MakePlan(const Scene& given, const RenderSettings& settings, PreparedS
   PlanSums(scene, settings, plan.sampling.sampler, &plan.film, why);
   PlanPositions(scene, settings, {plan.surfaces, plan.direct, plan.film}, &plan.hits, why);
   NoteMaterials({scene, *materials, used}, !plan.direct.sampled_lights.empty(), &why->notes);
+  if (settings.max_error > 0) {
+    NoteNarrowLobes({scene, *materials, used}, settings.max_samples, &why->notes);
+  }
   return plan;
 }
 

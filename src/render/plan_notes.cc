@@ -10,6 +10,7 @@
 #include "base/overloaded.h"
 #include "brdf/ggx.h"
 #include "scene/coat.h"
+#include "shading/user_model.h"
 
 namespace nacre {
 namespace {
@@ -163,6 +164,27 @@ std::vector<bool> FindUsedMaterials(const Scene& scene) {
     for (const MaterialId id : split->materials) used[id.index] = true;
   }
   return used;
+}
+
+void NoteNarrowLobes(const NotedMaterials& of, int max_samples, std::vector<std::string>* notes) {
+  const Scene& scene = of.scene;
+  const bool surrounded = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& l) {
+    return std::holds_alternative<EnvironmentLight>(l.kind);
+  });
+  if (!surrounded) return;
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    const auto* const user = std::get_if<UserModel>(&of.prepared.all[i].model);
+    if (user == nullptr || user->brdf->sample || !of.used[i]) continue;
+    // A half vector within `width` of the normal is a direction of light within twice that of the
+    // mirror's: a share of at most 4 width^2 of the cosine law. Of 16 hits the error is a fourth.
+    const double width = UserLobeWidth(*user);
+    if (4 * width * width * max_samples >= 16) continue;
+    notes->push_back(fmt::format(
+        "material \"{}\": {} samples of its surroundings hardly find its lobe, whose width is "
+        "about "
+        "{:.2g} degrees: give the function a sampler (sample= and pdf=), or more samples",
+        scene.materials[i].name, max_samples, width * 180 / M_PI));
+  }
 }
 
 void NoteMaterials(const NotedMaterials& of, bool sampled_lights, std::vector<std::string>* notes) {

@@ -20,6 +20,11 @@ struct NotedMaterials {
   const std::vector<bool>& used;  // FindUsedMaterials
 };
 
+// Adds a note on functions of the caller's that have no sampler and a lobe so narrow that
+// `max_samples` of a surrounding, by the cosine law, do not find it: where all of a pixel's samples
+// miss it, adaptive sampling takes it for dark.
+void NoteNarrowLobes(const NotedMaterials& of, int max_samples, std::vector<std::string>* notes);
+
 // Adds notes on scenes without any light, on perfect mirrors under punctual lights only, and on
 // materials that reflect more light than they receive. `sampled_lights`: whether any light has an
 // extent.

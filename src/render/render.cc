@@ -7,6 +7,8 @@
 #include <memory>
 #include <mutex>
 
+#include <fmt/format.h>
+
 #include "base/parallel.h"
 #include "base/seconds_since.h"
 #include "base/strip.h"
@@ -243,6 +245,12 @@ Image RenderImage(const Scene& scene, const RenderSettings& settings, RenderStat
   Image image = RenderImage(plan, settings, stats);
   if (stats != nullptr) stats->plan_seconds = plan_seconds;
   return image;
+}
+
+std::string UnsettledNote(const FramePlan& plan, const RenderStats& stats) {
+  if (stats.unsettled_pixels == 0) return {};
+  return fmt::format("{} of {} pixels did not settle within {} samples", stats.unsettled_pixels,
+                     plan.window.pixel_count(), stats.pixel_samples.most);
 }
 
 }  // namespace nacre

@@ -49,4 +49,7 @@ RenderStats RenderInto(const FramePlan& plan, const RenderSettings& settings, Im
 Image RenderImage(const Scene& scene, const RenderSettings& settings, RenderStats* stats = nullptr);
 Image RenderImage(const FramePlan& plan, const RenderSettings& settings, RenderStats* stats);
 
+// What is to be told of pixels that have not converged; "" if all have.
+std::string UnsettledNote(const FramePlan& plan, const RenderStats& stats);
+
 }  // namespace nacre

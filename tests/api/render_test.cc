@@ -60,6 +60,33 @@ TEST_CASE("size, samples, seed, layers and regions are those asked for") {
   REQUIRE((nacre::Render(scene, settings).Find("R")->samples != full.Find("R")->samples));
 }
 
+TEST_CASE("pixels that have not converged are told") {
+  nacre::RenderSettings settings = Small();
+  nacre::RenderStats stats;
+  nacre::Render(FirstScene(), settings, &stats);
+  CHECK(stats.unsettled_pixels == 0);
+  CHECK(stats.fewest_samples <= 2);
+  CHECK(stats.most_samples == 2);
+  CHECK(stats.hits > 0);
+  CHECK(stats.hits <= stats.camera_rays);
+  settings.samples = 16;
+  settings.max_error = 1e-5;
+  nacre::Session session(FirstScene());
+  for (const bool in_session : {false, true}) {
+    if (in_session) {
+      session.Render(settings, &stats);
+    } else {
+      nacre::Render(FirstScene(), settings, &stats);
+    }
+    CHECK(stats.unsettled_pixels > 0);
+    CHECK(stats.most_samples == 16);
+    CHECK(stats.mean_samples > stats.fewest_samples);
+    REQUIRE_FALSE(stats.notes.empty());
+    CHECK(stats.notes.back() == std::to_string(stats.unsettled_pixels) +
+                                    " of 1600 pixels did not settle within 16 samples");
+  }
+}
+
 TEST_CASE("settings out of range are refused") {
   const nacre::Scene scene = FirstScene();
   const auto code_of = [&](auto change) {

@@ -206,6 +206,20 @@ def test_adaptive_sampling_treats_a_function_as_the_model_that_it_is():
     assert (np.abs(mine - other) <= 0.05 * np.maximum(other, 0.05)).mean() > 0.95
 
 
+def test_a_lobe_that_samples_of_surroundings_do_not_find_is_told():
+    def notes(model, light="sky", **settings):
+        scene = spheres(light)
+        scene.add_material("ball", model)
+        return "".join(scene.render(width=8, height=6, samples=64, **settings).stats["notes"])
+    told = 'material "ball": 64 samples of its surroundings hardly find its lobe'
+    narrow = ggx(1e-4)
+    assert told in notes(narrow, max_error=0.05) and "sample= and pdf=" in notes(narrow, max_error=0.05)
+    sampled = nacre.Brdf(narrow, sample=lambda n, v, u: n, pdf=lambda n, v, l: np.ones(len(n)))
+    assert told not in notes(sampled, max_error=0.05)
+    assert told not in notes(ggx(0.5), max_error=0.05) + notes(lambert(0.5), max_error=0.05)
+    assert told not in notes(narrow, "point", max_error=0.05)
+
+
 def test_grids_over_parameters():
     def make(roughness, albedo=1):
         def brdf(n, v, l):

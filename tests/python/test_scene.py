@@ -271,6 +271,18 @@ def test_numbers_of_scenes_are_finite(value):
         ball()["/materials/red/roughness"] = value
 
 
+@pytest.mark.parametrize("value, where", [
+    (float("nan"), "/materials/red/roughness"), (10**400, "/materials/red/roughness"),
+    (10**5000, "/materials/red/roughness"), (-10**400, "/materials/red/roughness"),
+    ([1, {"a/b": np.array([1, np.inf])}], "/materials/red/roughness/1/a~1b/1")])
+def test_a_number_that_is_not_finite_is_told_with_its_place(value, where):
+    with pytest.raises(nacre.Error) as caught:
+        ball()["/materials/red/roughness"] = value
+    fault, = caught.value.faults
+    assert fault.where == where and fault.what.endswith("is no finite number")
+    ball()["/nothing"] = "1" * 400  # a text
+
+
 @pytest.mark.parametrize("settings, error", [
     ({"width": -1}, nacre.Error), ({"samples": 10**7}, nacre.Error), ({"max_error": 2}, nacre.Error),
     ({"layers": ["difuse"]}, nacre.Error), ({"intersector": "magic"}, nacre.Error),
@@ -375,6 +387,35 @@ def test_what_a_callback_raises_comes_out():
         with pytest.raises(KeyError, match="mine"):
             session.render(**SMALL, show=lambda image, samples: fail(image))
         assert session.render(**SMALL).stats["camera_rays"] > 0
+
+
+def test_what_has_not_converged_is_in_the_stats():
+    stats = ball().render(width=64, height=64, samples=16, max_error=1e-5).stats
+    assert stats["unsettled_pixels"] > 0
+    assert "did not settle within 16 samples" in stats["notes"][-1]
+    samples = stats["samples_per_pixel"]
+    assert samples["min"] < samples["mean"] < samples["max"] == 16
+    assert ball().render(**SMALL).stats["unsettled_pixels"] == 0
+
+
+@pytest.mark.parametrize("opened", [lambda scene: scene, nacre.Session])
+def test_models_tell_what_they_hold(opened, scenes):
+    model = opened(nacre.Scene.from_file(scenes / "models" / "pawns.glb"))
+    brass = model["/materials/brass"]
+    assert brass["model"] == "metallic_roughness" and 0 < model["/materials/brass/roughness"] == brass["roughness"] < 1
+    key = model["/lights/key"]
+    assert key["type"] == "directional" and len(model["/camera/position"]) == 3 and model["/image/width"] == 1280
+    assert "/lights/key" in model and "/lights/kay" not in model and model.get("/materials/none") is None
+    model["/materials/brass/roughness"] = 0.9
+    assert model["/materials/brass"] == {**brass, "roughness": 0.9}
+    model["/lights/key/irradiance"] = 7
+    assert model["/lights/key"] == {**key, "irradiance": 7}
+    model["/lights/fill"] = None
+    assert "/lights/fill" not in model and set(model["/lights"]) == {"key", "rim", "sky"}
+    told = model.to_dict()  # all but meshes, maps, and the room, which no scene file says
+    again = nacre.Scene.from_dict(told)
+    assert again["/materials/brass"] == model["/materials/brass"] and again["/camera"] == model["/camera"]
+    again.check()
 
 
 def test_cancel_ends_a_render():

@@ -493,7 +493,7 @@ def check(model: Union[Function, Brdf], against: Union[str, Function, Brdf, None
     quiet: prints nothing.
 
     Verdicts: `finite`, `positive`; `reciprocal`: f(l, v) = f(v, l); `isotropic`: turning light,
-    viewer and normal changes nothing; `energy`: no albedo is above 1; `albedo`, of models that tell
+    viewer and normal changes nothing; `energy`: no albedo is above 1, but for the 0.001 that quadratures may be off by; `albedo`, of models that tell
     theirs: it is the integral; `sampler`, of models with one: the mean of f n.l / pdf over its samples
     is the albedo, also where the normal is no axis, samples are where the pdf says, and that is not
     above 1 in all; `agrees`, with `against`: within the tolerance at all angles.
@@ -546,7 +546,8 @@ def check(model: Union[Function, Brdf], against: Union[str, Function, Brdf, None
     verdicts["isotropic"] = Verdict(
         bool(turning.max() < _ROUNDING),
         f"turned with its surface it differs by {turning.max():.1e} at most")
-    verdicts["energy"] = _no_more_than_one("reflects up to {} of the light", cosines, furnace)
+    verdicts["energy"] = _no_more_than_one(
+        f"reflects up to {{}} of the light ({1 + _ENERGY:g} is allowed)", cosines, furnace)
     if watch is not None and watch.least == np.inf:
         for name in "positive", "reciprocal", "isotropic", "energy":
             verdicts[name] = Verdict(None, "no value is finite")

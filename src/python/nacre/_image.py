@@ -163,7 +163,8 @@ class Image:
     `image["beauty"]`, without A, or its only layer.
 
     `layers` and `channels` list the names. `data` is the window that the channels cover, `frame` the
-    whole picture. `metadata` holds text by name, `stats` of renders what was counted and timed.
+    whole picture. `metadata` holds text by name, `stats` of renders what was counted and timed: of
+    max_error "unsettled_pixels", those that have not converged, which "notes" tells as well.
     """
 
     frame: Window

@@ -103,8 +103,14 @@ class _Values:
         return isinstance(pointer, str) and self._native.has(text(pointer, "a JSON pointer"))
 
     def to_dict(self) -> Dict[str, Any]:
-        """The scene as a scene file has it, without the shapes of add_spheres and add_mesh."""
-        return json.loads(self._native.get("") or "{}")
+        """The scene as a scene file has it, without the shapes of add_spheres and add_mesh. Of a model
+        without its meshes and maps, and without the room that lights it where it has no light."""
+        scene = json.loads(self._native.get("") or "{}")
+        for name, light in list(scene.get("lights", {}).items()):
+            if isinstance(light, dict) and light.get("type") == "environment" and "scale" in light and not (
+                    light.keys() & {"radiance", "gradient", "quadratic", "image"}):
+                del scene["lights"][name]
+        return scene
 
 
 def _scene_of_bytes(scene: bytes) -> "Scene":
@@ -189,7 +195,8 @@ class Scene(_Values):
 
         A function is called from the render's threads, one call at a time, with hundreds of points;
         what it raises ends the render and comes out of it. Adaptive sampling (max_error) measures how
-        narrow its highlights are.
+        narrow its highlights are; a note in image.stats names a lobe that the samples of an environment
+        hardly find, which takes a sampler.
         """
         if isinstance(model, str):
             self._add("materials", name, {"model": model, **parameters})
