@@ -66,20 +66,21 @@ double FittedBaseShare(const AlbedoFit& albedo, double f0) {
   return sum;
 }
 
-// The base colour and metallic whose F0 and diffuse albedo are nearest to those wanted.
+// The base colour and metallic whose F0, by this weight, and diffuse albedo are nearest to those
+// wanted.
 struct MetallicBase {
   Rgb base_color;
   double metallic = 0;
 };
 
-MetallicBase SolveMetallic(const Rgb& f0, const Rgb& diffuse, double roughness) {
+MetallicBase SolveMetallic(const Rgb& f0, double weight, const Rgb& diffuse, double roughness) {
   const AlbedoFit albedo = MakeAlbedoFit(Shadowing::kHeightCorrelated, roughness);
   // Metallic mixes two surfaces: the metal takes nothing from the base of the dielectric.
   const double base_share = FittedBaseShare(albedo, kDielectricF0);
   const auto channel_error = [&](double metallic, double base, int c) {
     const double own_f0 = kDielectricF0 * (1 - metallic) + base * metallic;
     const double own_diffuse = (1 - metallic) * base * base_share;
-    return (own_f0 - f0[c]) * (own_f0 - f0[c]) +
+    return weight * (own_f0 - f0[c]) * (own_f0 - f0[c]) +
            (own_diffuse - diffuse[c]) * (own_diffuse - diffuse[c]);
   };
   const auto best_base = [&](double metallic, int c) {
@@ -154,14 +155,13 @@ void FitWeakLobe(const Material& original, const Summary& summary, MaterialFit* 
   fit->fitted.model = material;
 }
 
-// The roughness at which the lobe of the fit, whose strength is not the one that was fitted, comes
+// The roughness at which the lobe of the fit, a dielectric whose index is at its limit, comes
 // nearest to the original's.
-template <class Model>
 void RefitRoughness(const Material& original, MaterialFit* fit) {
-  const double from = std::get<Model>(fit->fitted.model).roughness;
+  const double from = std::get<DielectricMaterial>(fit->fitted.model).roughness;
   const auto with = [&](double log_roughness) {
     Material material = fit->fitted;
-    std::get<Model>(material.model).roughness = std::min(std::exp(log_roughness), 1.0);
+    std::get<DielectricMaterial>(material.model).roughness = std::min(std::exp(log_roughness), 1.0);
     return material;
   };
   const auto error = [&](double log) { return MeasureResidual(original, with(log)).rms; };
@@ -211,17 +211,23 @@ void FitMetallic(const Material& original, MaterialFit* fit) {
     if (IsTinted(free.strength)) fit->notes.emplace_back(kColoredLobe);
     return;
   }
-  const MetallicBase base = SolveMetallic(free.strength, summary.base, std::sqrt(free.width));
-  material.base_color = base.base_color;
-  material.metallic = base.metallic;
-  const Rgb f0 = Rgb(kDielectricF0) * (1 - base.metallic) + base.base_color * base.metallic;
   material.roughness = std::sqrt(free.width);
-  fit->fitted.model = material;
+  const double guess_rms = MeasureResidual(original, fit->guess).rms;
+  MetallicBase base;
+  // One colour serves lobe and base. As much of the base is kept as leaves a lobe that is no
+  // further away than where the fit starts.
+  for (double weight = 1; weight < 1e6; weight *= 2) {
+    base = SolveMetallic(free.strength, weight, summary.base, material.roughness);
+    material.base_color = base.base_color;
+    material.metallic = base.metallic;
+    fit->fitted.model = material;
+    if (MeasureResidual(original, fit->fitted).rms <= guess_rms) break;
+  }
+  const Rgb f0 = Rgb(kDielectricF0) * (1 - base.metallic) + base.base_color * base.metallic;
   if (base.metallic > 0 && base.metallic < 1) NoteStrength(Mean(free.strength), fit);
   const Rgb gap = free.strength - f0;
   const double worst = std::max({std::abs(gap.x), std::abs(gap.y), std::abs(gap.z)});
   if (worst > 0.005) {
-    RefitRoughness<MetallicRoughnessMaterial>(original, fit);
     fit->notes.push_back(fmt::format(
         "the lobe asks for F0 {:.3f} {:.3f} {:.3f}, one base colour for both lobe and base allows "
         "{:.3f} {:.3f} {:.3f}{}",
@@ -244,7 +250,7 @@ void FitDielectric(const Material& original, MaterialFit* fit) {
   material.base_color = Rgb(1);
   fit->fitted.model = material;
   if (material.ior == limits::kIor.max) {
-    RefitRoughness<DielectricMaterial>(original, fit);
+    RefitRoughness(original, fit);
     fit->notes.push_back(fmt::format("its index of refraction is at its limit, {}", material.ior));
   }
   material = std::get<DielectricMaterial>(fit->fitted.model);
