@@ -274,7 +274,8 @@ def test_numbers_of_scenes_are_finite(value):
 @pytest.mark.parametrize("value, where", [
     (float("nan"), "/materials/red/roughness"), (10**400, "/materials/red/roughness"),
     (10**5000, "/materials/red/roughness"), (-10**400, "/materials/red/roughness"),
-    ([1, {"a/b": np.array([1, np.inf])}], "/materials/red/roughness/1/a~1b/1")])
+    ([1, {"a/b": np.array([1, np.inf])}], "/materials/red/roughness/1/a~1b/1")],
+                         ids=["nan", "large", "huge", "negative", "nested"])
 def test_a_number_that_is_not_finite_is_told_with_its_place(value, where):
     with pytest.raises(nacre.Error) as caught:
         ball()["/materials/red/roughness"] = value
@@ -407,7 +408,7 @@ def test_models_tell_what_they_hold(opened, scenes):
     assert key["type"] == "directional" and len(model["/camera/position"]) == 3 and model["/image/width"] == 1280
     assert "/lights/key" in model and "/lights/kay" not in model and model.get("/materials/none") is None
     model["/materials/brass/roughness"] = 0.9
-    assert model["/materials/brass"] == {**brass, "roughness": 0.9}
+    assert model["/materials/brass"] == {**brass, "roughness": 0.9, "diffuse_roughness": 0.9}
     model["/lights/key/irradiance"] = 7
     assert model["/lights/key"] == {**key, "irradiance": 7}
     model["/lights/fill"] = None

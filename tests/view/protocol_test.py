@@ -476,7 +476,7 @@ class ProtocolTest(unittest.TestCase):
                 self.assertEqual(told['scene'], before)
                 self.set(page, '/lights/key/intensity', 7)
                 errors = end(server)
-                self.assertIn(f'{count} edits of 20', errors)
+                self.assertRegex(errors, f'note: {count} edits of 20.* were not saved; the page offers them')
                 # Restored, as one step.
                 server, page, told = start()
                 self.assertEqual(told['offered']['edits'], count + 1)
@@ -502,6 +502,11 @@ class ProtocolTest(unittest.TestCase):
                 page.until(lambda m: 'scene' in m)
                 end(server)
                 self.assertEqual(os.listdir(pathlib.Path(state, 'nacre')), [])
+                server, page, told = start()
+                self.set(page, '/background', 0.25)
+                end(server)
+                server, page, told = start()
+                self.assertRegex(end(server), 'note: 1 edit of 20.* was not saved; the page offers it\n')
 
     def test_edits_that_have_been_saved_are_not_offered(self):
         with tempfile.TemporaryDirectory() as folder:
