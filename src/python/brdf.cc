@@ -147,6 +147,10 @@ py::object ShadeRows(const nacre::Brdf& brdf, const Rows& normal, const Rows& to
   return sum;
 }
 
+#if PY_VERSION_HEX < 0x030D0000  // as Python 3.13 names it for everybody
+int Py_IsFinalizing() { return _Py_IsFinalizing(); }
+#endif
+
 // Python keeps a state for each thread that calls it. The renderer's threads are not Python's: this
 // makes theirs, once. py::gil_scoped_acquire alone would make one for each call, which takes as
 // long as the rest of a call.
@@ -154,7 +158,7 @@ class ThreadState {
  public:
   ThreadState() : state_(PyGILState_Ensure()), saved_(PyEval_SaveThread()) {}
   ~ThreadState() {
-    if (!Py_IsInitialized() || _Py_IsFinalizing()) return;
+    if (!Py_IsInitialized() || Py_IsFinalizing() != 0) return;
     PyEval_RestoreThread(saved_);
     PyGILState_Release(state_);
   }

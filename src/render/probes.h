@@ -14,8 +14,8 @@ struct Probe {
   Rgb radiance{0, 0, 0};
 };
 
-// Sets `hit` and `radiance` of the probes, which lie within the reach of the tile's samples, or in a
-// pixel that this ends in: there, spheres of the tile next to it alone are not seen.
+// Sets `hit` and `radiance` of the probes, which lie within the reach of the tile's samples, or in
+// a pixel that this ends in: there, spheres of the tile next to it alone are not seen.
 void TraceProbes(const FramePlan& plan, std::vector<Probe>* probes, TileWork* work,
                  StageClock* clock, RenderStats* stats);
 
