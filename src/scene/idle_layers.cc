@@ -5,28 +5,39 @@
 
 namespace nacre {
 
-void RemoveIdleLayers(const Scene& scene, Material* material) {
+std::optional<Material> RemoveIdleLayers(const Scene& scene, Material* material) {
   const auto is_black = [&](TextureId id) {
     if (id.index >= scene.textures.size()) return false;
     const ImageId image = scene.textures[id.index].image;
     return image.index < scene.images.size() && scene.images[image.index].is_black;
   };
-  if (IsBlack(material->emission) || is_black(material->emission_map)) {
+  auto* const model = std::get_if<MetallicRoughnessMaterial>(&material->model);
+  const bool emission = (IsBlack(material->emission) || is_black(material->emission_map)) &&
+                        (material->emission != Rgb(0) || material->emission_map.valid());
+  const bool coat = model != nullptr && (model->coat == 0 || is_black(model->coat_map)) &&
+                    (model->coat != 0 || model->coat_map.valid() ||
+                     model->coat_roughness_map.valid() || model->coat_normal_map.texture.valid());
+  const bool sheen = model != nullptr &&
+                     (IsBlack(model->sheen_color) || model->sheen_roughness == 0 ||
+                      is_black(model->sheen_color_map) || is_black(model->sheen_roughness_map)) &&
+                     (model->sheen_color != Rgb(0) || model->sheen_color_map.valid() ||
+                      model->sheen_roughness_map.valid());
+  if (!emission && !coat && !sheen) return std::nullopt;
+  Material whole = *material;
+  if (emission) {
     material->emission = Rgb(0);
     material->emission_map = {};
   }
-  auto* const model = std::get_if<MetallicRoughnessMaterial>(&material->model);
-  if (model == nullptr) return;
-  if (model->coat == 0 || is_black(model->coat_map)) {
+  if (coat) {
     model->coat = 0;
     model->coat_map = model->coat_roughness_map = {};
     model->coat_normal_map = {};
   }
-  if (IsBlack(model->sheen_color) || model->sheen_roughness == 0 ||
-      is_black(model->sheen_color_map) || is_black(model->sheen_roughness_map)) {
+  if (sheen) {
     model->sheen_color = Rgb(0);
     model->sheen_color_map = model->sheen_roughness_map = {};
   }
+  return whole;
 }
 
 }  // namespace nacre

@@ -56,8 +56,7 @@ class SceneParts {
 
 constexpr SceneParts operator|(ScenePart a, ScenePart b) { return SceneParts(a) | SceneParts(b); }
 
-// What a change may have given other values: these parts, and of materials and spheres perhaps only
-// some.
+// What a change may have given other values: these parts, and of materials perhaps only some.
 struct SceneChange {
   SceneChange() = default;
   SceneChange(SceneParts all_of)  // NOLINT(google-explicit-constructor): of no single items
@@ -65,8 +64,7 @@ struct SceneChange {
   SceneChange(ScenePart all_of) : parts(all_of) {}  // NOLINT(google-explicit-constructor): as above
 
   SceneParts parts;
-  // If not empty, all that has changed of kMaterials; likewise of kShapes.
-  std::vector<uint32_t> materials, spheres;
+  std::vector<uint32_t> materials;  // if not empty, all that has changed of kMaterials
 };
 
 // How often each part has changed. What was made of some parts is still right while their numbers
@@ -94,28 +92,22 @@ class PartVersions {
   std::array<uint64_t, kSceneParts> numbers_{};
 };
 
-// The versions of a scene that changes, and which of its materials and spheres the last changes
-// were of, for what is kept of each of them.
+// The versions of a scene that changes, and which of its materials the last changes were of, for
+// what is kept of each of them.
 class SceneVersions {
  public:
   void Change(const SceneChange& change) {
     now_.Change(change.parts);
     if (change.parts.Has(ScenePart::kMaterials)) materials_.Add(change.materials);
-    if (change.parts.Has(ScenePart::kShapes)) spheres_.Add(change.spheres);
   }
 
   PartVersions Of(SceneParts parts) const { return now_.Of(parts); }
 
-  // How often materials have changed, and kShapes.
+  // How often materials have changed.
   uint64_t materials() const { return materials_.count; }
-  uint64_t shapes() const { return spheres_.count; }
-  // Which materials have changed since materials() was `then`, and which spheres, of shapes that
-  // are the same otherwise; nothing: any of them.
+  // Which of them have changed since materials() was `then`; nothing: any of them.
   std::optional<std::span<const uint32_t>> MaterialsSince(uint64_t then) const {
     return materials_.Since(then);
-  }
-  std::optional<std::span<const uint32_t>> SpheresSince(uint64_t then) const {
-    return spheres_.Since(then);
   }
 
  private:
@@ -145,7 +137,7 @@ class SceneVersions {
   };
 
   PartVersions now_;
-  Log materials_, spheres_;
+  Log materials_;
 };
 
 }  // namespace nacre

@@ -222,7 +222,7 @@ std::optional<size_t> ShapeNumberOf(const std::vector<std::string>& tokens) {
 SceneChange LiveScene::Set(const std::string& pointer, const std::string& json) {
   const std::optional<size_t> number = ShapeNumberOf(TokensOf(pointer));
   const std::optional<size_t> shape =
-      number && !model_ ? ListShape(*number, &tree_, &members_) : std::nullopt;
+      number && !model_ ? MovePlainSphereToTree(*number, &tree_, &members_) : std::nullopt;
   if (!shape && (pointer.empty() || pointer.starts_with("/shapes"))) ListShapes();
   Json* const root = &tree_.root;
   Replaced replaced =

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "scene/hash.h"
+#include "scene/idle_layers.h"
 #include "scene/material_parameters.h"
 #include "scene/validate.h"
 #include "scene_io/readers.h"
@@ -95,6 +96,7 @@ bool TryToRead(const SceneReading& reading, ScenePart part, ReadMembers* members
   }
   std::swap(context.materials, members->names);
   std::swap(context.textures, members->sources);
+  context.whole_materials = &members->whole;
   const ShapeCounts before = CountShapes(*scene);
   const size_t textures = scene->textures.size(), images = scene->images.size();
   bool well = false;
@@ -116,6 +118,16 @@ bool TryToRead(const SceneReading& reading, ScenePart part, ReadMembers* members
   return true;
 }
 
+const Material& WholeMaterial(size_t index, const Scene& scene, const ReadMembers& members) {
+  const auto found = members.whole.find(static_cast<uint32_t>(index));
+  return found != members.whole.end() ? found->second : scene.materials[index];
+}
+
+void SetWhole(size_t index, std::optional<Material> whole, ReadMembers* members) {
+  members->whole.erase(static_cast<uint32_t>(index));
+  if (whole) members->whole.emplace(static_cast<uint32_t>(index), *std::move(whole));
+}
+
 std::vector<uint32_t> Numbers(size_t first, size_t count) {
   std::vector<uint32_t> numbers(count);
   for (size_t i = 0; i < count; ++i) numbers[i] = static_cast<uint32_t>(first + i);
@@ -129,9 +141,9 @@ class ShapeSwap {
       : known_(known), added_(CountShapes(*scene) - known.made), scene_(scene) {}
 
   // Whether it is as much, and nothing else depends on the difference.
-  bool Fits() const {
+  bool Fits(const ReadMembers& members) const {
     for (size_t i = 0; i < known_.made.materials; ++i) {
-      const Material& old = scene_->materials[known_.first.materials + i];
+      const Material& old = WholeMaterial(known_.first.materials + i, *scene_, members);
       Material now = scene_->materials[added_.materials + i];
       MoveIds(&now);
       // A split's own materials are among them.
@@ -144,6 +156,15 @@ class ShapeSwap {
       }
     }
     return true;
+  }
+
+  // Takes idle layers away from the new materials. Returns those that had some as they were.
+  std::vector<std::optional<Material>> RemoveIdleLayers() {
+    std::vector<std::optional<Material>> whole;
+    for (size_t i = added_.materials; i < scene_->materials.size(); ++i) {
+      whole.push_back(nacre::RemoveIdleLayers(*scene_, &scene_->materials[i]));
+    }
+    return whole;
   }
 
   // The new ones know their materials by the places that these are going to have.
@@ -221,7 +242,7 @@ std::optional<Json> ShapeAt(size_t place, const SceneTree& tree) {
   return JsonOf(sphere, tree.spheres.MaterialOf(sphere));
 }
 
-std::optional<size_t> ListShape(size_t place, SceneTree* tree, ReadMembers* members) {
+std::optional<size_t> MovePlainSphereToTree(size_t place, SceneTree* tree, ReadMembers* members) {
   const std::optional<ShapePlace> found = FindShape(place, *tree);
   if (!found) return std::nullopt;
   if (!found->run) return found->number;
@@ -275,23 +296,26 @@ std::optional<SceneChange> ReadMaterialAlone(const SceneTree& tree, const std::s
   if (members->varied.contains(index)) return std::nullopt;
   const auto& materials = tree.root.at("materials").get_ref<const Json::object_t&>();
   const Json& json = (materials.begin() + index)->second;  // found by name it would take longer
-  const bool well =
-      TryToRead(reading, ScenePart::kMaterials, members, scene,
-                [&](SceneContext* context, FaultList* faults) {
-                  const JsonPath root{}, all = root.Member("materials");
-                  const ShapeCounts before = CountShapes(*scene);
-                  Material now = ReadNamedMaterial({json, all.Member(name), faults}, name, context);
-                  Material& old = scene->materials[index];
-                  if (faults->count() > 0 || CountShapes(*scene) != before ||
-                      !AreAlike(old, now, context->materials.size())) {
-                    return false;
-                  }
-                  std::swap(old, now);
-                  ValidateMaterial(*scene, index, faults);
-                  if (faults->count() > 0) std::swap(old, now);
-                  return true;
-                });
+  std::optional<Material> whole;
+  const bool well = TryToRead(
+      reading, ScenePart::kMaterials, members, scene,
+      [&](SceneContext* context, FaultList* faults) {
+        const JsonPath root{}, all = root.Member("materials");
+        const ShapeCounts before = CountShapes(*scene);
+        Material now = ReadNamedMaterial({json, all.Member(name), faults}, name, context);
+        if (faults->count() > 0 || CountShapes(*scene) != before ||
+            !AreAlike(WholeMaterial(index, *scene, *members), now, context->materials.size())) {
+          return false;
+        }
+        whole = RemoveIdleLayers(*scene, &now);
+        Material& old = scene->materials[index];
+        std::swap(old, now);
+        ValidateMaterial(*scene, index, faults);
+        if (faults->count() > 0) std::swap(old, now);
+        return true;
+      });
   if (!well) return std::nullopt;
+  SetWhole(index, std::move(whole), members);
   SceneChange change = ScenePart::kMaterials;
   change.materials = {index};
   return change;
@@ -305,6 +329,7 @@ std::optional<SceneChange> ReadShapeAlone(const SceneTree& tree, size_t index, s
   if (!members->current || !json.is_object() || json.contains("displacement")) return std::nullopt;
   const ShapeRead known = members->shapes[index];
   bool same_shapes = false;
+  std::vector<std::optional<Material>> whole;
   const bool well = TryToRead(
       reading, ScenePart::kShapes, members, scene, [&](SceneContext* context, FaultList* faults) {
         const JsonPath root{}, all = root.Member("shapes");
@@ -312,8 +337,9 @@ std::optional<SceneChange> ReadShapeAlone(const SceneTree& tree, size_t index, s
         ReadShape({json, all.Element(place), faults}, context);
         if (faults->count() > 0 || CountShapes(*scene) - before != known.made) return false;
         ShapeSwap swap(known, scene);
-        if (!swap.Fits()) return false;
+        if (!swap.Fits(*members)) return false;
         swap.MoveIds();
+        whole = swap.RemoveIdleLayers();
         same_shapes = swap.SameShapes();
         swap.Swap(!same_shapes);
         swap.Validate(faults);
@@ -323,9 +349,10 @@ std::optional<SceneChange> ReadShapeAlone(const SceneTree& tree, size_t index, s
   if (!well) return std::nullopt;
   SceneChange change;
   const auto& [first, made] = known;
+  for (size_t i = 0; i < made.materials; ++i) {
+    SetWhole(first.materials + i, std::move(whole[i]), members);
+  }
   if (!same_shapes) change.parts |= ScenePart::kShapes;
-  if (!same_shapes && made.meshes == 0 && made.labels == 0)
-    change.spheres = Numbers(first.spheres, made.spheres);
   if (made.materials > 0) {
     change.parts |= ScenePart::kMaterials;
     change.materials = Numbers(first.materials, made.materials);

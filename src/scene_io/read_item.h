@@ -14,9 +14,9 @@
 
 namespace nacre {
 
-// Where the shape is in the tree's "shapes" that is number `place` of the file's. A plain sphere is
-// put there, alone. Nothing: there is no such shape.
-std::optional<size_t> ListShape(size_t place, SceneTree* tree, ReadMembers* members);
+// Makes shape `place` of the file an element of the tree's "shapes", and returns its index there.
+// Nothing: there is no such shape.
+std::optional<size_t> MovePlainSphereToTree(size_t place, SceneTree* tree, ReadMembers* members);
 
 // Puts all plain spheres there.
 void ListShapes(SceneTree* tree, ReadMembers* members);

@@ -176,7 +176,9 @@ bool ReadBaseMaterial(const JsonValue& value, SceneContext* context, Material* m
   if (value.json.is_string()) {
     const MaterialId id = FindMaterial(value, *context);
     if (!id.valid() || context->unreadable_materials.contains(id.index)) return false;
-    *material = context->scene->materials[id.index];
+    const WholeMaterials* const whole = context->whole_materials;
+    *material = whole != nullptr && whole->contains(id.index) ? whole->at(id.index)
+                                                              : context->scene->materials[id.index];
     context->varied_materials.insert(id.index);
     return true;
   }

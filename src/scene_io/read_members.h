@@ -29,6 +29,7 @@ struct TextureSource {
 };
 
 using MaterialNames = std::unordered_map<std::string, MaterialId>;
+using WholeMaterials = std::unordered_map<uint32_t, Material>;          // by place in the scene
 using TextureSources = std::unordered_map<std::string, TextureSource>;  // by name
 
 // How many a scene has of what shapes make.
@@ -52,13 +53,14 @@ struct ShapeRead {
 
 // What was read of the file that other parts refer to, and where in the scene its items are.
 struct ReadMembers {
-  bool current = false;  // false: `sources` may say what is not so
+  bool current = false;  // false: out of step with the scene; the next change reads all
   size_t materials = 0;  // made of the member "materials", in its order; those of shapes follow
   size_t textures = 0;   // that these name
   size_t images = 0;     // of these
   MaterialNames names;
   TextureSources sources;
   std::unordered_set<uint32_t> varied;  // materials that shapes have made others of
+  WholeMaterials whole;                 // as they were read, those whose idle layers are gone
   std::vector<ShapeRead> shapes;        // those of SceneTree::root, in their order
   std::vector<size_t> runs;             // of SceneTree::spheres: the first sphere of each run
 };

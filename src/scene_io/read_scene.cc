@@ -99,14 +99,14 @@ void ReadRoot(const SceneTree& tree, SceneParts parts, WatchedFiles* files, Faul
 
 // Adds what shapes have brought to materials, textures and images of the file that have the same
 // places as before. They know textures and images by their places. False: they have not.
-bool TakeOverBrought(const Scene& before, const ReadMembers& members, const ReadMembers& now,
+bool TakeOverBrought(const Scene& before, const ReadMembers& members, ReadMembers* now,
                      Scene* scene) {
   const auto same_image = [](const SceneImage& a, const SceneImage& b) {
     return a.texels == b.texels && a.middle == b.middle && a.lacks_alpha == b.lacks_alpha;
   };
   const bool fits =
-      now.materials == members.materials && now.textures == members.textures &&
-      now.images == members.images &&
+      now->materials == members.materials && now->textures == members.textures &&
+      now->images == members.images &&
       std::equal(scene->textures.begin(), scene->textures.end(), before.textures.begin()) &&
       std::equal(scene->images.begin(), scene->images.end(), before.images.begin(), same_image);
   if (!fits) return false;
@@ -114,6 +114,9 @@ bool TakeOverBrought(const Scene& before, const ReadMembers& members, const Read
     to->insert(to->end(), from.begin() + static_cast<ptrdiff_t>(first), from.end());
   };
   take(before.materials, members.materials, &scene->materials);
+  for (const auto& [place, whole] : members.whole) {
+    if (place >= members.materials) now->whole.emplace(place, whole);
+  }
   take(before.textures, members.textures, &scene->textures);
   take(before.images, members.images, &scene->images);
   return true;
@@ -259,12 +262,15 @@ std::optional<ReadMembers> ReadScene(const SceneTree& tree, SceneParts parts,
   ReadMembers read;
   ReadRoot(tree, parts, reading.files, faults, &context, &read);
   if (reading.before != nullptr &&
-      !TakeOverBrought(*reading.before, *reading.members, read, scene)) {
+      !TakeOverBrought(*reading.before, *reading.members, &read, scene)) {
     return std::nullopt;
   }
   // Last: generators may vary what a material leaves idle.
   if (parts.Has(ScenePart::kMaterials) || parts.Has(ScenePart::kShapes)) {
-    for (Material& material : scene->materials) RemoveIdleLayers(*scene, &material);
+    for (uint32_t i = 0; i < scene->materials.size(); ++i) {
+      std::optional<Material> whole = RemoveIdleLayers(*scene, &scene->materials[i]);
+      if (whole) read.whole.emplace(i, *std::move(whole));
+    }
   }
   AddValidation(*scene, parts, faults);
   return read;

@@ -44,6 +44,7 @@ struct SceneContext {
   bool has_materials = true;                          // false: their names could not be read
   std::unordered_set<uint32_t> unreadable_materials;  // indices of those that have faults
   std::unordered_set<uint32_t> varied_materials;      // shapes have made others of them
+  const WholeMaterials* whole_materials = nullptr;    // ReadMembers::whole, of an earlier reading
   // Of the shapes read, as in ReadMembers.
   std::vector<ShapeRead> shapes;
   std::vector<size_t> runs;
