@@ -98,9 +98,10 @@ ShownPixels ReadShown(const ImageFile& image, const ColorChannels& colors) {
   const ColorConversion conversion = ConversionToRec709(image.header.metadata);
   if (!conversion.note.empty()) PrintError("warning: {}: {}\n", image.path, conversion.note);
   if (conversion.matrix) {
-    ConvertColors(*conversion.matrix,
-                  {shown.rgb[0].data(), shown.rgb[1].data(), shown.rgb[2].data()}, 1,
-                  shown.window.pixel_count(), /*clip=*/false);
+    const size_t outside = ConvertColors(
+        *conversion.matrix, {shown.rgb[0].data(), shown.rgb[1].data(), shown.rgb[2].data()}, 1,
+        shown.window.pixel_count(), /*clip=*/false);
+    if (outside > 0) PrintError("warning: {}: {}\n", image.path, OutsideNote(outside));
   }
   return shown;
 }

@@ -77,7 +77,8 @@ Reference ReadReference(const fs::path& path, const ReferenceOptions& options) {
   const std::string file = path.string();
   Reference reference;
   FaultList faults;
-  if (!fs::is_regular_file(path)) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) {
     throw Error(ExitCode::kCannotCompare, file, "is not a regular file");
   }
   try {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "color/primaries.h"
 
-#include <array>
-#include <charconv>
 #include <cmath>
+
+#include "base/numbers.h"
 
 namespace nacre {
 namespace {
@@ -36,14 +36,12 @@ bool AreXyz(const Primaries& p) { return SamePrimaries(p, {{1, 0}, {0, 1}, {0, 0
 }  // namespace
 
 std::optional<Primaries> ParsePrimaries(std::string_view text) {
-  std::array<double, 8> numbers{};
-  for (double& number : numbers) {
-    while (text.starts_with(' ') || text.starts_with('\t')) text.remove_prefix(1);
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || !(std::abs(number) <= 10)) return {};
-    text.remove_prefix(static_cast<size_t>(end - text.data()));
+  const auto numbers = ParseNumbers(text);
+  if (!numbers || numbers->size() != 8) return {};
+  for (const double number : *numbers) {
+    if (!(std::abs(number) <= 10)) return {};
   }
-  const auto at = [&](size_t i) { return Vec2d(numbers[2 * i], numbers[2 * i + 1]); };
+  const auto at = [&](size_t i) { return Vec2d((*numbers)[2 * i], (*numbers)[2 * i + 1]); };
   const Primaries primaries{at(0), at(1), at(2), at(3)};
   // Twice the area of their triangle: below the error of its corners there is none.
   if (!(std::abs(Directions(primaries).determinant()) > kPrimariesError)) return {};

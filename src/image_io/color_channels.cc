@@ -2,6 +2,7 @@
 #include "image_io/color_channels.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cctype>
 #include <cmath>
 #include <limits>
@@ -96,28 +97,42 @@ ColorConversion ConversionToRec709(const std::map<std::string, std::string>& met
                       Excerpt(found->second))};
 }
 
-void ConvertColors(const Imath::M33d& matrix, const std::array<float*, 3>& rgb, size_t step,
-                   size_t count, bool clip, int threads) {
+size_t ConvertColors(const Imath::M33d& matrix, const std::array<float*, 3>& rgb, size_t step,
+                     size_t count, bool clip, int threads) {
   constexpr size_t kPiece = size_t{1} << 16;
+  // Samples are rounded by 2^-24 of themselves, which the matrix makes at most ten times as large.
+  constexpr double kRounding = 1e-6;
+  std::atomic<size_t> outside{0};
   constexpr double kMost = std::numeric_limits<float>::max();
   ParallelFor((count + kPiece - 1) / kPiece, threads, [&](size_t piece) {
     const DefaultFloatMode keeps_denormals;
+    size_t outside_here = 0;
     for (size_t i = piece * kPiece; i < std::min(count, (piece + 1) * kPiece); ++i) {
       const Vec3d from(rgb[0][i * step], rgb[1][i * step], rgb[2][i * step]);
       if (!std::isfinite(from.x + from.y + from.z)) continue;
       const Vec3d to = from * matrix;
+      outside_here += std::min({to.x, to.y, to.z}) < -kRounding * from.length() ? 1 : 0;
       for (int c = 0; c < 3; ++c) {
         rgb[static_cast<size_t>(c)][i * step] =
             static_cast<float>(std::clamp(to[c], clip ? 0 : -kMost, kMost));
       }
     }
+    outside += outside_here;
   });
+  return outside;
+}
+
+std::string OutsideNote(size_t outside) {
+  if (outside == 0) return {};
+  return fmt::format("{} pixels lie outside of Rec. 709's gamut: what is below 0 counts as 0",
+                     outside);
 }
 
 std::string ConvertImage(Image* image) {
   ColorConversion conversion = ConversionToRec709(image->metadata);
   if (!conversion.matrix) return std::move(conversion.note);
   std::set<std::string_view> layers;
+  size_t outside = 0;
   for (const Channel& channel : image->channels) {
     const size_t dot = channel.name.rfind('.');
     const auto layer = std::string_view(channel.name).substr(0, dot == std::string::npos ? 0 : dot);
@@ -125,10 +140,12 @@ std::string ConvertImage(Image* image) {
     const std::optional<ColorChannels> colors = FindColors(image->channels, layer);
     if (!colors || colors->is_grey()) continue;
     const auto samples = [&](size_t c) { return image->channels[c].samples.data(); };
-    ConvertColors(*conversion.matrix, {samples(colors->r), samples(colors->g), samples(colors->b)},
-                  1, image->data.pixel_count(), false);
+    outside += ConvertColors(*conversion.matrix,
+                             {samples(colors->r), samples(colors->g), samples(colors->b)}, 1,
+                             image->data.pixel_count(), false);
   }
   image->metadata["chromaticities"] = kRec709Primaries;
+  if (outside > 0) conversion.note += "; " + OutsideNote(outside);
   return std::move(conversion.note);
 }
 

@@ -48,9 +48,13 @@ struct ColorConversion {
 ColorConversion ConversionToRec709(const std::map<std::string, std::string>& metadata);
 
 // Converts `count` colours, each `step` after the one before. Colours that are not finite stay as
-// they are. `clip`: what lies outside of Rec. 709's gamut, below 0, becomes 0.
-void ConvertColors(const Imath::M33d& matrix, const std::array<float*, 3>& rgb, size_t step,
-                   size_t count, bool clip, int threads = 0);
+// they are. `clip`: what lies outside of Rec. 709's gamut, below 0, becomes 0. Returns how many do,
+// by more than float's rounding.
+size_t ConvertColors(const Imath::M33d& matrix, const std::array<float*, 3>& rgb, size_t step,
+                     size_t count, bool clip, int threads = 0);
+
+// What to tell of so many; "" of none.
+std::string OutsideNote(size_t outside);
 
 // Converts all layers of R, G and B, if that is needed, after which the image says that it is in
 // Rec. 709. Returns what to tell of it.

@@ -2,7 +2,6 @@
 #include "image_io/exr_bands.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <new>
 #include <set>
 #include <utility>
@@ -25,6 +24,7 @@
 #include "image_io/exr_container.h"
 #include "image_io/exr_header_check.h"
 #include "image_io/exr_types.h"
+#include "image_io/image_file.h"
 
 namespace nacre {
 namespace {
@@ -156,7 +156,7 @@ std::vector<uint8_t> ExrBandReader::ReadChunk(int y) {
 void ExrBandReader::DecodeAll() {
   // OpenEXR's reader makes room for what the header says, and leaves as it is what short chunks do
   // not fill.
-  CheckExrChunks(state_->path, 0, std::filesystem::file_size(state_->path));
+  CheckExrChunks(state_->path, 0, FileBytes(state_->path));
   const Imf::Header& header = state_->file->header();
   const Window data = ToWindow(header.dataWindow());
   std::vector<std::string> channels;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <filesystem>
 #include <limits>
 #include <memory>
 #include <new>
@@ -328,7 +327,7 @@ ImageFile OpenExr(const std::string& path, const std::string& part) {
   const int only = ChoosePart(path, opened.parts, part);
   ImageFile image;
   image.path = path;
-  image.file_bytes = std::filesystem::file_size(path);
+  image.file_bytes = FileBytes(path);
   image.parts = std::move(opened.parts);
   image.has_several = only < 0;
   // The part and the own name of each channel of the image.

@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <string_view>
@@ -17,6 +16,7 @@
 
 #include "base/error.h"
 #include "base/float_mode.h"
+#include "base/numbers.h"
 #include "base/parallel.h"
 #include "base/vec.h"
 #include "color/primaries.h"
@@ -129,21 +129,6 @@ bool ParseResolution(std::string_view line, HdrHeader* header) {
   return true;
 }
 
-// All the numbers of the text, or nothing.
-std::optional<std::vector<double>> ParseNumbers(std::string_view text) {
-  std::vector<double> numbers;
-  while (true) {
-    while (text.starts_with(' ') || text.starts_with('\t')) text.remove_prefix(1);
-    if (text.empty()) return numbers;
-    if (text.starts_with('+')) text.remove_prefix(1);
-    double number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || !std::isfinite(number)) return {};
-    numbers.push_back(number);
-    text.remove_prefix(static_cast<size_t>(end - text.data()));
-  }
-}
-
 // Radiance's own primaries, whose white is that of equal energy. Files that name none have these
 // in Radiance and Rec. 709's everywhere else, and both are taken as the latter: the red and blue
 // are the same, and the greens 0.01 apart.
@@ -241,7 +226,7 @@ class RowReader {
       : path_(path), bytes_(bytes) {
     // A file of just as many bytes repeats nothing: there, (1, 1, 1, n) is a colour. Coded rows,
     // which may come to that many, begin with their sign.
-    const bool as_many = std::filesystem::file_size(path) == bytes->position() + 4 * pixels;
+    const bool as_many = FileBytes(path) == bytes->position() + 4 * pixels;
     const char* const first = bytes->Peek(2);
     repeats_nothing_ = as_many && first != nullptr && !(first[0] == 2 && first[1] == 2);
   }
@@ -354,8 +339,9 @@ void ReadPixels(const std::string& path, const Window& size, const Window& regio
         Vec3d value(row[x][0] * scale, row[x][1] * scale, row[x][2] * scale);
         if (exposed) value /= header.exposure;
         if (header.is_xyz) value *= rgb_from_xyz;
+        // Colours outside of the gamut are clipped, as ra_xyze -r does, whose RGBE has no signs.
         for (int c = 0; c < 3; ++c)
-          to[3 * x + static_cast<size_t>(c)] = static_cast<float>(value[c]);
+          to[3 * x + static_cast<size_t>(c)] = static_cast<float>(std::max(value[c], 0.0));
       }
       placer.Place(first + static_cast<int>(i), to, 3);
     });
@@ -369,7 +355,7 @@ ImageFile OpenHdr(const std::string& path) {
   HdrHeader header = ReadHeader(path, &bytes);
   ImageFile image;
   image.path = path;
-  image.file_bytes = std::filesystem::file_size(path);
+  image.file_bytes = FileBytes(path);
   // A lower bound on the file's size, before anybody makes room for its pixels: the densest rows,
   // of the oldest files, repeat a pixel 65536 times in 16 bytes, 4096 times a byte.
   const double pixels = static_cast<double>(header.width) * header.height;

@@ -77,6 +77,13 @@ void CheckUnchanged(const std::string& path, bool same) {
   if (!same) throw Error(ExitCode::kBadInput, path, "changed while it was being read");
 }
 
+uint64_t FileBytes(const std::string& path) {
+  std::error_code error;
+  const uint64_t bytes = std::filesystem::file_size(path, error);
+  CheckUnchanged(path, !error);
+  return bytes;
+}
+
 ImagePart PartOf(const Image& header) {
   ImagePart part{.name = {},
                  .display = header.display,

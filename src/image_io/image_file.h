@@ -34,6 +34,9 @@ void CheckSampleCount(const std::string& path, uint64_t file_bytes, int64_t widt
 // `same`, which says that the header still asks for what the caller made room for.
 void CheckUnchanged(const std::string& path, bool same);
 
+// Of a file that has been opened. Throws like CheckUnchanged where it has gone since.
+uint64_t FileBytes(const std::string& path);
+
 // One of the images that a file holds: EXR files may hold several.
 struct ImagePart {
   struct PartChannel {

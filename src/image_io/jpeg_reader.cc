@@ -6,7 +6,6 @@
 #include <csetjmp>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <memory>
 #include <span>
 #include <utility>
@@ -200,7 +199,7 @@ ImageFile OpenJpeg(const std::string& path) {
   JpegFile jpeg(path);
   ImageFile image;
   image.path = path;
-  image.file_bytes = std::filesystem::file_size(path);
+  image.file_bytes = FileBytes(path);
   const Orientation orientation = jpeg.orientation();
   int width = static_cast<int>(jpeg.header().output_width);
   int height = static_cast<int>(jpeg.header().output_height);

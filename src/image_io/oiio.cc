@@ -184,7 +184,7 @@ ImageFile OpenWithOiio(const std::string& path) {
   const Orientation orientation = OrientationOfTag(opened.get().orientation);
   ImageFile image;
   image.path = path;
-  image.file_bytes = fs::file_size(path);
+  image.file_bytes = FileBytes(path);
   image.header = HeaderOf(opened.get(), orientation);
   image.parts = {PartOf(image.header)};
   // Opened again for each reading, which goes through the rows from the first one on.

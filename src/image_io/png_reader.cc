@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <new>
@@ -308,7 +307,7 @@ void ToFloats(const uint8_t* codes, std::vector<float>* values) {
 ImageFile OpenPng(const std::string& path) {
   ImageFile image;
   image.path = path;
-  image.file_bytes = std::filesystem::file_size(path);
+  image.file_bytes = FileBytes(path);
   const PngFile png(path);
   CheckPromise(png, path, image.file_bytes);
   const Orientation orientation = OrientationOf(png);

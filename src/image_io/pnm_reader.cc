@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <utility>
 #include <vector>
 
@@ -165,7 +164,7 @@ void CheckLength(const PnmHeader& header, const std::string& path, uint64_t file
 ImageFile OpenPnm(const std::string& path) {
   ImageFile image;
   image.path = path;
-  image.file_bytes = std::filesystem::file_size(path);
+  image.file_bytes = FileBytes(path);
   const PnmHeader header = PnmFile(path).header();
   CheckLength(header, path, image.file_bytes);
   image.header.data = image.header.display = {0, 0, static_cast<int>(header.width),

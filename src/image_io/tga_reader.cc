@@ -2,7 +2,6 @@
 #include "image_io/tga_reader.h"
 
 #include <array>
-#include <filesystem>
 #include <utility>
 #include <vector>
 
@@ -147,7 +146,7 @@ class TgaFile {
 ImageFile OpenTga(const std::string& path) {
   ImageFile image;
   image.path = path;
-  image.file_bytes = std::filesystem::file_size(path);
+  image.file_bytes = FileBytes(path);
   const TgaHeader header = TgaFile(path).header();
   image.header.data = image.header.display = {0, 0, header.width, header.height};
   image.header.metadata["transfer"] = "display";

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/excerpt.h"
+#include "base/numbers.h"
 #include "scene/limits.h"
 #include "scene_io/scene_budget.h"
 #include "scene_io/text_file.h"

@@ -18,6 +18,7 @@
 #include "base/error.h"
 #include "base/excerpt.h"
 #include "base/float_mode.h"
+#include "base/numbers.h"
 #include "base/parallel.h"
 #include "color/transfer.h"
 #include "scene_io/scene_budget.h"

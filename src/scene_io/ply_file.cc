@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/excerpt.h"
+#include "base/numbers.h"
 #include "scene_io/text_lines.h"
 
 namespace nacre {

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/excerpt.h"
+#include "base/numbers.h"
 #include "base/path.h"
 #include "scene/limits.h"
 #include "scene_io/npy_file.h"

@@ -2,9 +2,6 @@
 #include "scene_io/text_lines.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <system_error>
 
 #include "base/error.h"
 
@@ -15,15 +12,6 @@ constexpr std::string_view kLineBlanks = " \t\v\f\r\n";
 
 // Words and lines are short: a loop over their characters is faster than a search of the library's.
 bool IsLineBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
-
-// Whether a number that std::from_chars finds out of range is too small rather than too large. Its
-// digits cannot make up for an exponent that they have not: a text of that many would be needed.
-bool IsTooSmall(std::string_view word) {
-  const size_t exponent = word.find_first_of("eE");
-  if (exponent != std::string_view::npos) return word[exponent + 1] == '-';
-  const size_t first = word.find_first_not_of("+-0");
-  return first != std::string_view::npos && word[first] == '.';
-}
 
 // The text before the first word that begins with # and for which is_comment(word); trimmed. All of
 // it if nothing would be left.
@@ -111,18 +99,6 @@ std::string_view Trimmed(std::string_view text) {
     text.remove_suffix(1);
   }
   return text;
-}
-
-std::optional<double> ParseNumber(std::string_view word) {
-  if (word.starts_with('+')) word.remove_prefix(1);
-  if (word.starts_with('+')) return std::nullopt;
-  double number = 0;
-  const char* const word_end = word.data() + word.size();
-  const auto [end, error] = std::from_chars(word.data(), word_end, number);
-  if (end != word_end) return std::nullopt;
-  if (error == std::errc::result_out_of_range && IsTooSmall(word)) return 0.0;
-  if (error != std::errc() || !std::isfinite(number)) return std::nullopt;
-  return number;
 }
 
 bool IsNoNumber(std::string_view word) {

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -42,11 +41,6 @@ std::string_view NextWord(std::string_view* line);
 
 // The text between blanks at both ends, and between quotation marks if it is in some.
 std::string_view Trimmed(std::string_view text);
-
-// The number that is all of `word`, which may begin with a + and have no digits on one side of its
-// point. Numbers too small for a double are 0. Nothing for what is no number, NaN, and what is not
-// finite.
-std::optional<double> ParseNumber(std::string_view word);
 
 // Whether it is what a program writes for a number that is none or infinite: nan, -nan(ind), inf,
 // 1.#QNAN, -1.#IND00.

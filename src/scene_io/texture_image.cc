@@ -220,7 +220,7 @@ OpenTexture OpenTextureImage(const std::filesystem::path& path, const TextureRea
   return texture;
 }
 
-SceneImage DecodeTextureImage(const OpenTexture& open, const TextureReading& reading) {
+DecodedImage DecodeTextureImage(const OpenTexture& open, const TextureReading& reading) {
   const Window& window = open.window;
   const std::vector<size_t>& channels = open.channels;
   const size_t kept = open.kept();
@@ -239,7 +239,8 @@ SceneImage DecodeTextureImage(const OpenTexture& open, const TextureReading& rea
     }
     open.image.read(window, targets);
   }
-  SceneImage texture;
+  DecodedImage decoded;
+  SceneImage& texture = decoded.image;
   texture.lacks_alpha = channels.empty();
   // What comes from a table is finite.
   const auto decode = [&]() -> Texels {
@@ -249,8 +250,8 @@ SceneImage DecodeTextureImage(const OpenTexture& open, const TextureReading& rea
                   "a texture needs finite values");
     }
     if (open.conversion.matrix) {
-      ConvertColors(*open.conversion.matrix, {&values[0], &values[1], &values[2]}, kept,
-                    window.pixel_count(), /*clip=*/true, reading.threads);
+      decoded.outside = ConvertColors(*open.conversion.matrix, {&values[0], &values[1], &values[2]},
+                                      kept, window.pixel_count(), /*clip=*/true, reading.threads);
     }
     TurnGlossIntoRoughness(reading.glossiness, values);
     return PackTexels(values);
@@ -262,7 +263,7 @@ SceneImage DecodeTextureImage(const OpenTexture& open, const TextureReading& rea
   };
   texture.is_black = are_all(0);
   texture.is_white = are_all(1);
-  return texture;
+  return decoded;
 }
 
 }  // namespace
@@ -301,8 +302,8 @@ void TexturesAhead::Decode(TexelBudget budget, int threads) {
   });
 }
 
-std::optional<SceneImage> TexturesAhead::Take(const std::filesystem::path& path,
-                                              const TextureReading& reading) {
+std::optional<DecodedImage> TexturesAhead::Take(const std::filesystem::path& path,
+                                                const TextureReading& reading) {
   const auto found = by_key_.find(reading.Key(path));
   if (found == by_key_.end()) return std::nullopt;
   return std::exchange(wanted_[found->second].image, std::nullopt);
@@ -315,11 +316,14 @@ SceneImage ReadTextureImage(const std::filesystem::path& path, const std::string
   if (!open.conversion.note.empty() && reading.on_warning) {
     reading.on_warning(file + ": " + open.conversion.note);
   }
-  std::optional<SceneImage> decoded;
+  std::optional<DecodedImage> decoded;
   if (ahead != nullptr) decoded = ahead->Take(path, reading);
-  SceneImage texture = decoded ? *std::move(decoded) : DecodeTextureImage(open, reading);
-  texture.file = file;
-  return texture;
+  if (!decoded) decoded = DecodeTextureImage(open, reading);
+  if (decoded->outside > 0 && reading.on_warning) {
+    reading.on_warning(file + ": " + OutsideNote(decoded->outside));
+  }
+  decoded->image.file = file;
+  return std::move(decoded->image);
 }
 
 ImageId AddTextureImage(const std::filesystem::path& path, const std::string& file,

@@ -58,6 +58,11 @@ class TexelBudget {
   std::set<std::filesystem::path> files_;
 };
 
+struct DecodedImage {
+  SceneImage image;
+  size_t outside = 0;  // pixels that lay outside of Rec. 709's gamut
+};
+
 // Images that a scene is going to read, decoded ahead of that on several threads. What is wrong
 // with one is left to its reader, so that faults are found in the scene's order.
 class TexturesAhead {
@@ -70,13 +75,14 @@ class TexturesAhead {
   void Decode(TexelBudget budget, int threads);
 
   // The image, once; nothing if it was not decoded.
-  std::optional<SceneImage> Take(const std::filesystem::path& path, const TextureReading& reading);
+  std::optional<DecodedImage> Take(const std::filesystem::path& path,
+                                   const TextureReading& reading);
 
  private:
   struct Wanted {
     std::filesystem::path path;
     TextureReading reading;
-    std::optional<SceneImage> image;
+    std::optional<DecodedImage> image;
   };
   std::vector<Wanted> wanted_;
   std::map<std::string, size_t> by_key_;
@@ -90,7 +96,8 @@ class TexturesAhead {
 // (kBadInput) for files that are missing, broken or crops, that the budget does not allow, that
 // have several parts and none is named, or that hold NaN or infinities. Floats that are read as
 // colours (kSrgb) are converted to Rec. 709 from the file's primaries, with a warning; what is
-// outside of its gamut is cut off at 0. `file` is what SceneImage and warnings call it.
+// outside of its gamut is cut off at 0, with another. `file` is what SceneImage and warnings call
+// it.
 //
 // Memory: that of the file's samples (texture/texels.h), and 4 bytes a value while it is read.
 // `ahead`, which may be null, has some that are decoded.

@@ -742,6 +742,12 @@ class ImagesTest(unittest.TestCase):
             first = self.render(scene(green), 'x.exr')
             self.check(0, 'match', 'compare', first, self.render(scene(cut), 'y.exr'), '--max-rel', '1e-3')
         self.check(0, 'samples below 0', 'render', self.environment(green), '-o', self.out / 'x.exr', '--size', '8x8')
+        outside = "32 pixels lie outside of Rec. 709's gamut"
+        self.check(0, outside, 'render', self.textured(green), '-o', self.out / 'x.exr', '--size', '8x8')
+        self.check(0, outside, 'tonemap', green, '-o', self.out / 'x.png')
+        self.check(0, outside, 'report', self.out / 'r.html', green)
+        inside = self.flat('inside.exr', (.3, .5, .2), self.REC2020)
+        self.assertNotIn('gamut', self.check(0, '', 'tonemap', inside, '-o', self.out / 'x.png').stderr)
 
     def test_radiance_up_to_the_float_nearest_1e30(self):
         bright = self.flat('bright.exr', (1e30, 1e30, 1e30))  # as a float it is above 1e30

@@ -226,6 +226,11 @@ TEST_CASE("XYZ pixels become Radiance's RGB") {
   CHECK(std::abs(red[0] - 1) < 0.02);  // codes of two digits
   CHECK(std::abs(red[1]) < 0.02);
   CHECK(std::abs(red[2]) < 0.02);
+  // Y alone is a green that no RGB has: red and blue would be below 0.
+  const std::vector<float> green = RgbOf(header + Flat(Pixels(8, {0, 179, 0, 136})));
+  CHECK(green[0] == 0);
+  CHECK(green[1] > 1);
+  CHECK(green[2] == 0);
 }
 
 TEST_CASE("other and broken Radiance files are refused") {

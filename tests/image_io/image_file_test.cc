@@ -148,5 +148,16 @@ TEST_CASE("a label's buffer must be of the picture's size") {
   CHECK(Catching([&] { DrawText(rgb8, 4, 4, {}); }).code == ExitCode::kInternal);
 }
 
+TEST_CASE("a file that has gone since it was opened is an error of its own") {
+  const std::string gone = "no folder/gone.exr";
+  try {
+    FileBytes(gone);
+    FAIL();
+  } catch (const Error& error) {
+    CHECK(error.code() == ExitCode::kBadInput);
+    CHECK(std::string(error.what()).find(gone + ": changed") != std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace nacre

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/numbers.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+namespace nacre {
+namespace {
+
+// Whether a number that std::from_chars finds out of range is too small rather than too large. Its
+// digits cannot make up for an exponent that they have not: a text of that many would be needed.
+bool IsTooSmall(std::string_view word) {
+  const size_t exponent = word.find_first_of("eE");
+  if (exponent != std::string_view::npos) return word[exponent + 1] == '-';
+  const size_t first = word.find_first_not_of("+-0");
+  return first != std::string_view::npos && word[first] == '.';
+}
+
+}  // namespace
+
+std::optional<double> ParseNumber(std::string_view word) {
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
+  double number = 0;
+  const char* const word_end = word.data() + word.size();
+  const auto [end, error] = std::from_chars(word.data(), word_end, number);
+  if (end != word_end) return std::nullopt;
+  if (error == std::errc::result_out_of_range && IsTooSmall(word)) return 0.0;
+  if (error != std::errc() || !std::isfinite(number)) return std::nullopt;
+  return number;
+}
+
+std::optional<std::vector<double>> ParseNumbers(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t";
+  std::vector<double> numbers;
+  while (true) {
+    text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+    if (text.empty()) return numbers;
+    const std::string_view word = text.substr(0, text.find_first_of(kBlanks));
+    const std::optional<double> number = ParseNumber(word);
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+    text.remove_prefix(word.size());
+  }
+}
+
+}  // namespace nacre
