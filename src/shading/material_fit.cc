@@ -260,6 +260,16 @@ void FitDielectric(const Material& original, MaterialFit* fit) {
   NoteStrength(Mean(lobe.strength), fit);
 }
 
+// What all models have, but for maps.
+Material WithoutModel(Material material) {
+  material.model = {};
+  material.user = nullptr;
+  material.emission_map = material.opacity_map = {};
+  material.normal_map = {};
+  material.bump_map = {};
+  return material;
+}
+
 // What no fit of these models keeps.
 void NoteLosses(const Material& original, bool to_phong, MaterialFit* fit) {
   const bool from_phong = std::holds_alternative<PhongMaterial>(original.model);
@@ -321,8 +331,7 @@ MaterialFit FitMaterial(const Material& original, std::string_view target) {
   const bool has_layers = target == "metallic_roughness";
   const Material material =
       WithLobe(has_layers ? original : WithoutLayers(original, &fit.notes), &fit.notes);
-  fit.guess.name = fit.fitted.name = original.name;
-  fit.guess.emission = fit.fitted.emission = original.emission;
+  fit.guess = fit.fitted = WithoutModel(original);
   const bool to_phong = target.ends_with("phong");
   if (to_phong) {
     FitPhong(material, target, &fit);

@@ -52,6 +52,33 @@ TEST_CASE("searches find minima inside and at the ends") {
   CHECK(std::abs(ScannedMinimum(two, 0, 4, 8) - 3) < 1e-7);
 }
 
+TEST_CASE("what all materials have is kept") {
+  Material material = Metal(Rgb(0.8, 0.3, 0.1), 0, 0.4);
+  material.name = "leaf";
+  material.emission = Rgb(0.1, 0.2, 0.3);
+  material.single_sided = material.emits_in_front_only = true;
+  material.opacity = 0.25;
+  material.opacity_cutoff = 0.125;
+  material.vertex_colors = VertexColors::kBase;
+  material.opacity_map = material.emission_map = {0};
+  for (const std::string_view target : FitTargets()) {
+    CAPTURE(target);
+    const MaterialFit fit = FitMaterial(material, target);
+    for (const Material& made : {fit.guess, fit.fitted}) {
+      CHECK(made.name == "leaf");
+      CHECK(made.emission == material.emission);
+      CHECK(made.single_sided);
+      CHECK(made.emits_in_front_only);
+      CHECK(made.opacity == 0.25);
+      CHECK(made.opacity_cutoff == 0.125);
+      CHECK(made.vertex_colors == VertexColors::kBase);
+      CHECK_FALSE(made.opacity_map.valid());
+      CHECK_FALSE(made.emission_map.valid());
+    }
+    CHECK(std::ranges::find(fit.notes, "maps are not converted") != fit.notes.end());
+  }
+}
+
 TEST_CASE("the closed forms are each other's inverse and those of the lessons") {
   CHECK(ExponentFromAlpha(PhongModel::kBlinnPhong, 0.16) == Approx(2 / (0.16 * 0.16) - 2));
   CHECK(ExponentFromAlpha(PhongModel::kPhong, 0.16) ==
