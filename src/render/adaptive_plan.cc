@@ -58,14 +58,6 @@ bool HasHardCone(const Scene& scene) {
   });
 }
 
-// Whether a material reflects light by a function of the caller's: it may have edges of its own, as
-// a toon shader has, and nothing says how narrow its highlights are.
-bool HasUserModel(std::span<const ShadingMaterial> materials) {
-  return std::any_of(materials.begin(), materials.end(), [](const ShadingMaterial& material) {
-    return std::holds_alternative<UserModel>(material.model);
-  });
-}
-
 }  // namespace
 
 AdaptivePlan PlanAdaptiveLevels(const Scene& scene, std::span<const ShadingMaterial> materials,
@@ -102,7 +94,7 @@ AdaptivePlan PlanAdaptiveLevels(const Scene& scene, std::span<const ShadingMater
       std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
         return !IsPunctual(light) && !std::holds_alternative<AmbientLight>(light.kind);
       });
-  plan.footprints = !both_signs && !HasHardCone(scene) && !sampled && !HasUserModel(materials);
+  plan.footprints = !both_signs && !HasHardCone(scene) && !sampled;
   plan.filter_radius = std::max(filter.width / 2, 0.5);
   // Half the second moment where the picture is smooth. Where its slope changes within a pixel, as
   // where a surface turns away from a light, up to three times that (for a box: 1/8 of the change

@@ -30,19 +30,6 @@ bool MayHideFeatures(const CellState& c, uint32_t pixel) {
   return (c.only_outlines >> pixel / kBlockPixels & 1) == 0;
 }
 
-// The column and the row of a pixel in the cell.
-struct CellPosition {
-  int column, row;
-};
-
-CellPosition PositionInCell(uint32_t pixel) {
-  constexpr uint32_t kAcross = kCellSize / kBlockSide;
-  constexpr auto kPixels = static_cast<uint32_t>(kBlockPixels);
-  const uint32_t block = pixel / kPixels, in_block = pixel % kPixels;
-  return {static_cast<int>(block % kAcross * kBlockSide + in_block % kBlockSide),
-          static_cast<int>(block / kAcross * kBlockSide + in_block / kBlockSide)};
-}
-
 double MeanOf(const CellState& c, uint32_t pixel, size_t channel) {
   double sum = 0;
   for (const auto& replicate : c.replicate) sum += replicate[channel][pixel];
@@ -68,11 +55,11 @@ double ToleranceOf(const CellState& c, uint32_t pixel) {
 
 // The range of the means of the pixel and its neighbours in the cell.
 PixelRange RangeOfMeans(const CellState& c, uint32_t pixel, size_t channel) {
-  const CellPosition at = PositionInCell(pixel);
+  const FilmPixel at = PixelOf({}, pixel);
   PixelRange range{std::numeric_limits<double>::infinity(),
                    -std::numeric_limits<double>::infinity()};
-  for (int row = std::max(at.row - 1, 0); row <= std::min(at.row + 1, kCellSize - 1); ++row) {
-    for (int column = std::max(at.column - 1, 0); column <= std::min(at.column + 1, kCellSize - 1);
+  for (int row = std::max(at.y - 1, 0); row <= std::min(at.y + 1, kCellSize - 1); ++row) {
+    for (int column = std::max(at.x - 1, 0); column <= std::min(at.x + 1, kCellSize - 1);
          ++column) {
       const uint32_t other = PixelAt(column, row);
       if (c.samples[other] == 0) continue;
@@ -115,8 +102,8 @@ struct Pool {
 
 // All pixels except those at the cell's border, whose neighbours are not known.
 bool IsInner(uint32_t pixel) {
-  const CellPosition at = PositionInCell(pixel);
-  return at.column > 0 && at.row > 0 && at.column + 1 < kCellSize && at.row + 1 < kCellSize;
+  const FilmPixel at = PixelOf({}, pixel);
+  return at.x > 0 && at.y > 0 && at.x + 1 < kCellSize && at.y + 1 < kCellSize;
 }
 
 // Whether the pixel has a rare feature that is known beforehand and matters.

@@ -61,10 +61,12 @@ AdaptivePlan PlanAdaptiveSampling(const FramePlan& plan, const RenderSettings& s
   AdaptivePlan adaptive =
       PlanAdaptiveLevels(scene, plan.surfaces.materials, settings.max_error, settings.max_samples);
   adaptive.brightest = BrightestObject(scene, plan.direct, adaptive.white);
-  // Between pixel centres a texture may show anything. Triangles are not binned, so their edges are
-  // not known.
+  // Between pixel centres a texture may show anything, and so may a function of the caller's, which
+  // may have edges of its own, as a toon shader has, and highlights of any width. Triangles are not
+  // binned, so their edges are not known.
   adaptive.footprints = adaptive.footprints && plan.hits.binned && scene.meshes.empty() &&
-                        !plan.surfaces.splits && !plan.surfaces.textured;
+                        !plan.surfaces.splits && !plan.surfaces.textured &&
+                        !Has(plan.surfaces.prepared->any, MaterialTrait::kUserModel);
   adaptive.texel_maps = FindTexelMaps(scene, plan.direct, settings.max_error);
   adaptive.lights = FindHighlightLights(scene, plan.direct);
   adaptive.mesh_glints = FindMeshGlints(scene, plan.surfaces, adaptive, plan.camera, plan.window,

@@ -24,7 +24,7 @@ const char* WhyAllPositions(const Scene& scene, const RenderSettings& settings,
          : !readers.direct.sampled_lights.empty() ? "some lights have an extent"
          : readers.surfaces.textured              ? "textures may need them"
          : plan.exact_directions                  ? "narrow lobes find lights from them"
-         : readers.surfaces.one_sided             ? "some materials emit in front only"
+         : readers.surfaces.emits_in_front_only   ? "some materials emit in front only"
          : ShowsNearest(readers.film)             ? "some layers show hits, not averages"
                                                   : nullptr;
 }

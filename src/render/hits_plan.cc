@@ -57,9 +57,9 @@ ViewKey KeyOfSurfaces(const Scene& scene, const PreparedScene& prepared) {
   ViewKey key;
   if (scene.meshes.empty()) return key;
   key.numbers.push_back(scene.image.culling ? 1 : 0);
+  const Material usual;
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     const Material& material = scene.materials[i];
-    const Material usual;
     if (material.opacity_map.valid()) key.parts = prepared.versions.Of(ScenePart::kTextures);
     if (material.opacity == usual.opacity && material.opacity_cutoff == usual.opacity_cutoff &&
         !material.opacity_map.valid() && !material.single_sided) {

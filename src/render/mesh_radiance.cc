@@ -97,7 +97,7 @@ void InterpolateRadiance(const DirectBatch& batch) {
       });
       if (found != sets.end()) {
         InterpolateHit(batch, triangle, *found, hit);
-      } else {  // SurfacePlan::black: the back of a one-sided emitter
+      } else {  // SurfacePlan::black: the back of what emits in front only
         ForEachArray(&batch.radiance,
                      [&](const auto&, Soa3<float>* to) { SetVector(Vec3d(0), hit, to); });
       }

@@ -24,7 +24,7 @@ uint16_t TraitsOf(const Material& material, const ShadingMaterial& prepared) {
   };
   const ShadingMaterial* const coat = prepared.coat.get();
   add(std::holds_alternative<SplitMaterial>(material.model), MaterialTrait::kSplit);
-  add(material.emits_in_front_only, MaterialTrait::kOneSided);
+  add(material.emits_in_front_only, MaterialTrait::kEmitsInFrontOnly);
   add(!IsBlack(material.emission), MaterialTrait::kEmits);
   add(coat != nullptr, MaterialTrait::kCoated);
   add(prepared.textured != nullptr || (coat != nullptr && coat->textured != nullptr),
@@ -51,15 +51,15 @@ void Prepare(const Scene& scene, const Rgb& ambient, size_t i, PreparedMaterials
 
 void PlaceCoat(size_t i, PreparedMaterials* to) {
   const std::shared_ptr<const ShadingMaterial> coat = to->all[i].coat;
-  MaterialId& id = to->coats[i];
-  if (!coat) {
-    id = {};
-  } else if (id.valid()) {
-    to->all[id.index] = *coat;
-  } else {
-    id = {static_cast<uint32_t>(to->all.size())};
-    to->all.push_back(*coat);
+  to->coats[i] = {};
+  if (!coat) return;
+  MaterialId& slot = to->coat_slots[i];
+  if (!slot.valid()) {
+    slot = {static_cast<uint32_t>(to->all.size())};
+    to->all.emplace_back();
   }
+  to->all[slot.index] = *coat;
+  to->coats[i] = slot;
 }
 
 void CollectTraits(PreparedMaterials* materials) {
@@ -79,6 +79,7 @@ void PrepareMaterials(const Scene& scene, const Rgb& ambient, int threads,
   materials->all[count] = {};
   materials->all[count].model = MatteModel{.diffuse = Rgb(0, 0, 0)};
   materials->coats.assign(count, {});
+  materials->coat_slots.assign(count, {});
   materials->traits.resize(count);
   constexpr size_t kPiece = 256;
   ParallelFor((count + kPiece - 1) / kPiece, threads, [&](size_t piece) {

@@ -15,7 +15,7 @@ namespace nacre {
 // What a plan asks of all materials at once.
 enum class MaterialTrait : uint16_t {
   kSplit = 1 << 0,
-  kOneSided = 1 << 1,  // emits in front only
+  kEmitsInFrontOnly = 1 << 1,
   kEmits = 1 << 2,
   kCoated = 1 << 3,
   kTextured = 1 << 4,     // ShadingMaterial::textured, its own or its coat's
@@ -35,11 +35,12 @@ inline bool Has(uint16_t traits, MaterialTrait trait) {
 }
 
 struct PreparedMaterials {
-  std::vector<ShadingMaterial> all;  // one per material of the scene, `black`, and coats
-  MaterialId black;                  // of the back of one-sided emitters
-  std::vector<MaterialId> coats;     // by material of the scene; invalid if it has none
-  std::vector<uint16_t> traits;      // by material of the scene
-  uint16_t any = 0;                  // what any of them has
+  std::vector<ShadingMaterial> all;    // one per material of the scene, `black`, and coats
+  MaterialId black;                    // of the back of what emits in front only
+  std::vector<MaterialId> coats;       // by material of the scene; invalid if it has none
+  std::vector<MaterialId> coat_slots;  // likewise, of a coat that it has or had
+  std::vector<uint16_t> traits;        // by material of the scene
+  uint16_t any = 0;                    // what any of them has
 };
 
 // `ambient`: the sum of the scene's ambient lights. The scene must outlive what is made. What

@@ -124,9 +124,9 @@ void FindSegments(const SurfacePlan& plan, const double* film_x, const CameraHit
   room->segments.clear();
   for (size_t begin = 0, end; begin < count; begin = end) {
     const MaterialBand band = BandAt(plan, primitive[begin], film_x[ray[begin]]);
-    // The back of a one-sided emitter is another material than its front.
-    const bool has_back =
-        plan.one_sided && plan.primitives.scene->materials[band.material.index].emits_in_front_only;
+    // The back of what emits in front only is another material than its front.
+    const bool has_back = plan.emits_in_front_only &&
+                          plan.primitives.scene->materials[band.material.index].emits_in_front_only;
     const bool is_back = has_back && IsFromBehind(plan.primitives, hits, begin);
     end = begin + 1;
     while (!has_back && end < count && primitive[end] == primitive[begin] &&
@@ -146,7 +146,7 @@ void SortHits(const SurfacePlan& plan, const double* film_x, CameraHits* hits, S
   room->run_of_material.resize(2 * plan.materials.size(), kNoRun);
   for (const MaterialRun& run : runs) RunOf(run.material, run.interpolated, room) = kNoRun;
   runs.clear();
-  if (hits->batch.one_primitive && !plan.splits && !plan.one_sided) {
+  if (hits->batch.one_primitive && !plan.splits && !plan.emits_in_front_only) {
     const MaterialId material = ShapeMaterial(plan.primitives, hits->batch.primitive[0]);
     runs.push_back({material, &plan.materials[material.index], 0, hits->batch.count, false});
     return SwapHits(hits, to);
@@ -277,7 +277,7 @@ SurfacePlan PlanSurfaces(const Scene& scene, const RenderSettings& settings,
   plan.materials = plan.prepared->all;
   plan.coated = Has(plan.prepared->any, MaterialTrait::kCoated);
   plan.splits = Has(plan.prepared->any, MaterialTrait::kSplit);
-  plan.one_sided = Has(plan.prepared->any, MaterialTrait::kOneSided);
+  plan.emits_in_front_only = Has(plan.prepared->any, MaterialTrait::kEmitsInFrontOnly);
   why->items.push_back({"coats", plan.coated,
                         plan.coated ? "hits on materials with one are shaded once more, as the coat"
                                     : "no material has any"});

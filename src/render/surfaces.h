@@ -26,7 +26,7 @@ struct SurfacePlan {
   std::span<const ShadingMaterial> materials;  // PreparedMaterials::all
   bool coated = false;                         // some material has a coat
   bool splits = false;                         // some material depends on the film position
-  bool one_sided = false;                      // some material emits in front only
+  bool emits_in_front_only = false;            // some material does
   bool interpolates = false;  // some mesh interpolates radiance, not normals (mesh_radiance.h)
   bool textured = false;      // some shape's material is ShadingMaterial::textured
   TextureScene textures;      // empty unless `textured`
