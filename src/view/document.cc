@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/path.h"
+#include "view/mailbox.h"
 #include "view/page_parts.h"
 
 namespace nacre {
@@ -40,13 +41,6 @@ std::string ExistingPart(const Json& root, const std::string& pointer) {
   } catch (const Json::exception&) {  // no pointer: Set will say so
   }
   return pointer.substr(0, end);
-}
-
-// Whether a value at one of the pointers is part of a value at the other.
-bool AreNested(const std::string& a, const std::string& b) {
-  const std::string& above = a.size() < b.size() ? a : b;
-  const std::string& below = a.size() < b.size() ? b : a;
-  return below.starts_with(above) && (below.size() == above.size() || below[above.size()] == '/');
 }
 
 bool IsImageFile(const std::filesystem::path& path) {
@@ -144,7 +138,7 @@ void ViewDocument::Remember(Change change, uint64_t gesture) {
   std::vector<Change>& changes = past_.back().changes;
   // The last change of this place, if none that came after it was within it or around it.
   const auto nested = std::find_if(changes.rbegin(), changes.rend(), [&](const Change& other) {
-    return AreNested(other.pointer, change.pointer);
+    return PointersOverlap(other.pointer, change.pointer);
   });
   if (nested != changes.rend() && nested->pointer == change.pointer) {
     nested->after = std::move(change.after);

@@ -137,7 +137,8 @@ bool EditsFile::Keep(std::vector<Edit> edits) {
   for (Edit& edit : edits) {
     json["edits"].push_back({{"set", std::move(edit.pointer)}, {"value", std::move(edit.value)}});
   }
-  return WritePrivateFile(path_, JsonText(json) + "\n");
+  const std::string text = JsonText(json) + "\n";
+  return text.size() <= kMaxEditsBytes && WritePrivateFile(path_, text);
 }
 
 }  // namespace nacre

@@ -27,11 +27,6 @@ bool IsBelow(std::string_view pointer, std::string_view above) {
          pointer[above.size()] == '/';
 }
 
-// Whether a value at one of the pointers is part of a value at the other.
-bool Overlap(std::string_view a, std::string_view b) {
-  return a == b || IsBelow(a, b) || IsBelow(b, a);
-}
-
 // A pointer that no value of a scene has is refused at once, whatever it would cost to follow it.
 void ReadPointer(const char* name, JsonObject* message, std::string* pointer) {
   message->Text(name, pointer);
@@ -66,6 +61,10 @@ LookRequest ReadLook(JsonObject* message) {
 }
 
 }  // namespace
+
+bool PointersOverlap(std::string_view a, std::string_view b) {
+  return a == b || IsBelow(a, b) || IsBelow(b, a);
+}
 
 bool Request::ChangesPicture() const {
   return std::holds_alternative<SetRequest>(what) || std::holds_alternative<HistoryRequest>(what) ||
@@ -140,7 +139,7 @@ std::vector<Request>::iterator Mailbox::Outdated(const SetRequest& set, bool cro
     --at;
     const auto* other = std::get_if<SetRequest>(&at->what);
     if (other == nullptr && at->ChangesScene()) break;  // it may depend on it
-    if (other == nullptr || !Overlap(other->pointer, set.pointer)) continue;
+    if (other == nullptr || !PointersOverlap(other->pointer, set.pointer)) continue;
     if (other->pointer != set.pointer) break;
     return other->gesture == set.gesture || crowded ? at : waiting_.end();
   }

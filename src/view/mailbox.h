@@ -67,6 +67,9 @@ struct Request {
 // Of pointers in messages: no scene's names are as long.
 inline constexpr size_t kMaxPointerBytes = 4096;
 
+// Whether a value at one of the pointers is part of a value at the other.
+bool PointersOverlap(std::string_view a, std::string_view b);
+
 // What a message of a page asks for. Throws Error (kBadInput) for one that asks for nothing known.
 Request ReadRequest(ClientId client, std::string_view text);
 

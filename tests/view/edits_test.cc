@@ -72,6 +72,8 @@ TEST_CASE("edits are offered to the next server of the same scene alone") {
     REQUIRE(first != nullptr);
     CHECK(first->offered().empty());
     CHECK(first->Keep({{"/a", 1}, {"/b", "x"}}));
+    // More than is read again is not written.
+    CHECK_FALSE(first->Keep({{"/c", std::string(size_t{64} << 20, 'x')}}));
     // One server of a scene keeps its edits.
     CHECK(open("./a.json") == nullptr);
     CHECK(why_not.find("another nacre view") != std::string::npos);
