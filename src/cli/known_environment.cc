@@ -21,8 +21,17 @@ constexpr std::string_view kKnownVariables[] = {
     "SSH_CONNECTION"};
 constexpr std::string_view kKnownVariableBeginnings[] = {"LC_", "XDG_", "NACRE_"};
 
-bool IsKnown(std::string_view name) {
-  return std::ranges::find(kKnownVariables, name) != std::end(kKnownVariables) ||
+// Of the C library, which reads a file for some values: only what names none but its own.
+bool NamesNoFile(std::string_view name, std::string_view value) {
+  if (name == "LANGUAGE") return value.find('/') == std::string_view::npos;
+  // "Europe/Berlin" is a file of the time zones, as is one that begins so; TZDIR is not kept.
+  return name == "TZ" && !value.starts_with('/') && !value.starts_with(":/") &&
+         value.find("..") == std::string_view::npos;
+}
+
+bool IsKnown(std::string_view name, std::string_view value) {
+  return NamesNoFile(name, value) ||
+         std::ranges::find(kKnownVariables, name) != std::end(kKnownVariables) ||
          std::ranges::any_of(kKnownVariableBeginnings,
                              [&](std::string_view begin) { return name.starts_with(begin); });
 }
@@ -33,8 +42,10 @@ void KeepKnownEnvironment() {
   std::vector<std::string> others;
   for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
     const std::string_view text = *entry;
-    const std::string_view name = text.substr(0, text.find('='));
-    if (!IsKnown(name)) others.emplace_back(name);
+    const size_t end = std::min(text.find('='), text.size());
+    const std::string_view name = text.substr(0, end);
+    const std::string_view value = text.substr(std::min(end + 1, text.size()));
+    if (!IsKnown(name, value)) others.emplace_back(name);
   }
   for (const std::string& name : others) unsetenv(name.c_str());
 }
