@@ -5,65 +5,20 @@
 
 #include "pictures.h"
 #include "scene/validate.h"
+#include "stage.h"
 #include "targets.h"
 #include "textured_scenes.h"
 
 namespace nacre {
 namespace {
 
-// A rectangle in the plane y = `height`, from (x0, z0) to (x1, z1); u grows with x and v with z.
-Mesh Sheet(double height, double x0, double x1, double z0, double z1, MaterialId material) {
-  Mesh mesh;
-  mesh.positions = {{x0, height, z0}, {x1, height, z0}, {x1, height, z1}, {x0, height, z1}};
-  mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  mesh.triangles = {0, 2, 1, 0, 3, 2};
-  mesh.material = material;
-  return mesh;
-}
-
-// A floor, a ball on it, and above them what the caller adds, under lights of many kinds.
-Scene StageScene() {
-  Scene scene;
-  scene.image.width = 60;
-  scene.image.height = 40;
-  scene.image.spp = 16;
-  scene.camera.position = Vec3d(0.31, 5.17, 6.23);
-  scene.camera.look_at = Vec3d(0, 0.5, 0);
-  scene.camera.fov_y_deg = 50;
-  scene.background = Rgb(0.1, 0.2, 0.3);
-  scene.materials.resize(2);
-  scene.materials[0].model = LambertMaterial{Rgb(0.7)};
-  scene.materials[1].model = LambertMaterial{Rgb(0.4, 0.5, 0.6)};
-  scene.meshes = {Sheet(0, -4, 4, -4, 4, {0})};
-  scene.spheres = {{Vec3d(0.5, 0.6, 0.3), 0.5, {0}}};
-  return scene;
-}
-
-// The lights that reach surfaces from above, one kind each.
-std::vector<Light> Lights() {
-  PointLight point;
-  point.position = Vec3d(1, 5, 1.7);
-  point.intensity = Rgb(40);
-  RectangleAreaLight panel;
-  panel.center = Vec3d(-1, 4, 0.4);
-  panel.radiance = Rgb(5);
-  SphereAreaLight bulb;
-  bulb.center = Vec3d(2, 3.5, -1);
-  bulb.radius = 0.4;
-  bulb.radiance = Rgb(8);
-  EnvironmentLight sky;
-  sky.sky = GradientSky{};
-  return {Named("point", point), Named("sun", DirectionalLight{Vec3d(0.3, -1, 0.2), Rgb(2)}),
-          Named("panel", panel), Named("bulb", bulb), Named("sky", sky)};
-}
-
 constexpr int kTexels = 5;
 bool IsSolid(int x, int y) { return (x + y) % 2 == 0; }
 
 // A sheet with square holes, by its map.
 Scene Masked(const Light& light) {
-  Scene scene = StageScene();
-  scene.lights = {light};
+  Scene scene = Stage({light});
+  scene.image.spp = 16;
   const TextureId id =
       AddTexture(&scene, kTexels, kTexels, [](int x, int y) { return Rgb(IsSolid(x, y) ? 1 : 0); });
   Texture& texture = scene.textures[id.index];
@@ -76,8 +31,8 @@ Scene Masked(const Light& light) {
 
 // What is left of it, piece by piece.
 Scene Pieces(const Light& light) {
-  Scene scene = StageScene();
-  scene.lights = {light};
+  Scene scene = Stage({light});
+  scene.image.spp = 16;
   const auto at = [](int i) { return -1.5 + 3.0 * i / kTexels; };
   for (int y = 0; y < kTexels; ++y) {
     for (int x = 0; x < kTexels; ++x) {
@@ -90,7 +45,7 @@ Scene Pieces(const Light& light) {
 
 TEST_CASE("a sheet with holes is its pieces: seen, lit and in the way of every light") {
   ForEachTarget([](Target target) {
-    for (const Light& light : Lights()) {
+    for (const Light& light : LightsAbove()) {
       CAPTURE(light.name);
       RenderSettings settings;
       settings.threads = 1;
@@ -126,8 +81,8 @@ TEST_CASE("a sheet with holes is its pieces: seen, lit and in the way of every l
 }
 
 TEST_CASE("pictures with holes have the same bits by threads, tiles, intersectors and crops") {
-  Scene scene = Masked(Lights()[0]);
-  for (const Light& light : Lights()) {
+  Scene scene = Masked(LightsAbove()[0]);
+  for (const Light& light : LightsAbove()) {
     if (light.name != "point") scene.lights.push_back(light);
   }
   scene.textures[0].sampling.filter = TextureFilter::kTrilinear;
@@ -258,7 +213,7 @@ TEST_CASE("a mesh without normals of its own is seen through its holes from eith
 }
 
 TEST_CASE("spheres and splits have no holes, and say so") {
-  Scene scene = Masked(Lights()[0]);
+  Scene scene = Masked(LightsAbove()[0]);
   CHECK(Validate(scene).empty());
   Scene ball = scene;
   ball.spheres[0].material = {1};

@@ -8,61 +8,25 @@
 #include "render/render.h"
 #include "scene/sphere_mesh.h"
 #include "scene/validate.h"
+#include "stage.h"
 #include "targets.h"
 #include "textured_scenes.h"
 
 namespace nacre {
 namespace {
 
-// A square at this height around the axis, of material 1; its front is above, or below.
+// A square over the stage's middle. Its front is above, or below.
 Mesh Board(double height, bool faces_up) {
-  Mesh mesh;
-  mesh.positions = {{-1, height, -1}, {1, height, -1}, {1, height, 1}, {-1, height, 1}};
-  mesh.triangles = {0, 2, 1, 0, 3, 2};
+  Mesh mesh = Sheet(height, -1, 1, -1, 1, {1});
   if (!faces_up) std::reverse(mesh.triangles.begin(), mesh.triangles.end());
-  mesh.material = {1};
   return mesh;
 }
 
-// A floor and a ball, seen and lit from above.
-Scene Stage(const std::vector<Light>& lights) {
-  Scene scene;
-  scene.image.width = 60;
-  scene.image.height = 40;
-  scene.image.spp = 4;
-  scene.camera.position = Vec3d(0.31, 5.17, 6.23);
-  scene.camera.look_at = Vec3d(0, 0.5, 0);
-  scene.camera.fov_y_deg = 50;
-  scene.background = Rgb(0.1, 0.2, 0.3);
-  scene.materials.resize(2);
-  scene.materials[0].model = LambertMaterial{Rgb(0.7)};
+Scene SingleSidedStage(const std::vector<Light>& lights) {
+  Scene scene = Stage(lights);
   scene.materials[1].model = MetallicRoughnessMaterial{.base_color = Rgb(0.2, 0.5, 0.6)};
   scene.materials[1].single_sided = true;
-  Mesh floor;
-  floor.positions = {{-4, 0, -4}, {4, 0, -4}, {4, 0, 4}, {-4, 0, 4}};
-  floor.triangles = {0, 2, 1, 0, 3, 2};
-  floor.material = {0};
-  scene.meshes = {floor};
-  scene.spheres = {{Vec3d(0.5, 0.6, 0.3), 0.5, {0}}};
-  scene.lights = lights;
   return scene;
-}
-
-std::vector<Light> LightsAbove() {
-  PointLight point;
-  point.position = Vec3d(1, 5, 1.7);
-  point.intensity = Rgb(40);
-  RectangleAreaLight panel;
-  panel.center = Vec3d(-1, 4, 0.4);
-  panel.radiance = Rgb(5);
-  SphereAreaLight bulb;
-  bulb.center = Vec3d(2, 3.5, -1);
-  bulb.radius = 0.4;
-  bulb.radiance = Rgb(8);
-  EnvironmentLight sky;
-  sky.sky = GradientSky{};
-  return {Named("point", point), Named("sun", DirectionalLight{Vec3d(0.3, -1, 0.2), Rgb(2)}),
-          Named("panel", panel), Named("bulb", bulb), Named("sky", sky)};
 }
 
 Image Picture(const Scene& scene, IntersectorChoice intersector, double max_error = 0) {
@@ -79,7 +43,7 @@ TEST_CASE("a board whose back is above is not there; with its front above it is 
     for (const Light& light : LightsAbove()) {
       for (const auto intersector : {IntersectorChoice::kTiles, IntersectorChoice::kEmbree}) {
         CAPTURE(light.name);
-        const Scene empty = Stage({light});
+        const Scene empty = SingleSidedStage({light});
         Scene down = empty, up = empty, both = empty;
         down.meshes.push_back(Board(1.5, false));
         up.meshes.push_back(Board(1.5, true));
@@ -103,7 +67,7 @@ TEST_CASE("a board whose back is above is not there; with its front above it is 
 }
 
 TEST_CASE("closed single-sided meshes have the bits of double-sided ones, under every light") {
-  Scene scene = Stage(LightsAbove());
+  Scene scene = SingleSidedStage(LightsAbove());
   scene.meshes.push_back(MakeMesh(Icosphere{Vec3d(-1, 0.8, 0.6), 0.7, 2}));
   scene.meshes.back().material = {1};
   scene.meshes.push_back(MakeMesh(UvSphere{Vec3d(0, 2, -1), 0.5, 12, 6}));
@@ -165,7 +129,7 @@ TEST_CASE("an inverted hull is an outline, and shades nothing that is within it"
 }
 
 TEST_CASE("single-sided materials are of meshes, and of whole ones") {
-  Scene scene = Stage(LightsAbove());
+  Scene scene = SingleSidedStage(LightsAbove());
   scene.meshes.push_back(Board(1, true));
   CHECK(Validate(scene).empty());
   Scene ball = scene;

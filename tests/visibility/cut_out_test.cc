@@ -36,27 +36,11 @@ void AddChecker(Scene* scene) {
   scene->textures.push_back(texture);
 }
 
-// Spheres, a mesh without holes and two with holes, made of random triangles in [-1, 1]^3.
+// The first and the last mesh with holes.
 Scene RandomScene(unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> in(-1, 1);
-  Scene scene;
+  Scene scene = RandomShapes(seed);
   AddChecker(&scene);
-  scene.materials.resize(2);
   scene.materials[1].opacity_map = {0};
-  for (int i = 0; i < 3; ++i) {
-    scene.spheres.push_back({Vec3d(in(random), in(random), in(random)), 0.2, {0}});
-  }
-  for (const uint32_t material : {1u, 0u, 1u}) {
-    Mesh mesh;
-    mesh.material = {material};
-    for (uint32_t i = 0; i < 60; ++i) {
-      mesh.positions.emplace_back(in(random), in(random), in(random));
-      mesh.uvs.emplace_back(in(random), in(random));
-      mesh.triangles.push_back(i);
-    }
-    scene.meshes.push_back(mesh);
-  }
   return scene;
 }
 

@@ -40,6 +40,28 @@ struct ShadowRay {
   uint32_t primitive;
 };
 
+// Spheres, and three meshes of 20 random triangles in [-1, 1]^3, of materials 1, 0 and 1.
+inline Scene RandomShapes(unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> in(-1, 1);
+  Scene scene;
+  scene.materials.resize(2);
+  for (int i = 0; i < 3; ++i) {
+    scene.spheres.push_back({Vec3d(in(random), in(random), in(random)), 0.2, {0}});
+  }
+  for (const uint32_t material : {1u, 0u, 1u}) {
+    Mesh mesh;
+    mesh.material = {material};
+    for (uint32_t i = 0; i < 60; ++i) {
+      mesh.positions.emplace_back(in(random), in(random), in(random));
+      mesh.uvs.emplace_back(in(random), in(random));
+      mesh.triangles.push_back(i);
+    }
+    scene.meshes.push_back(mesh);
+  }
+  return scene;
+}
+
 template <class Batch>
 void SetRay(const Ray& ray, size_t i, Batch* batch) {
   batch->origin.x[i] = ray.origin.x;

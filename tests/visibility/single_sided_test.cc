@@ -14,25 +14,10 @@
 namespace nacre {
 namespace {
 
-// Meshes of random triangles in [-1, 1]^3, the first and the last single-sided, and spheres.
+// The first and the last mesh single-sided.
 Scene SidedScene(unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> in(-1, 1);
-  Scene scene;
-  scene.materials.resize(2);
+  Scene scene = RandomShapes(seed);
   scene.materials[1].single_sided = true;
-  for (int i = 0; i < 3; ++i) {
-    scene.spheres.push_back({Vec3d(in(random), in(random), in(random)), 0.2, {0}});
-  }
-  for (const uint32_t material : {1u, 0u, 1u}) {
-    Mesh mesh;
-    mesh.material = {material};
-    for (uint32_t i = 0; i < 60; ++i) {
-      mesh.positions.emplace_back(in(random), in(random), in(random));
-      mesh.triangles.push_back(i);
-    }
-    scene.meshes.push_back(mesh);
-  }
   return scene;
 }
 
