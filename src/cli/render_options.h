@@ -57,8 +57,10 @@ struct RenderOptions {
 // Adds all of them to `command`.
 void AddRenderOptions(CLI::App* command, RenderOptions* options);
 
-// The options that say how a PNG looks, for `tonemap` as well.
+// The option that names the SIMD target of kernels.
 CLI::Option* AddTargetOption(CLI::App* command, std::string* target);
+
+// The options that say how a PNG looks, for `tonemap` as well.
 void AddDisplayOptions(CLI::App* command, std::string* tonemap, double* exposure);
 
 // Those of the scene's picture, and of how the machine renders it.

@@ -197,7 +197,8 @@ HWY_NOINLINE void OccludeByTriangle(const TraceGeometry& geometry, uint32_t tria
     auto met = hn::And(active, within);
     if (hn::AllFalse(d, met)) continue;
     if (single_sided) {
-      // A back is one to the light: rays of shadows go the other way.
+      // Shadow rays run towards the light: one that meets a front belongs to light from behind,
+      // which passes.
       met = hn::AndNot(ComesFromFront(d, hit, Direction(d, packet, lane)), met);
       if (hn::AllFalse(d, met)) continue;
     }

@@ -24,7 +24,7 @@ nacre::Window WindowOf(const py::handle& tuple) {
 }
 
 // Whether a window has the width and height of channels.
-bool SpansOf(const nacre::Window& window, const py::array& block) {
+bool HasSizeOf(const nacre::Window& window, const py::array& block) {
   return int64_t{window.x1} - window.x0 == block.shape(2) &&
          int64_t{window.y1} - window.y0 == block.shape(1);
 }
@@ -151,7 +151,7 @@ nacre::Image FromPython(const py::object& image) {
   const auto types = image.attr("_types").cast<std::vector<std::string>>();
   // Whatever has been done to the members of an image: each is held to the others.
   const bool is_whole = block.ndim() == 3 && static_cast<size_t>(block.shape(0)) == names.size() &&
-                        types.size() == names.size() && SpansOf(result.data, block) &&
+                        types.size() == names.size() && HasSizeOf(result.data, block) &&
                         result.frame.x0 <= result.frame.x1 && result.frame.y0 <= result.frame.y1;
   if (!is_whole) {
     throw py::value_error("nacre: the names, types, windows and samples of an image do not fit");

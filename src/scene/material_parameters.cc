@@ -219,7 +219,7 @@ constexpr std::array kMetallicRoughnessParameters = {
                                                        kRoughnessMeaning),
     Number<&MetallicRoughnessMaterial::coat_ior>(
         "coat_ior", limits::kIor,
-        "Index of refraction of the coat, which gives F0 of Schlick's curve; below 1.4 less is "
+        "Index of refraction of the coat, which gives F0 of Schlick's curve; below 1.34 less is "
         "reflected at grazing angles, too. 1: no coat."),
     Color<&MetallicRoughnessMaterial::sheen_color>(
         "sheen_color", limits::kUnit,

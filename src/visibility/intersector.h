@@ -33,7 +33,7 @@ struct IntersectorSettings {
   // Trees are to be good for cameras up to this far from the first one as well: MoveTo. Their boxes
   // grow with it.
   double eye_reach = 0;
-  std::optional<bool> one_by_one{};  // as BoxTrees has it
+  std::optional<bool> one_by_one{};  // as BoxTrees has it; set by benchmarks alone
 };
 
 // What can come between the spheres and a light: bins, or else lists; in small scenes both may be
