@@ -17,7 +17,7 @@ bool IsSolid(int x, int y) { return (x + y) % 2 == 0; }
 
 // A sheet with square holes, by its map.
 Scene Masked(const Light& light) {
-  Scene scene = Stage({light});
+  Scene scene = StageScene({light});
   scene.image.spp = 16;
   const TextureId id =
       AddTexture(&scene, kTexels, kTexels, [](int x, int y) { return Rgb(IsSolid(x, y) ? 1 : 0); });
@@ -31,7 +31,7 @@ Scene Masked(const Light& light) {
 
 // What is left of it, piece by piece.
 Scene Pieces(const Light& light) {
-  Scene scene = Stage({light});
+  Scene scene = StageScene({light});
   scene.image.spp = 16;
   const auto at = [](int i) { return -1.5 + 3.0 * i / kTexels; };
   for (int y = 0; y < kTexels; ++y) {

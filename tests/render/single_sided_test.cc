@@ -23,7 +23,7 @@ Mesh Board(double height, bool faces_up) {
 }
 
 Scene SingleSidedStage(const std::vector<Light>& lights) {
-  Scene scene = Stage(lights);
+  Scene scene = StageScene(lights);
   scene.materials[1].model = MetallicRoughnessMaterial{.base_color = Rgb(0.2, 0.5, 0.6)};
   scene.materials[1].single_sided = true;
   return scene;

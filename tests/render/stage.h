@@ -22,7 +22,7 @@ inline Mesh Sheet(double height, double x0, double x1, double z0, double z1, Mat
 }
 
 // A floor and a ball on it, seen from above. What tests put over them is of material 1.
-inline Scene Stage(const std::vector<Light>& lights) {
+inline Scene StageScene(const std::vector<Light>& lights) {
   Scene scene;
   scene.image.width = 60;
   scene.image.height = 40;
