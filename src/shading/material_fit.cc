@@ -342,12 +342,6 @@ MaterialFit FitMaterial(const Material& original, std::string_view target) {
   }
   fit.guess_residual = MeasureResidual(material, fit.guess);
   fit.residual = MeasureResidual(material, fit.fitted);
-  // What is made small is not quite what is measured: where limits part the two, the start may be
-  // nearer.
-  if (fit.residual.rms > fit.guess_residual.rms) {
-    fit.fitted = fit.guess;
-    fit.residual = fit.guess_residual;
-  }
   const Rgb base = DiffuseAlbedo(material);
   const Rgb fitted_base = DiffuseAlbedo(fit.fitted);
   if (LargestChannel((fitted_base - base) * (fitted_base - base)) > kToldAlbedo * kToldAlbedo) {

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include <catch2/catch.hpp>
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "catch.h"
 #include "scene/hash.h"
 #include "scene_io/live_scene.h"
 #include "scene_io/load_scene.h"

@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include <catch2/catch.hpp>
 #include <unistd.h>
 
 #include "base/error.h"
+#include "catch.h"
 
 namespace nacre {
 namespace {

@@ -7,9 +7,10 @@
 #include <fstream>
 #include <string>
 
-#include <catch2/catch.hpp>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "catch.h"
 
 namespace nacre {
 namespace {

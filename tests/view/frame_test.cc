@@ -6,7 +6,7 @@
 #include <cstring>
 #include <vector>
 
-#include <catch2/catch.hpp>
+#include "catch.h"
 
 namespace nacre {
 namespace {

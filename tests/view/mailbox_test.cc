@@ -2,9 +2,8 @@
 // view/mailbox_test.cc: which requests wait, and what messages say.
 #include "view/mailbox.h"
 
-#include <catch2/catch.hpp>
-
 #include "base/error.h"
+#include "catch.h"
 
 namespace nacre {
 namespace {

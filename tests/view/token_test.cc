@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include <catch2/catch.hpp>
+#include "catch.h"
 
 namespace nacre {
 namespace {
