@@ -49,6 +49,9 @@ PYBIND11_MODULE(_nacre, module) {
   module.def("active_target", &nacre::ActiveTarget);
   module.def("set_target", &nacre::SetTarget);
   module.def("scene_schema", &nacre::SceneSchema);
+  // Older pybind11 refuses other interpreters by itself.
+  module.def("is_main_interpreter",
+             [] { return PyInterpreterState_Get() == PyInterpreterState_Main(); });
   module.def("stop_all", &Running::StopAll);
   module.def("after_fork", [process = getpid()]() mutable {
     if (std::exchange(process, getpid()) == getpid()) return;  // here renders may run

@@ -36,6 +36,8 @@ try:
     from . import _nacre
 except ImportError as _error:
     raise ImportError(_missing.native(_error), name="nacre._nacre") from None
+if not _nacre.is_main_interpreter():
+    raise ImportError("nacre works in Python's main interpreter alone", name="nacre")
 try:
     import numpy as _numpy
 except ModuleNotFoundError as _error:
