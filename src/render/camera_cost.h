@@ -12,10 +12,10 @@ namespace nacre {
 
 // What camera rays have to do in a frame.
 struct CameraWork {
-  double spheres = 0;
-  double in_cells = 0;  // likewise, each counted in every cell of the picture that it may cover
-  double depth = 0;     // how many of them a ray passes on average, where there are any
-  double rays = 0;      // there
+  double spheres = 0;   // of the scene
+  double in_cells = 0;  // spheres of each cell of the picture, summed over the cells
+  double depth = 0;     // spheres that a ray meets on average, in the box around all of them
+  double rays = 0;      // in that box
   bool to_bin = true;   // the bins for this view are not made yet
 };
 

@@ -265,8 +265,8 @@ std::optional<ReadMembers> ReadScene(const SceneTree& tree, SceneParts parts,
       !TakeOverBrought(*reading.before, *reading.members, &read, scene)) {
     return std::nullopt;
   }
-  // Last: generators may vary what a material leaves idle.
-  if (parts.Has(ScenePart::kMaterials) || parts.Has(ScenePart::kShapes)) {
+  // Last: generators may vary what a material leaves idle. Shapes are never read without materials.
+  if (parts.Has(ScenePart::kMaterials)) {
     for (uint32_t i = 0; i < scene->materials.size(); ++i) {
       std::optional<Material> whole = RemoveIdleLayers(*scene, &scene->materials[i]);
       if (whole) read.whole.emplace(i, *std::move(whole));
