@@ -57,6 +57,7 @@ struct CellState {
     Rgb radiance;  // what it adds to the pixel, that is, its radiance times the share
   };
   std::vector<RarePart> rare_parts;
+  bool has_other_texels[kCellPixels];  // which matter, too, and are not among rare_parts
   // How many samples a pixel needs to find the rare features that matter to it, given what it looks
   // like so far (evidence.h); 0 if none does.
   double required_samples[kCellPixels];

@@ -106,8 +106,10 @@ bool IsInner(uint32_t pixel) {
   return at.x > 0 && at.y > 0 && at.x + 1 < kCellSize && at.y + 1 < kCellSize;
 }
 
-// Whether the pixel has a rare feature that is known beforehand and matters.
-bool HasKnownFeature(const CellState& c, uint32_t pixel) { return c.required_samples[pixel] > 0; }
+// Whether what is rare in the pixel and matters is known beforehand.
+bool IsExplained(const CellState& c, uint32_t pixel) {
+  return c.required_samples[pixel] > 0 && !c.has_other_texels[pixel];
+}
 
 // The error of the pixel's mean if no sample has hit this part. Only as far as it is darker or
 // brighter than everything around it; otherwise it is part of an edge.
@@ -151,13 +153,13 @@ void FindKnownFeatures(CellState* c) {
   }
 }
 
-// Pools all pixels except those of the kind `left_out` and those with a known rare feature: a
-// feature that is known is known for every pixel that has it.
+// Pools all pixels except those of the kind `left_out` and those whose rare features are known:
+// what is known is known for every pixel that has it.
 Pool MakePool(const CellState& c, const std::vector<PixelEvidence>& all, HitKind left_out) {
   Pool pool;
   size_t inner = 0, witnesses = 0;
   for (const PixelEvidence& e : all) {
-    if (e.kind == left_out || !IsInner(e.pixel) || HasKnownFeature(c, e.pixel)) continue;
+    if (e.kind == left_out || !IsInner(e.pixel) || IsExplained(c, e.pixel)) continue;
     ++inner;
     if (!e.isolated || e.single <= ToleranceOf(c, e.pixel)) continue;
     pool.contrast += e.single;

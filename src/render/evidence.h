@@ -20,7 +20,7 @@
 //   full value, however much brighter than white: highlights of a hundredth of a pixel may dominate
 //   the pixel.
 // - Features that are known beforehand (rare_features.h) and smaller than a sample's share of the
-//   pixel.
+//   pixel. Where nothing else in the pixel is rare, it is no witness of what other pixels may have.
 //
 // Cells lie on a grid of the frame and are evaluated whole, so that none of this depends on the
 // region that is rendered.

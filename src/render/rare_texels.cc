@@ -322,6 +322,7 @@ class TexelFinder {
         found_->push_back({x, y, cluster, of_normals});
       } else {
         known->cluster.share = std::min(known->cluster.share, cluster.share);
+        known->cluster.others |= cluster.others;
       }
     }
     for (size_t i = first; i < found_->size(); ++i) {
@@ -400,6 +401,7 @@ std::vector<FoundTexels> SearchPixels(const FramePlan& plan, const Window& windo
 
 void FindRareTexels(const FramePlan& plan, const Window& cell, TileWork* work, CellState* c,
                     StageClock* clock, RenderStats* stats) {
+  std::fill_n(c->has_other_texels, kCellPixels, false);
   if (plan.adaptive.texel_maps == nullptr) return;
   const Window window = PixelsAround(cell, plan.frame, plan.adaptive.filter_radius);
   const std::vector<FoundTexels> found = SearchPixels(plan, window, work, stats);
@@ -424,6 +426,7 @@ void FindRareTexels(const FramePlan& plan, const Window& cell, TileWork* work, C
     ForEachShare(plan.scene->image.filter, cell, pixel, [&](int column, int row, double share) {
       const double of_texels = share * found[i].cluster.share;
       if (of_texels == 0) return;
+      c->has_other_texels[PixelAt(column, row)] |= found[i].cluster.others;
       if (found[i].of_normals) {
         if (of_texels < 0) return;  // of filters with negative lobes
         glints[row][column].squares += of_texels * radiance.length2();

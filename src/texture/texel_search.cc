@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace nacre {
 namespace {
@@ -156,6 +157,7 @@ Found FindExtremeTexel(const TexelGrid& image, const TexelFootprint& f,
 struct Extreme {
   size_t place;
   double share;  // of the pixel, of what looks like it; 0: it does not matter
+  bool others;   // of less contrast would matter without those
 };
 
 // Of what lies on one side of the mean (1: above it, -1: below): the places of greatest contrast
@@ -167,7 +169,7 @@ Extreme FindExtreme(const std::vector<double>& values, double mean, double side,
     if (side * (values[i] - values[extreme]) > 0) extreme = i;
   }
   const double span = side * (values[extreme] - mean);
-  if (!(span > 0)) return {0, 0};
+  if (!(span > 0)) return {0, 0, false};
   double counts[kOctaves] = {}, sums[kOctaves] = {};
   for (const double value : values) {
     const double contrast = side * (value - mean) / span;
@@ -176,13 +178,15 @@ Extreme FindExtreme(const std::vector<double>& values, double mean, double side,
     counts[octave] += 1;
     sums[octave] += contrast;
   }
+  const double all = std::accumulate(sums, sums + kOctaves, 0.0);
+  const double least = least_change * std::abs(mean) * texels / span;
   double count = 0, sum = 0;
   for (int octave = 0; octave < kOctaves; ++octave) {
     count += counts[octave];
     sum += sums[octave];
-    if (sum * span > least_change * std::abs(mean) * texels) return {extreme, count / texels};
+    if (sum > least) return {extreme, count / texels, all - sum > least};
   }
-  return {0, 0};
+  return {0, 0, false};
 }
 
 // Footprints of more texels are not searched for normals.
@@ -303,7 +307,7 @@ void FindTexelClusters(const TexelGrid& grid, const TexelExtremes* extremes,
                                               : FindExtremeTexel(grid, f, *levels, level, place,
                                                                  measure, greatest, mean, room);
         if (texel.measure == values[extreme.place]) {
-          clusters->push_back({texel.place.offset, extreme.share});
+          clusters->push_back({texel.place.offset, extreme.share, extreme.others});
           break;
         }
         values[extreme.place] = texel.measure;  // the square's own is outside of the pixel
@@ -337,7 +341,7 @@ void FindNormalClusters(const TexelGrid& grid, const std::function<Vec3d(const V
     }
     const Extreme extreme = FindExtreme(values, sum / count, 1, count, least_change);
     if (!(extreme.share > 0 && extreme.share < 0.5)) continue;
-    clusters->push_back({places[extreme.place].offset, extreme.share});
+    clusters->push_back({places[extreme.place].offset, extreme.share, extreme.others});
   }
 }
 

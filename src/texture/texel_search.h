@@ -66,6 +66,7 @@ struct TexelMeasure {
 struct TexelCluster {
   Vec2d offset;  // from the pixel's centre to the extreme one of them, in pixels
   double share;  // of the pixel; a lower bound where there are too many texels to look at each
+  bool others;   // that stand out less matter, too
 };
 
 // Buffers of FindTexelClusters.

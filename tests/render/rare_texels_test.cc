@@ -290,6 +290,44 @@ TEST_CASE("few rough texels among smooth ones are found, and matte ones in metal
   });
 }
 
+// Every texel leans at random, as flakes in paint do: the brightest of a pixel does not explain it.
+TEST_CASE("of pixels of flakes no more settle beyond the error than is allowed") {
+  for (const double degrees : {8.0, 20.0}) {
+    std::mt19937 random(21);
+    std::normal_distribution<double> lean(0, std::tan(degrees * M_PI / 180));
+    std::vector<float> texels;
+    for (int i = 0; i < kTexels * kTexels; ++i) {
+      const double x = lean(random), y = lean(random);
+      const Rgb texel = NormalTexel(Vec3d(x, y, 1).normalized());
+      for (int c = 0; c < 3; ++c) texels.push_back(static_cast<float>(texel[c]));
+    }
+    const auto chain = std::make_shared<const MipChain>(MakeMipChain(kTexels, kTexels, 3, texels));
+    const auto make = [&](const MappedSquare& square, int side) {
+      TextureId map;
+      Scene scene = square.Make(&map);
+      scene.image.width = scene.image.height = side;
+      scene.images[0].texels = chain;
+      scene.materials[0].model = MetallicRoughnessMaterial{.metallic = 1, .roughness = 0.1};
+      scene.materials[0].normal_map = {map, 1, NormalMap::Convention::kLiteral};
+      scene.lights = {Named("sun", DirectionalLight{-Leaning(40), Rgb(3)})};
+      return scene;
+    };
+    // A pixel a texel: the map's radiance.
+    Scene fine = make({kTexels / double{kSide}, [](int, int) { return 0.0; }}, kTexels);
+    fine.image.spp = 1;
+    const Image radiance = RenderImage(fine, {}, nullptr);
+    const MappedSquare square{
+        11.3, [&](int x, int y) -> double {
+          const int row = kTexels - 1 - y;
+          return radiance.channels[0].samples[static_cast<size_t>(row * kTexels + x)];
+        }};
+    const Shares shares = SharesOf(make(square, kSide), GreyPicture(square.Means()), 0.1);
+    CAPTURE(degrees, shares.untold, shares.told);
+    CHECK(shares.told < 0.6);
+    CHECK(shares.untold < 0.05 * (1 - shares.told));
+  }
+}
+
 // The same sun as a part of a sky, and a lamp of some size.
 TEST_CASE("few texels of a normal map that mirror an area light or a sky's sun are found") {
   auto sky = std::make_shared<SkyPicture>();
