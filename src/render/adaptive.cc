@@ -7,6 +7,7 @@
 
 #include "render/cell_film.h"
 #include "render/convergence.h"
+#include "render/dust.h"
 #include "render/evidence.h"
 #include "render/footprint.h"
 #include "render/rare_features.h"
@@ -159,10 +160,11 @@ void AddListSamples(const FramePlan& plan, const Window& cell, std::span<const S
   for (const Layer& layer : plan.film.layers) {
     if (!IsAveraged(layer.kind)) continue;
     const bool beauty = layer.kind == LayerKind::kBeauty;
+    const Rgb background = BackgroundOf(layer, plan.film);
     Soa3<double>& values =
-        GatherLayer(plan.film, layer, light_layer, BackgroundOf(layer, plan.film), BatchOf(plan, s),
-                    &s.layer_room);
+        GatherLayer(plan.film, layer, light_layer, background, BatchOf(plan, s), &s.layer_room);
     for (int channel = 0; channel < FloatChannels(layer.kind); ++channel, ++sum) {
+      WeighDust(background[channel], list, count, *c, ChannelOf(values, channel).data());
       const double* value = ChannelOf(values, channel).data();
       double* sums[kReplicates];
       FindSums(layer.kind, channel, s.film.sums[sum].data(), c, sums);
@@ -214,6 +216,7 @@ void AddLevel(const FramePlan& plan, const Window& cell, size_t level, TileWork*
       } else {
         MakeListSamples(samplers.data(), cell, list, first, count, s, c);
       }
+      MoveToDust(plan, cell, list, static_cast<size_t>(count), &s->samples.film, c);
       if (plan.sampling.numbered) {
         NumberListSamples(samplers.data(), cell, list, first, count, &EnsureNumbers(&s->samples));
       }
@@ -377,6 +380,7 @@ void RenderCell(const FramePlan& plan, const Window& cell, const Window& part, T
   const uint32_t sampled = blocks & ~smooth;
   ClearReplicates(sampled, &c);
   ListPixels(sampled, &c.active);
+  FindDust(plan, cell, s.shapes, &c);
   FindOutlinePixels(plan, cell, &c);
   ClearEvidence(&c);
   FindRareFeatures(plan, cell, &s, &c, clock, stats);

@@ -62,6 +62,8 @@ struct AdaptivePlan {
   // Half the side, in pixels, of the square that a box filter averages, if the coverage of pixels
   // on outlines can be computed exactly (outline_coverage.h); else 0.
   double box_half_side = 0;
+  // The same if samples may be spread over dust alone (dust.h); else 0.
+  double dust_half_side = 0;
   double filter_radius = 0.5;  // in pixels from a pixel's centre
   // The error of taking a pixel's centre for its mean, as a multiple of the second differences.
   double center_error = 0;

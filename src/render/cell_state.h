@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "render/interval.h"
@@ -67,14 +68,34 @@ struct CellState {
     double x, y;
   };
   std::vector<CoveredPoint> covered_points;  // one for each pixel whose coverage is known
+  // The part of the pixel that its samples are spread over: 1, or the area of the patches that hold
+  // its dust, as shares of the pixel (dust.h).
+  double sampled_share[kCellPixels];
+  // A parallelogram on the film, in pixels, or the half of it at its corner.
+  struct DustPatch {
+    Vec2d corner, sides[2];
+    bool triangle;
+    double area;
+  };
+  bool has_dust;                   // whether pixels have patches
+  std::vector<DustPatch> patches;  // by pixel; valid if has_dust
+  uint32_t first_patch[kCellPixels + 1];
   // Buffers.
   std::vector<double> hits = std::vector<double>(kBatchCapacity);  // 1 for rays that hit, else 0
+  std::vector<double> sample_share = std::vector<double>(kBatchCapacity);  // of samples of dust
   std::vector<SampledPixel> pixels;
   std::vector<SampleEntry> sample_list = std::vector<SampleEntry>(kBatchCapacity);  // of a batch
   PixelBatch block{kBlockPixels};
   FilmBatch corners;  // of footprints
   CameraHits corner_hits;
 };
+
+// The patches that the samples of a pixel are spread over; none for most pixels.
+inline std::span<const CellState::DustPatch> PatchesOf(const CellState& c, uint32_t pixel) {
+  if (!c.has_dust) return {};
+  const uint32_t first = c.first_patch[pixel];
+  return {c.patches.data() + first, c.first_patch[pixel + 1] - first};
+}
 
 // The window of a cell's block.
 inline Window BlockWindow(const Window& cell, size_t block) {

@@ -173,6 +173,7 @@ void FindOutlinePixels(const FramePlan& plan, const Window& cell, CellState* c) 
   if (!c->projections) return;
   const double filter_radius = plan.adaptive.filter_radius;
   for (const uint32_t i : c->active) {
+    if (c->sampled_share[i] < 1) continue;
     const FilmPixel pixel = PixelOf(cell, i);
     const double x = pixel.x + 0.5, y = pixel.y + 0.5;
     const VisibleOutlines seen =

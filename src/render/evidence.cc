@@ -27,6 +27,7 @@ struct PixelEvidence {
 
 // Whether a rare feature may be hidden in the pixel.
 bool MayHideFeatures(const CellState& c, uint32_t pixel) {
+  if (c.sampled_share[pixel] < 1) return c.sampled_share[pixel] > 0;
   return (c.only_outlines >> pixel / kBlockPixels & 1) == 0;
 }
 
@@ -135,7 +136,8 @@ void RequireSamplesOfParts(std::span<const CellState::RarePart> of_pixel, CellSt
   const auto count = static_cast<double>(of_pixel.size());
   for (const auto& rare : of_pixel) {
     if (!(2 * count * MissingContrast(*c, rare) > tolerance)) continue;
-    c->required_samples[pixel] = std::max(c->required_samples[pixel], kExpectedHits / rare.share);
+    c->required_samples[pixel] =
+        std::max(c->required_samples[pixel], kExpectedHits * c->sampled_share[pixel] / rare.share);
   }
 }
 

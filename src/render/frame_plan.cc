@@ -82,12 +82,15 @@ AdaptivePlan PlanAdaptiveSampling(const FramePlan& plan, const RenderSettings& s
   const PixelFilter& filter = scene.image.filter;
   const bool is_box = filter.kind == FilterKind::kBox && filter.width <= 1;
   if (is_box && adaptive.footprints) adaptive.box_half_side = filter.width / 2;
+  if (filter.kind == FilterKind::kBox && plan.hits.binned && !plan.direct.sky) {
+    adaptive.dust_half_side = filter.width / 2;
+  }
   why->substitutions.push_back(
       {"adaptive sampling", true,
        fmt::format(
            "each block of 4x4 pixels samples until its pixels' 95 % intervals are within {} "
            "of max(|L|, 0.05){}, and there are enough samples to find what is rare there; "
-           "{}{}",
+           "{}{}{}",
            settings.max_error,
            std::isinf(adaptive.white)
                ? ""
@@ -96,7 +99,10 @@ AdaptivePlan PlanAdaptiveSampling(const FramePlan& plan, const RenderSettings& s
                                : "no block is known to be smooth",
            adaptive.box_half_side > 0 ? "; pixels that one outline crosses weight their hits by "
                                         "their coverage"
-                                      : "")});
+                                      : "",
+           adaptive.dust_half_side > 0 ? "; where small shapes alone are before the background, "
+                                         "samples lie on them"
+                                       : "")});
   return adaptive;
 }
 

@@ -156,7 +156,8 @@ void FindRareFeatures(const FramePlan& plan, const Window& cell, TileWork* work,
       const double share = shares.samples[at.y - cell.y0][at.x - cell.x0];
       const double radiance = shares.radiance[at.y - cell.y0][at.x - cell.x0];
       if (share == 0 || radiance * 2 <= least_tolerance) continue;
-      c->rare_samples[pixel] = std::max(c->rare_samples[pixel], kExpectedHits / share);
+      c->rare_samples[pixel] =
+          std::max(c->rare_samples[pixel], kExpectedHits * c->sampled_share[pixel] / share);
       c->rare_radiance[pixel] += radiance;
     }
   }

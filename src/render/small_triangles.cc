@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -16,8 +17,6 @@ namespace {
 // Triangles farther from the film's corner than this, in pixels, are ignored: cells are numbered by
 // int.
 constexpr double kMaxFilmPosition = 1e9;
-
-using FilmTriangle = std::array<Vec2d, 3>;
 
 // A bounding rectangle on the film, in pixels.
 struct FilmBounds {
@@ -61,15 +60,23 @@ struct NarrowTriangle {
 };
 
 // None if the triangle is not narrow, if a corner is beside or behind the camera, or if the
-// projection has no area, so that no ray hits it.
+// projection has no area, so that no ray hits it. `hidden`: whether no ray hits one that is not
+// narrow.
 std::optional<NarrowTriangle> ProjectNarrow(const PrimitiveNumbers& numbers,
-                                            const Projector& projector, uint32_t primitive) {
+                                            const Projector& projector, uint32_t primitive,
+                                            bool* hidden) {
   const TriangleRef triangle = TriangleOf(numbers, primitive);
   NarrowTriangle narrow{};
+  Vec3d places[3];
+  double depths[3];
   for (size_t c = 0; c < 3; ++c) {
-    const Vec3d place =
-        triangle.mesh->positions[triangle.Vertex(c)] - numbers.scene->camera.position;
-    if (!(place.dot(projector.forward) > 0)) return std::nullopt;
+    places[c] = triangle.mesh->positions[triangle.Vertex(c)] - numbers.scene->camera.position;
+    depths[c] = places[c].dot(projector.forward);
+  }
+  *hidden = std::max({depths[0], depths[1], depths[2]}) < 0;
+  for (size_t c = 0; c < 3; ++c) {
+    const Vec3d& place = places[c];
+    if (!(depths[c] > 0)) return std::nullopt;
     const FilmPoint at = ProjectPoint(projector, place);
     Vec2d& corner = narrow.corners[c];
     corner = {at.x, at.y};
@@ -78,6 +85,7 @@ std::optional<NarrowTriangle> ProjectNarrow(const PrimitiveNumbers& numbers,
     }
   }
   const double area2 = std::abs(SignedArea2(narrow.corners));
+  *hidden = area2 == 0;
   if (!(area2 > 0)) return std::nullopt;
   narrow.longest = LongestEdge(narrow.corners);
   const FilmTriangle& t = narrow.corners;
@@ -167,9 +175,12 @@ SmallTriangles BinSmallTriangles(const PrimitiveNumbers& numbers, const Projecto
   const int columns = Columns(triangles.cells);
   const size_t cells =
       static_cast<size_t>(columns) * static_cast<size_t>(triangles.cells.height() / kCellSize);
+  std::atomic<bool> others = false;
   const auto for_cells = [&](size_t i, const auto& emit) {
+    bool hidden = false;
     const auto narrow =
-        ProjectNarrow(numbers, projector, static_cast<uint32_t>(scene.spheres.size() + i));
+        ProjectNarrow(numbers, projector, static_cast<uint32_t>(scene.spheres.size() + i), &hidden);
+    if (!narrow && !hidden) others.store(true, std::memory_order_relaxed);
     if (!narrow) return;
     ForEachCellNear(triangles, *narrow, [&](int column, int row) {
       emit(static_cast<size_t>(row) * static_cast<size_t>(columns) + static_cast<size_t>(column));
@@ -182,24 +193,35 @@ SmallTriangles BinSmallTriangles(const PrimitiveNumbers& numbers, const Projecto
         triangles.primitives[position] = static_cast<uint32_t>(scene.spheres.size() + i);
       });
   if (triangles.primitives.empty()) triangles.end.clear();
+  triangles.all = !others;
   return triangles;
 }
 
-void ForEachPiece(const SmallTriangles& triangles, const PrimitiveNumbers& numbers,
-                  const Projector& projector, const Window& cell,
-                  const std::function<void(const TrianglePiece&)>& work) {
+void ForEachTriangle(const SmallTriangles& triangles, const PrimitiveNumbers& numbers,
+                     const Projector& projector, const Window& cell,
+                     const std::function<void(uint32_t, const FilmTriangle&)>& work) {
   if (triangles.end.empty()) return;
   const auto number = [](int pixel) { return static_cast<size_t>(pixel / kCellSize); };
   const size_t list =
       number(cell.y0 - triangles.cells.y0) * static_cast<size_t>(Columns(triangles.cells)) +
       number(cell.x0 - triangles.cells.x0);
-  const FilmBounds around = BoundsAround(cell, triangles.margin);
   for (size_t i = list == 0 ? 0 : triangles.end[list - 1]; i < triangles.end[list]; ++i) {
     const uint32_t primitive = triangles.primitives[i];
-    const auto narrow = ProjectNarrow(numbers, projector, primitive);
-    if (!narrow) continue;
-    CutToPieces({primitive, ShapeMaterial(numbers, primitive)}, narrow->corners, around, work);
+    bool hidden = false;
+    const auto narrow = ProjectNarrow(numbers, projector, primitive, &hidden);
+    if (narrow) work(primitive, narrow->corners);
   }
+}
+
+void ForEachPiece(const SmallTriangles& triangles, const PrimitiveNumbers& numbers,
+                  const Projector& projector, const Window& cell,
+                  const std::function<void(const TrianglePiece&)>& work) {
+  const FilmBounds around = BoundsAround(cell, triangles.margin);
+  ForEachTriangle(triangles, numbers, projector, cell,
+                  [&](uint32_t primitive, const FilmTriangle& corners) {
+                    const PieceSource source{primitive, ShapeMaterial(numbers, primitive)};
+                    CutToPieces(source, corners, around, work);
+                  });
 }
 
 }  // namespace nacre

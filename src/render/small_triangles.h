@@ -3,12 +3,14 @@
 // hit them. They are binned to the cells of adaptive sampling before the first sample.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
 #include "base/huge_pages.h"
 #include "base/image.h"
+#include "base/vec.h"
 #include "render/filter_shares.h"
 #include "scene/primitives.h"
 #include "visibility/sphere_bins.h"
@@ -26,11 +28,19 @@ struct SmallTriangles {
   double margin = 0;               // in pixels
   std::vector<uint32_t> end;       // of each cell's list, row by row; empty if all lists are
   HugeArray<uint32_t> primitives;  // ascending in each list
+  bool all = false;                // no other triangle can be seen
 };
 
 // `window`: the pixels to render. Cells begin at multiples of kCellSize in the frame.
 SmallTriangles BinSmallTriangles(const PrimitiveNumbers& numbers, const Projector& projector,
                                  const Window& window, double margin, int threads);
+
+// Calls work(primitive, corners) for the triangles of a cell, in ascending order, with their
+// corners on the film, in pixels.
+using FilmTriangle = std::array<Vec2d, 3>;
+void ForEachTriangle(const SmallTriangles& triangles, const PrimitiveNumbers& numbers,
+                     const Projector& projector, const Window& cell,
+                     const std::function<void(uint32_t, const FilmTriangle&)>& work);
 
 // A part of the projection of such a triangle. Film positions and sizes are in pixels. The part
 // covers the share `fill` of a box of at most kMaxRareWidth by kMaxRareWidth.

@@ -65,7 +65,7 @@ RENDER_ORDER = """
     shadow_origins mapped_horizon sampled_shadows sampled_lights mesh_radiance direct mesh_shading
     film hit_positions film_layers
     frame_plan tile_work tile
-    cell_state cell_film footprint evidence convergence glints probes rare_triangles rare_texels rare_features adaptive
+    cell_state cell_film dust footprint evidence convergence glints probes rare_triangles rare_texels rare_features adaptive
     render forecast
 """.split()
 
