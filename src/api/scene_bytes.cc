@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "api/scene_impl.h"
+#include "base/path.h"
 
 namespace nacre::v0 {
 namespace {
@@ -28,7 +29,7 @@ std::vector<Item> ItemsOf(const Json& json) {
 
 // A relative path leads elsewhere in a process that works in another folder.
 std::string Absolute(const std::filesystem::path& path) {
-  return path.empty() ? std::string() : std::filesystem::absolute(path).string();
+  return path.empty() ? std::string() : AbsolutePath(path).string();
 }
 
 Json Pack(const Scene::Impl::Source& source) {

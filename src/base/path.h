@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/path.h: file name extensions.
+// base/path.h: file name extensions, and paths from the root.
 #pragma once
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 namespace nacre {
 
@@ -16,6 +17,20 @@ inline bool HasExtension(const std::string& path, std::string_view extension) {
   std::transform(own.begin(), own.end(), own.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return own == extension;
+}
+
+// The path from the root. A process may outlive the folder that it works in: then the path itself,
+// which leads nowhere.
+inline std::filesystem::path AbsolutePath(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::path absolute = std::filesystem::absolute(path, error);
+  return error ? path : absolute;
+}
+
+// The folder that the process works in; empty if it is gone.
+inline std::filesystem::path WorkingFolder() {
+  std::error_code ignored;
+  return std::filesystem::current_path(ignored);
 }
 
 }  // namespace nacre

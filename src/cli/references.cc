@@ -101,9 +101,10 @@ Reference ReadReference(const fs::path& path, const ReferenceOptions& options) {
 std::vector<fs::path> FindReferences(const std::string& folder) {
   std::error_code error;
   std::vector<fs::path> paths;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().filename().string().ends_with(".reference.json"))
-      paths.push_back(entry.path());
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    if (entry->path().filename().string().ends_with(".reference.json"))
+      paths.push_back(entry->path());
   }
   if (error || paths.empty()) {
     throw Error(ExitCode::kCannotCompare, folder,

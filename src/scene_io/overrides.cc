@@ -17,6 +17,7 @@
 
 #include "base/error.h"
 #include "base/excerpt.h"
+#include "base/path.h"
 #include "scene_io/schema.h"
 
 namespace nacre {
@@ -235,7 +236,7 @@ Replaced ReplaceInFile(const std::string& pointer, const std::string& text, Json
 void ApplyOptions(const LoadOptions& options, Json* root) {
   if (!options.environment.empty() && root->is_object()) {
     // Its faults are the command line's. What is wrong with its contents is found by its reader.
-    const std::filesystem::path image = std::filesystem::absolute(options.environment);
+    const std::filesystem::path image = AbsolutePath(options.environment);
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(image, ignored)) {
       const std::string name = Excerpt(options.environment.string());
@@ -268,8 +269,7 @@ ReferenceRules RulesOf(const LoadOptions& options) {
   const auto trust = [&](const std::filesystem::path& file) {
     if (file.empty()) return;
     std::error_code error;
-    std::filesystem::path path =
-        std::filesystem::weakly_canonical(std::filesystem::absolute(file), error);
+    std::filesystem::path path = std::filesystem::weakly_canonical(AbsolutePath(file), error);
     if (!error) rules.trusted.push_back(std::move(path));  // else it leads nowhere
   };
   trust(options.environment);

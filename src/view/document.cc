@@ -64,7 +64,7 @@ ViewDocument::ViewDocument(const std::filesystem::path& path, const LoadOptions&
 
 ViewDocument::ViewDocument(const LoadOptions& options)
     : name_("material ball"),
-      folder_(std::filesystem::current_path()),
+      folder_(WorkingFolder()),
       live_(ViewFirstScene(), name_, folder_, options),
       original_(live_.root()) {
   ListShapes();

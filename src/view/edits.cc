@@ -15,6 +15,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/path.h"
 #include "view/private_file.h"
 
 namespace nacre {
@@ -80,8 +81,7 @@ std::unique_ptr<EditsFile> EditsFile::Open(const std::string& scene, std::string
   std::unique_ptr<EditsFile> file(new EditsFile);
   std::error_code error;
   if (!scene.empty()) {
-    file->scene_ =
-        std::filesystem::weakly_canonical(std::filesystem::absolute(scene), error).string();
+    file->scene_ = std::filesystem::weakly_canonical(AbsolutePath(scene), error).string();
   }
   file->path_ = fmt::format("{}/view-{:016x}.json", folder, HashOfPath(file->scene_));
   // For as long as the process lives: the system lets go of it, however that ends.

@@ -667,6 +667,18 @@ class CliTest(unittest.TestCase):
         self.check_fails(65, 'bad.exr', 'tonemap', self.out / 'bad.exr', '-o', self.out / 'b.png')
         self.check_fails(65, 'bad.exr', 'info', self.out / 'bad.exr')
 
+    def test_a_working_folder_that_is_gone_is_no_internal_error(self):
+        gone = self.out / 'gone'
+        scene, out = pathlib.Path(FIRST_SCENE).resolve(), ['-o', self.out / 'a.png', *SMALL]
+        for arguments, message in ((['render', scene, *out], None),
+                                   (['render', scene, *out, '--environment', 'sky.hdr'],
+                                    'error: --environment: there is no file "sky.hdr"\n'),
+                                   (['render', 'scene.json', *out], 'error: scene.json')):
+            gone.mkdir()
+            result = run(*arguments, cwd=gone, preexec_fn=gone.rmdir)
+            self.assertEqual(result.returncode, 65 if message else 0, result.stderr)
+            self.assertIn(message or 'a.png', result.stderr)
+
     def test_output_that_cannot_be_written_is_refused_before_rendering(self):
         (self.out / 'folder.exr').mkdir()
         os.mkfifo(self.out / 'pipe.exr')
