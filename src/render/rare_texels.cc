@@ -75,7 +75,7 @@ Vec2d MapPoint(const FramePlan& plan, uint32_t primitive, const Texture& texture
   }
   const TriangleRef triangle = TriangleOf(plan.surfaces.primitives, primitive);
   const Mesh& mesh = *triangle.mesh;
-  const auto& uvs = texture.second_uvs && !mesh.second_uvs.empty() ? mesh.second_uvs : mesh.uvs;
+  const std::vector<Vec2d>& uvs = UvsOf(mesh, texture.second_uvs);
   const Vec2d b = BarycentricsAt(plan, triangle, point);
   const Vec2d uv = uvs[triangle.Vertex(0)];
   return TransformOf(texture).Apply(uv + (uvs[triangle.Vertex(1)] - uv) * b.x +

@@ -11,6 +11,12 @@
 
 namespace nacre {
 
+// The coordinates that a texture is laid on the mesh by: the second ones if it asks for them and
+// the mesh has some.
+inline const std::vector<Vec2d>& UvsOf(const Mesh& mesh, bool second) {
+  return second && !mesh.second_uvs.empty() ? mesh.second_uvs : mesh.uvs;
+}
+
 // The unit normal of a triangle by the right-hand rule, or 0 if its area is exactly 0. Scale-free:
 // no triangle is too small (an absolute threshold would lose small meshes).
 Vec3d FaceNormal(const Mesh& mesh, size_t triangle);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/mesh.h"
 #include "shading/texture_kernels.h"
 
 namespace nacre {
@@ -86,8 +87,7 @@ void FindMeshCoordinates(const TexturedRun& run, const PreparedTexture& texture,
   for (size_t i = run.begin; i < run.end; ++i) {
     if (hits.primitive[i] < sphere_count) continue;
     const Corners corners = CornersOf(run.scene, hits.primitive[i]);
-    const bool second = texture.second_uvs && !corners.mesh->second_uvs.empty();
-    const auto& uvs = second ? corners.mesh->second_uvs : corners.mesh->uvs;
+    const std::vector<Vec2d>& uvs = UvsOf(*corners.mesh, texture.second_uvs);
     const Vec2d uv = uvs[corners.index[0]];
     const Vec2d d1 = uvs[corners.index[1]] - uv, d2 = uvs[corners.index[2]] - uv;
     const auto [g1, g2] = GradientsOf(corners);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "scene/mesh.h"
 #include "scene/texture_mapping.h"
 #include "shading/hit_parameters.h"
 #include "shading/texture_kernels.h"
@@ -37,7 +38,8 @@ void PrepareTangents(int threads, KeptTables* kept, TextureScene* prepared) {
     const PreparedTexture& texture = prepared->textures[map.index];
     prepared->mesh_tangents.resize(scene.meshes.size());
     std::vector<MapTangents>& of_mesh = prepared->mesh_tangents[number];
-    const bool second = texture.second_uvs && !mesh.second_uvs.empty();
+    const std::vector<Vec2d>& uvs = UvsOf(mesh, texture.second_uvs);
+    const bool second = &uvs == &mesh.second_uvs;
     const UvRows rows = RowsOfSameTangents({texture.u_row, texture.v_row});
     const auto known = std::find_if(made.begin(), made.end(), [&](const Made& other) {
       return other.second_uvs == second && other.rows == rows;
@@ -58,9 +60,8 @@ void PrepareTangents(int threads, KeptTables* kept, TextureScene* prepared) {
       return;
     }
     prepared->tangents.push_back(std::make_shared<const CornerTangents>(
-        !mesh.tangents.empty() && HasSmoothNormals(mesh)
-            ? RotateTangents(mesh, rows)
-            : MakeTangents(mesh, second ? mesh.second_uvs : mesh.uvs, rows, threads)));
+        !mesh.tangents.empty() && HasSmoothNormals(mesh) ? RotateTangents(mesh, rows)
+                                                         : MakeTangents(mesh, uvs, rows, threads)));
     kept->tangents.push_back({number, second, rows, prepared->tangents.back()});
   };
   const auto prepare = [&](MaterialId id, size_t number) {

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "scene/material_parameters.h"
+#include "scene/mesh.h"
 
 namespace nacre {
 namespace {
@@ -41,10 +42,7 @@ std::optional<CutOut> MakeCutOut(const Scene& scene, const Mesh& mesh) {
   made.opacities = mesh.opacities;
   if (made.image == nullptr) return made;
   made.transform = TransformOf(made.texture);
-  if (made.texture.mapping == MappingKind::kUv) {
-    const bool second = made.texture.second_uvs && !mesh.second_uvs.empty();
-    made.uvs = second ? mesh.second_uvs : mesh.uvs;
-  }
+  if (made.texture.mapping == MappingKind::kUv) made.uvs = UvsOf(mesh, made.texture.second_uvs);
   return made;
 }
 
