@@ -68,9 +68,9 @@ void BenchAccess(benchmark::State& state, const Material& material, const Access
     FillHits(static_cast<unsigned>(i), &batches[i].hits);
     PrepareSurface(batches[i].hits, &batches[i].surface);
   }
-  BatchShader shader(
-      std::vector<ShadingMaterial>(kHits / access.run, PrepareMaterial(material, {0, 0, 0})),
-      access.run, {.position = {3, 4, 2}, .intensity = {60, 60, 60}, .attenuation = {}});
+  BatchShader shader(std::vector<ShadingMaterial>(kHits / access.run, PrepareMaterial(material)),
+                     access.run,
+                     {.position = {3, 4, 2}, .intensity = {60, 60, 60}, .attenuation = {}});
   ReflectedRadiance radiance;
   size_t next = 0;
   for (auto _ : state) {

@@ -86,7 +86,7 @@ void BenchStable(benchmark::State& state, const Lobe& lobe, bool double_terms) {
   PreparedHits batch;
   FillHits(lobe.width, &batch.hits);
   PrepareSurface(batch.hits, &batch.surface);
-  ShadingMaterial material = PrepareMaterial(lobe.material, Rgb(0));
+  ShadingMaterial material = PrepareMaterial(lobe.material);
   SetDoubleTerms(double_terms, &material);
   BatchShader shader({material}, kHits,
                      {.position = kLight, .intensity = Rgb(1), .attenuation = {}});

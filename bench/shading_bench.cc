@@ -116,7 +116,7 @@ void BenchShade(benchmark::State& state, Target target, const Places& places, co
 void BenchKernel(benchmark::State& state, const Material& material, Target target,
                  const Places& places) {
   ShadeScratch scratch;
-  const ShadingMaterial prepared = PrepareMaterial(material, {0, 0, 0});
+  const ShadingMaterial prepared = PrepareMaterial(material);
   BenchShade(state, target, places,
              [&](const LitHits& lit, Surface* surface, ReflectedRadiance* radiance) {
                PrepareRun(prepared, 0, kHits, surface);

@@ -102,7 +102,7 @@ void BenchMapped(benchmark::State& state, const Material& material, Target targe
   const Scene scene = MakeScene(material);
   KeptTables tables;
   const TextureScene textures = PrepareTextures(scene, MakeFrame(), 1, 0, &tables);
-  const ShadingMaterial prepared = PrepareMaterial(scene.materials[0], {0, 0, 0});
+  const ShadingMaterial prepared = PrepareMaterial(scene.materials[0]);
   HitBatch hits = MakeHits();
   Surface surface;
   PrepareSurface(hits, &surface);

@@ -32,7 +32,7 @@ ShadingMaterial Prepare(const Scene& scene, const std::string& name) {
       names.push_back(material.name);
       continue;
     }
-    ShadingMaterial prepared = PrepareMaterial(material, nacre::Rgb(0));
+    ShadingMaterial prepared = PrepareMaterial(material);
     if (std::holds_alternative<std::monostate>(prepared.model)) {
       throw nacre::Error(ExitCode::kUsage, "Brdf", "\"" + name + "\" is a split",
                          "name one of the materials that it chooses from");
@@ -189,7 +189,7 @@ Brdf::Brdf(const UserBrdf& brdf) {
   impl_ = AtBorder([&] {
     nacre::Material material;
     material.user = ToOwn(brdf, "Brdf");
-    return std::make_shared<const Impl>(Impl{PrepareMaterial(material, nacre::Rgb(0))});
+    return std::make_shared<const Impl>(Impl{PrepareMaterial(material)});
   });
 }
 

@@ -103,7 +103,9 @@ void PrintScene(const std::string& path, const LoadOptions& options) {
   PrintOut("  meshes      {} with {} triangles\n", scene.meshes.size(), triangles);
   PrintOut("  materials   {}\n", CountAndNames(scene.materials));
   PrintOut("  lights      {}\n", CountAndNames(scene.lights));
-  PrintOut("  shadowing   {}\n", ShadowingForms(scene));
+  MaterialTraits traits = 0;
+  for (const Material& material : scene.materials) traits |= ShadowingTrait(material);
+  PrintOut("  shadowing   {}\n", ShadowingForms(traits));
   PrintOut("  hash        {:016x}\n", HashScene(scene));
 }
 

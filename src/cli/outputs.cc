@@ -109,7 +109,7 @@ Outputs::Outputs(const RenderOptions& options, const FramePlan& plan, PreparedSc
   png_header.width = plan.window.width();
   png_header.height = plan.window.height();
   png_header.text = {{"Software", SoftwareName()},
-                     {"nacre:shadowing", ShadowingForms(*plan.scene)},
+                     {"nacre:shadowing", ShadowingForms(plan.surfaces.prepared->any)},
                      {"nacre:tonemap", options.tonemap}};
   for (const std::string& path : FilesAmong(options.outputs)) {
     if (IsExr(path)) {

@@ -78,7 +78,7 @@ std::vector<std::string> ItemNames(const std::vector<Item>& items) {
 
 // Curves are of one set of numbers: those that maps multiply.
 NamedMaterial Prepare(const std::string& label, const Material& material) {
-  NamedMaterial named{label, PrepareMaterial(material, Rgb(0))};
+  NamedMaterial named{label, PrepareMaterial(material)};
   DropMaps(&named.material);
   if (std::holds_alternative<std::monostate>(named.material.model)) {
     throw Error(ExitCode::kBadInput, label, "a split has no reflection model of its own",

@@ -57,7 +57,7 @@ std::string StatsJson(const FramePlan& plan, const RenderStats& stats, const Job
         {"triangles", triangles},
         {"lights", scene.lights.size()},
         {"materials", scene.materials.size()},
-        {"shadowing", ShadowingForms(scene)}}},
+        {"shadowing", ShadowingForms(plan.surfaces.prepared->any)}}},
       {"time_ms",
        {{"load", ms(times.load_seconds)},
         {"plan", ms(stats.plan_seconds)},

@@ -47,7 +47,7 @@ MicrofacetModel NacreModel(double roughness, double metallic) {
   material.metallic = metallic;
   Material any;
   any.model = material;
-  return std::get<MicrofacetModel>(PrepareMaterial(any, Rgb(0, 0, 0)).model);
+  return std::get<MicrofacetModel>(PrepareMaterial(any).model);
 }
 
 // All that it reflects: the lobe by quadrature of its terms, as compensated as it is rendered, and

@@ -49,17 +49,14 @@ void AddMetadata(const ExrHeader& header, Image* image) {
 
 std::string SoftwareName() { return fmt::format("nacre {}", kVersion); }
 
-std::string ShadowingForms(const Scene& scene) {
+std::string ShadowingForms(MaterialTraits traits) {
   std::set<std::string_view> forms;
-  std::set<Shadowing> known;
-  for (const Material& material : scene.materials) {
-    const auto is_new = [&](const auto& model) {
-      if constexpr (requires { model.shadowing; }) return known.insert(model.shadowing).second;
-      return false;
-    };
-    if (!std::visit(is_new, material.model)) continue;
-    for (const MaterialChoice& choice : ModelOf(material)->choices) {
-      if (choice.name == "shadowing") forms.insert(choice.options[choice.get(material)]);
+  const Material any = FindModel("metallic_roughness")->make();
+  for (const MaterialChoice& choice : ModelOf(any)->choices) {
+    if (choice.name != "shadowing") continue;
+    for (size_t i = 0; i < choice.options.size(); ++i) {
+      const auto first = static_cast<MaterialTraits>(MaterialTrait::kFirstShadowing);
+      if ((traits & first << i) != 0) forms.insert(choice.options[i]);
     }
   }
   return forms.empty() ? "none" : fmt::format("{}", fmt::join(forms, ", "));
@@ -81,12 +78,11 @@ uint64_t HashPlanned(const FramePlan& plan, PreparedScene* prepared) {
       plan.with_lights ? prepared->shapes_made : 0,
       versions.Of(plan.with_lights ? SceneParts(ScenePart::kLights) : SceneParts()),
       {}};
-  auto& hashes = prepared->hashes.materials;
   const auto changed = versions.MaterialsSince(prepared->materials_hashed);
   if (!changed || !prepared->material_hashes.IsUpToDate(of_lights)) {
-    hashes.clear();
+    prepared->hashes.ForgetMaterials();
   } else {
-    for (const uint32_t i : *changed) hashes[i].reset();
+    for (const uint32_t i : *changed) prepared->hashes.ForgetMaterial(i);
   }
   prepared->material_hashes.Set(of_lights, {});
   prepared->materials_hashed = versions.materials();
@@ -111,7 +107,7 @@ ExrHeader MakeExrHeader(const FramePlan& plan, bool reproducible, const std::str
   attributes["nacre:commit"] = std::string(kCommit);
   attributes["nacre:target"] = TargetName(ActiveTarget());
   attributes["nacre:sceneHash"] = fmt::format("{:016x}", HashPlanned(plan, prepared));
-  attributes["nacre:shadowing"] = ShadowingForms(scene);
+  attributes["nacre:shadowing"] = ShadowingForms(plan.surfaces.prepared->any);
   attributes["nacre:settings"] =
       fmt::format("size={}x{} spp={} filter={} filter_width={} seed={} shadows={}", image.width,
                   image.height, image.spp, FilterName(image.filter), image.filter.width, image.seed,

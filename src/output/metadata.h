@@ -25,8 +25,8 @@ std::string SoftwareName();
 // The header's attributes as text, as readers of its file return them.
 void AddMetadata(const ExrHeader& header, Image* image);
 
-// The masking-shadowing forms of the scene's materials by name, "height_correlated" or
-// "height_correlated, separable"; "none" if no material has one.
-std::string ShadowingForms(const Scene& scene);
+// The masking-shadowing forms among the traits of materials by name, "height_correlated" or
+// "height_correlated, separable"; "none" if there is none.
+std::string ShadowingForms(MaterialTraits traits);
 
 }  // namespace nacre

@@ -48,7 +48,9 @@ bool IsMapped(LayerKind kind) {
 LayerValues ValuesShown(const Layer& layer, size_t light_layer, const ShadingMaterial& constants,
                         const ShadedBatch& s) {
   if (constants.mapped && IsMapped(layer.kind)) return MappedValuesShown(layer, s);
-  const Rgb ambient = RoundToFloat(constants.ambient);
+  const Rgb ambient = constants.in_ambient
+                          ? RoundToFloat(constants.of_ambient * s.plan.textures.ambient)
+                          : Rgb(0, 0, 0);
   const Rgb emission = RoundToFloat(constants.emission);
   switch (layer.kind) {
     case LayerKind::kBeauty: {

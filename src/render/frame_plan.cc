@@ -111,21 +111,21 @@ PartVersions VersionsOfLights(const FramePlan& plan, const PreparedScene& prepar
   return prepared.versions.Of(plan.with_lights ? SceneParts(ScenePart::kLights) : SceneParts());
 }
 
-std::shared_ptr<const PreparedMaterials> MaterialsOf(const FramePlan& plan, const Rgb& ambient,
+std::shared_ptr<const PreparedMaterials> MaterialsOf(const FramePlan& plan, bool in_ambient,
                                                      int threads, PreparedScene* prepared) {
   const Scene& scene = *plan.scene;
   const MaterialsKey key{plan.with_lights ? prepared->shapes_made : 0,
-                         VersionsOfLights(plan, *prepared), ambient, scene.materials.data(),
+                         VersionsOfLights(plan, *prepared), in_ambient, scene.materials.data(),
                          scene.materials.size()};
   auto& kept = prepared->materials;
   const auto changed = prepared->versions.MaterialsSince(prepared->materials_prepared);
   if (!changed) kept.Forget();
   if (kept.IsUpToDate(key)) {
-    if (!changed->empty()) PrepareMaterials(scene, ambient, *changed, kept.value.get());
+    if (!changed->empty()) PrepareMaterials(scene, in_ambient, *changed, kept.value.get());
   } else {
     kept.Get(key, [&] {
       const auto made = kept.value ? kept.value : std::make_shared<PreparedMaterials>();
-      PrepareMaterials(scene, ambient, threads, made.get());
+      PrepareMaterials(scene, in_ambient, threads, made.get());
       return made;
     });
   }
@@ -140,7 +140,7 @@ const std::vector<bool>& UsedMaterials(const FramePlan& plan, const PreparedMate
       prepared->shapes_made,
       prepared->versions.Of(splits ? SceneParts(ScenePart::kMaterials) : SceneParts()),
       {static_cast<double>(plan.scene->materials.size())}};
-  return prepared->used_materials.Get(key, [&] { return FindUsedMaterials(*plan.scene); });
+  return prepared->used_materials.Get(key, [&] { return FindUsedMaterials(*plan.scene, splits); });
 }
 
 }  // namespace
@@ -168,7 +168,7 @@ FramePlan MakePlan(const Scene& given, const RenderSettings& settings, PreparedS
   PlanLayers(scene, settings, &plan.film, why);
   const Rgb ambient = SumAmbient(scene);
   const std::shared_ptr<const PreparedMaterials> materials =
-      MaterialsOf(plan, ambient, settings.threads, prepared);
+      MaterialsOf(plan, !IsBlack(ambient), settings.threads, prepared);
   const std::vector<bool>& used = UsedMaterials(plan, *materials, prepared);
   plan.direct = PlanLights(scene, settings, plan.film.layers, plan.with_lights.get(),
                            Has(materials->any, MaterialTrait::kCoated), prepared, why);

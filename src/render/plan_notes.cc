@@ -139,7 +139,7 @@ void NotePhongGain(const NotedMaterials& of, std::vector<std::string>* notes) {
                                     std::pair{MaterialTrait::kBlinnPhongGain, "blinn_phong"}}) {
     double most = 1;
     const std::string names = NameMaterials(of, trait, [&](size_t i) {
-      most = std::max(most, PhongGain(of.scene.materials[i]));
+      most = std::max(most, of.prepared.phong_gains[i]);
       return true;
     });
     if (names.empty()) continue;
@@ -154,11 +154,11 @@ void NotePhongGain(const NotedMaterials& of, std::vector<std::string>* notes) {
 
 }  // namespace
 
-std::vector<bool> FindUsedMaterials(const Scene& scene) {
+std::vector<bool> FindUsedMaterials(const Scene& scene, bool splits) {
   std::vector<bool> used(scene.materials.size());
   for (const Sphere& sphere : scene.spheres) used[sphere.material.index] = true;
   for (const Mesh& mesh : scene.meshes) used[mesh.material.index] = true;
-  for (size_t i = 0; i < scene.materials.size(); ++i) {
+  for (size_t i = 0; splits && i < scene.materials.size(); ++i) {
     const auto* split = std::get_if<SplitMaterial>(&scene.materials[i].model);
     if (split == nullptr || !used[i]) continue;
     for (const MaterialId id : split->materials) used[id.index] = true;

@@ -12,7 +12,7 @@
 namespace nacre {
 
 // By material of the scene: whether any shape has it, directly or as a part of a split.
-std::vector<bool> FindUsedMaterials(const Scene& scene);
+std::vector<bool> FindUsedMaterials(const Scene& scene, bool splits);
 
 struct NotedMaterials {
   const Scene& scene;

@@ -17,10 +17,11 @@ namespace {
 
 constexpr double kPrintedGain = 1.005;  // less would be printed as 1.00
 
-uint16_t TraitsOf(const Material& material, const ShadingMaterial& prepared) {
-  uint16_t traits = 0;
+MaterialTraits TraitsOf(const Material& material, const ShadingMaterial& prepared,
+                        double phong_gain) {
+  MaterialTraits traits = ShadowingTrait(material);
   const auto add = [&](bool has, MaterialTrait trait) {
-    if (has) traits = static_cast<uint16_t>(traits | static_cast<uint16_t>(trait));
+    if (has) traits |= static_cast<MaterialTraits>(trait);
   };
   const ShadingMaterial* const coat = prepared.coat.get();
   add(std::holds_alternative<SplitMaterial>(material.model), MaterialTrait::kSplit);
@@ -35,7 +36,7 @@ uint16_t TraitsOf(const Material& material, const ShadingMaterial& prepared) {
   add(coat != nullptr && HasDeltaLobe(*coat), MaterialTrait::kCoatMirror);
   add(std::holds_alternative<UserModel>(prepared.model), MaterialTrait::kUserModel);
   add(BurleyGain(prepared) > 1, MaterialTrait::kBurleyGain);
-  if (PhongGain(material) >= kPrintedGain) {
+  if (phong_gain >= kPrintedGain) {
     const PhongModel model = std::get<PhongMaterial>(material.model).model;
     add(model == PhongModel::kPhong, MaterialTrait::kPhongGain);
     add(model == PhongModel::kModifiedPhong, MaterialTrait::kModifiedPhongGain);
@@ -44,9 +45,10 @@ uint16_t TraitsOf(const Material& material, const ShadingMaterial& prepared) {
   return traits;
 }
 
-void Prepare(const Scene& scene, const Rgb& ambient, size_t i, PreparedMaterials* to) {
-  to->all[i] = PrepareMaterial(scene.materials[i], ambient);
-  to->traits[i] = TraitsOf(scene.materials[i], to->all[i]);
+void Prepare(const Scene& scene, bool in_ambient, size_t i, PreparedMaterials* to) {
+  to->all[i] = PrepareMaterial(scene.materials[i], in_ambient);
+  to->phong_gains[i] = PhongGain(scene.materials[i]);
+  to->traits[i] = TraitsOf(scene.materials[i], to->all[i], to->phong_gains[i]);
 }
 
 void PlaceCoat(size_t i, PreparedMaterials* to) {
@@ -64,14 +66,12 @@ void PlaceCoat(size_t i, PreparedMaterials* to) {
 
 void CollectTraits(PreparedMaterials* materials) {
   materials->any = 0;
-  for (const uint16_t traits : materials->traits) {
-    materials->any = static_cast<uint16_t>(materials->any | traits);
-  }
+  for (const MaterialTraits traits : materials->traits) materials->any |= traits;
 }
 
 }  // namespace
 
-void PrepareMaterials(const Scene& scene, const Rgb& ambient, int threads,
+void PrepareMaterials(const Scene& scene, bool in_ambient, int threads,
                       PreparedMaterials* materials) {
   const size_t count = scene.materials.size();
   materials->all.resize(count + 1);
@@ -81,23 +81,37 @@ void PrepareMaterials(const Scene& scene, const Rgb& ambient, int threads,
   materials->coats.assign(count, {});
   materials->coat_slots.assign(count, {});
   materials->traits.resize(count);
+  materials->phong_gains.resize(count);
   constexpr size_t kPiece = 256;
   ParallelFor((count + kPiece - 1) / kPiece, threads, [&](size_t piece) {
     const DefaultFloatMode mode;  // colours may be denormal
     const size_t end = std::min(count, (piece + 1) * kPiece);
-    for (size_t i = piece * kPiece; i < end; ++i) Prepare(scene, ambient, i, materials);
+    for (size_t i = piece * kPiece; i < end; ++i) Prepare(scene, in_ambient, i, materials);
   });
   for (size_t i = 0; i < count; ++i) PlaceCoat(i, materials);
   CollectTraits(materials);
 }
 
-void PrepareMaterials(const Scene& scene, const Rgb& ambient, std::span<const uint32_t> changed,
+void PrepareMaterials(const Scene& scene, bool in_ambient, std::span<const uint32_t> changed,
                       PreparedMaterials* materials) {
   for (const uint32_t i : changed) {
-    Prepare(scene, ambient, i, materials);
+    Prepare(scene, in_ambient, i, materials);
     PlaceCoat(i, materials);
   }
   CollectTraits(materials);
+}
+
+MaterialTraits ShadowingTrait(const Material& material) {
+  return std::visit(
+      [](const auto& model) {
+        if constexpr (requires { model.shadowing; }) {
+          return static_cast<MaterialTraits>(MaterialTrait::kFirstShadowing)
+                 << static_cast<int>(model.shadowing);
+        } else {
+          return MaterialTraits{0};
+        }
+      },
+      material.model);
 }
 
 double BurleyGain(const ShadingMaterial& material) {

@@ -13,7 +13,7 @@
 namespace nacre {
 
 // What a plan asks of all materials at once.
-enum class MaterialTrait : uint16_t {
+enum class MaterialTrait : uint32_t {
   kSplit = 1 << 0,
   kEmitsInFrontOnly = 1 << 1,
   kEmits = 1 << 2,
@@ -28,27 +28,36 @@ enum class MaterialTrait : uint16_t {
   kPhongGain = 1 << 10,
   kModifiedPhongGain = 1 << 11,
   kBlinnPhongGain = 1 << 12,
+  // The form of Shadowing of the lobe, in its order.
+  kFirstShadowing = 1 << 13,
 };
 
-inline bool Has(uint16_t traits, MaterialTrait trait) {
-  return (traits & static_cast<uint16_t>(trait)) != 0;
+// A set of them, as bits.
+using MaterialTraits = uint32_t;
+
+inline bool Has(MaterialTraits traits, MaterialTrait trait) {
+  return (traits & static_cast<MaterialTraits>(trait)) != 0;
 }
+
+// The trait of the form of shadowing that the material's lobe has; none without a lobe.
+MaterialTraits ShadowingTrait(const Material& material);
 
 struct PreparedMaterials {
   std::vector<ShadingMaterial> all;    // one per material of the scene, `black`, and coats
   MaterialId black;                    // of the back of what emits in front only
   std::vector<MaterialId> coats;       // by material of the scene; invalid if it has none
   std::vector<MaterialId> coat_slots;  // likewise, of a coat that it has or had
-  std::vector<uint16_t> traits;        // by material of the scene
-  uint16_t any = 0;                    // what any of them has
+  std::vector<MaterialTraits> traits;  // by material of the scene
+  MaterialTraits any = 0;              // what any of them has
+  std::vector<double> phong_gains;     // PhongGain, by material of the scene
 };
 
-// `ambient`: the sum of the scene's ambient lights. The scene must outlive what is made. What
-// `materials` was is lost, its memory used again.
-void PrepareMaterials(const Scene& scene, const Rgb& ambient, int threads,
+// `in_ambient`: the scene has ambient light. The scene must outlive what is made. What `materials`
+// was is lost, its memory used again.
+void PrepareMaterials(const Scene& scene, bool in_ambient, int threads,
                       PreparedMaterials* materials);
 // The same where only these have changed since.
-void PrepareMaterials(const Scene& scene, const Rgb& ambient, std::span<const uint32_t> changed,
+void PrepareMaterials(const Scene& scene, bool in_ambient, std::span<const uint32_t> changed,
                       PreparedMaterials* materials);
 
 // The share of grazing light that Burley's diffuse term reflects, in the brightest channel; 0 for

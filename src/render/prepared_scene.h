@@ -73,7 +73,7 @@ struct ViewKey {
 struct MaterialsKey {
   uint64_t made = 0;    // PreparedScene::shapes_made, if lights are among the shapes
   PartVersions lights;  // likewise
-  Rgb ambient{0, 0, 0};
+  bool in_ambient = false;
   const Material* first = nullptr;  // what is derived points to them
   size_t count = 0;
   friend bool operator==(const MaterialsKey&, const MaterialsKey&) = default;

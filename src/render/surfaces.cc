@@ -225,9 +225,10 @@ void LookUpMaps(const SurfacePlan& plan, Surfaces* s) {
 void PlanTextures(const Scene& scene, const RenderSettings& settings, const CameraFrame& camera,
                   const std::vector<bool>& used, KeptTables* tables, SurfacePlan* plan,
                   Explanation* why) {
-  const std::vector<uint16_t>& traits = plan->prepared->traits;
+  const std::vector<MaterialTraits>& traits = plan->prepared->traits;
   size_t count = 0;
-  for (size_t i = 0; i < traits.size(); ++i) {
+  const bool any = Has(plan->prepared->any, MaterialTrait::kTextured);
+  for (size_t i = 0; any && i < traits.size(); ++i) {
     if (used[i] && Has(traits[i], MaterialTrait::kTextured)) ++count;
   }
   plan->textured = count > 0;
@@ -283,6 +284,7 @@ SurfacePlan PlanSurfaces(const Scene& scene, const RenderSettings& settings,
                                     : "no material has any"});
   plan.interpolates = std::any_of(scene.meshes.begin(), scene.meshes.end(), InterpolatesRadiance);
   PlanTextures(scene, settings, camera, used, tables, &plan, why);
+  plan.textures.ambient = ambient;
   return plan;
 }
 
@@ -326,7 +328,7 @@ void CoverAmbient(const Soa3<float>& left, size_t i, size_t j, const Rgb& radian
 
 // Attenuates emission and reflected ambient light of hits below coats, which the radiance of lights
 // does not include, and adds the ambient light that the coats reflect.
-void CoverByCoats(Surfaces* s) {
+void CoverByCoats(const SurfacePlan& plan, Surfaces* s) {
   if (!AnyCoat(*s)) return;
   const CoatedHits& coats = *s->coats;
   for (const MaterialRun& run : LitRuns(*s)) {
@@ -334,7 +336,7 @@ void CoverByCoats(Surfaces* s) {
     for (size_t i = 0; i < coats.surfaces.hits.count; ++i) {
       const size_t below = coats.below[i];
       if (below < run.begin || below >= run.end) continue;
-      CoverAmbient(coats.surfaces.surface.base, i, below, run.shading->ambient_radiance,
+      CoverAmbient(coats.surfaces.surface.base, i, below, plan.textures.ambient,
                    &s->textures->ambient);
       AttenuateBy(coats.surfaces.surface.base, i, below, &s->textures->emission);
     }
@@ -363,7 +365,7 @@ void PrepareSurfaces(const SurfacePlan& plan, Surfaces* surfaces) {
   coats.lit_runs = coats.runs.size();
   coats.lit = coats.hits.count;
   PrepareRuns(plan, &coats);
-  CoverByCoats(&s);
+  CoverByCoats(plan, &s);
 }
 
 }  // namespace nacre

@@ -29,7 +29,7 @@ struct SurfacePlan {
   bool emits_in_front_only = false;            // some material does
   bool interpolates = false;  // some mesh interpolates radiance, not normals (mesh_radiance.h)
   bool textured = false;      // some shape's material is ShadingMaterial::textured
-  TextureScene textures;      // empty unless `textured`
+  TextureScene textures;      // but for `ambient`, empty unless `textured`
 };
 
 // Whether the mesh interpolates radiance, not normals (mesh_radiance.h).

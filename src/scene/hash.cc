@@ -368,7 +368,40 @@ void AddShapes(std::span<const Sphere> spheres, std::span<const Mesh> meshes, Ha
   }
 }
 
+// Group by group, so that where one material has changed the hashes of few are joined.
+constexpr size_t kMaterialGroup = 256;
+
+void AddMaterials(const std::vector<Material>& materials, KeptHashes* kept, Hasher* hash) {
+  const size_t count = materials.size();
+  if (kept->materials.size() != count) kept->material_groups.clear();
+  kept->materials.resize(count);
+  kept->material_groups.resize((count + kMaterialGroup - 1) / kMaterialGroup);
+  for (size_t group = 0; group < kept->material_groups.size(); ++group) {
+    std::optional<uint64_t>& joined = kept->material_groups[group];
+    if (!joined) {
+      Hasher of_group;
+      const size_t end = std::min(count, (group + 1) * kMaterialGroup);
+      for (size_t i = group * kMaterialGroup; i < end; ++i) {
+        if (!kept->materials[i]) kept->materials[i] = HashMaterial(materials[i]);
+        of_group.Word(*kept->materials[i]);
+      }
+      joined = of_group.state();
+    }
+    hash->Word(*joined);
+  }
+}
+
 }  // namespace
+
+void KeptHashes::ForgetMaterials() {
+  materials.clear();
+  material_groups.clear();
+}
+
+void KeptHashes::ForgetMaterial(size_t material) {
+  materials[material].reset();
+  material_groups[material / kMaterialGroup].reset();
+}
 
 uint64_t HashScene(const Scene& scene, KeptHashes* kept) {
   Hasher hash;
@@ -379,13 +412,8 @@ uint64_t HashScene(const Scene& scene, KeptHashes* kept) {
   for (const SceneImage& image : scene.images) Add(image, &shared, &hash);
   for (const Texture& texture : scene.textures) Add(texture, &hash);
   hash.Word(scene.materials.size());  // sizes, so that no value can pass for one of the next array
-  if (kept != nullptr) kept->materials.resize(scene.materials.size());
-  for (size_t i = 0; i < scene.materials.size(); ++i) {
-    std::optional<uint64_t> own;
-    std::optional<uint64_t>& known = kept != nullptr ? kept->materials[i] : own;
-    if (!known) known = HashMaterial(scene.materials[i]);
-    hash.Word(*known);
-  }
+  KeptHashes own;
+  AddMaterials(scene.materials, kept != nullptr ? kept : &own, &hash);
   hash.Word(scene.lights.size());
   for (const Light& light : scene.lights) {
     hash.Word(light.kind.index());

@@ -19,9 +19,13 @@ struct KeptHashes {
     std::shared_ptr<const void> source;  // held, so that no other has its address
     uint64_t hash;
   };
-  std::vector<Entry> shared;                       // those of the scene that was hashed last
-  std::optional<uint64_t> shapes;                  // HashShapes()
-  std::vector<std::optional<uint64_t>> materials;  // those that are there are right
+  std::vector<Entry> shared;       // those of the scene that was hashed last
+  std::optional<uint64_t> shapes;  // HashShapes()
+  // Those that are there are right: of materials, and of groups of them.
+  std::vector<std::optional<uint64_t>> materials, material_groups;
+
+  void ForgetMaterials();
+  void ForgetMaterial(size_t material);
 };
 
 // Equal for scenes that render the same picture because they hold the same values; written into

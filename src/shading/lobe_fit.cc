@@ -29,7 +29,7 @@ struct LobeTable {
 };
 
 LobeTable Tabulate(const Material& original) {
-  const ShadingMaterial prepared = PrepareMaterial(original, Rgb(0));
+  const ShadingMaterial prepared = PrepareMaterial(original);
   LobeTable table;
   table.alpha = LobeAlpha(original);
   for (const auto& [view_deg, weight] : HighlightViews()) {
@@ -47,7 +47,7 @@ LobeTable Tabulate(const Material& original) {
 FittedLobe SolvePhong(const LobeTable& table, PhongModel model, double shininess) {
   Material unit;
   unit.model = PhongMaterial{.model = model, .kd = Rgb(0), .ks = Rgb(1), .shininess = shininess};
-  const ShadingMaterial prepared = PrepareMaterial(unit, Rgb(0));
+  const ShadingMaterial prepared = PrepareMaterial(unit);
   Rgb cross(0);
   Rgb squares(0);
   double own = 0;

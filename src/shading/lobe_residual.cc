@@ -173,8 +173,8 @@ double LobeAlpha(const Material& material) {
 }
 
 MaterialResidual MeasureResidual(const Material& original, const Material& other) {
-  const ShadingMaterial a = PrepareMaterial(original, Rgb(0));
-  const ShadingMaterial b = PrepareMaterial(other, Rgb(0));
+  const ShadingMaterial a = PrepareMaterial(original);
+  const ShadingMaterial b = PrepareMaterial(other);
   const double alpha = 1.5 * LobeAlpha(original);  // wider, for the flanks
   MaterialResidual residual;
   for (const double view_deg : kResidualViewsDeg) {
@@ -202,7 +202,7 @@ MaterialResidual MeasureResidual(const Material& original, const Material& other
 }
 
 Rgb DiffuseAlbedo(const Material& material) {
-  const ShadingMaterial prepared = PrepareMaterial(material, Rgb(0));
+  const ShadingMaterial prepared = PrepareMaterial(material);
   const QuadratureRule& rule = GaussLegendre(12);
   Rgb sum(0);
   for (size_t i = 0; i < rule.x.size(); ++i) {

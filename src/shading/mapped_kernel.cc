@@ -72,7 +72,7 @@ void PutShown(const TexturedRun& run, const ShownOf& shown_of, HitTextures* t) {
   for (int c = 0; c < 3; ++c) {
     float *const albedo = ChannelOf(t->albedo, c).data(), *const ambient =
                                                               ChannelOf(t->ambient, c).data();
-    const double radiance = run.material.ambient_radiance[c];
+    const double radiance = run.material.in_ambient ? run.scene.ambient[c] : 0;
     hits.Each([&](size_t i) {
       const ShownColors at = shown_of(c, i);
       albedo[i] = static_cast<float>(at.albedo);
@@ -101,7 +101,9 @@ void PutShown(const TexturedRun& run, HitTextures* t) {
   } else if (std::holds_alternative<ConductorMaterial>(material.model)) {  // not of colours
     for (int c = 0; c < 3; ++c) {
       hits.Fill(ChannelOf(t->albedo, c).data(), [&](size_t) { return run.material.albedo[c]; });
-      hits.Fill(ChannelOf(t->ambient, c).data(), [&](size_t) { return run.material.ambient[c]; });
+      const double ambient =
+          run.material.in_ambient ? run.material.of_ambient[c] * run.scene.ambient[c] : 0;
+      hits.Fill(ChannelOf(t->ambient, c).data(), [&](size_t) { return ambient; });
     }
   } else {
     PutShown(

@@ -223,15 +223,14 @@ void SkipBlackBase(ShadingMaterial* prepared) {
 namespace {
 
 // All but the coat.
-ShadingMaterial PrepareUncoated(const Material& material, const Rgb& ambient_radiance) {
+ShadingMaterial PrepareUncoated(const Material& material) {
   ShadingMaterial prepared{};
   prepared.emission = material.emission;
-  Rgb of_ambient(0, 0, 0);  // what it reflects of light from everywhere
   const auto take_shown = [&](const auto& of_channel) {
     for (int c = 0; c < 3; ++c) {
       const ShownColors shown = of_channel(c);
       prepared.albedo[c] = shown.albedo;
-      of_ambient[c] = shown.of_ambient;
+      prepared.of_ambient[c] = shown.of_ambient;
     }
   };
   const auto matte = [&](const auto& material_of) {
@@ -268,8 +267,6 @@ ShadingMaterial PrepareUncoated(const Material& material, const Rgb& ambient_rad
           [](const SplitMaterial&) {}},
       material.model);
   if (material.user) prepared.model = UserModel{material.user};
-  prepared.ambient = of_ambient * ambient_radiance;
-  prepared.ambient_radiance = ambient_radiance;
   prepared.layers = MakeLayers(material);
   FindMaps(material, &prepared);
   return prepared;
@@ -288,7 +285,7 @@ std::shared_ptr<const ShadingMaterial> PrepareCoat(const Material& material) {
   if (!coat) return nullptr;
   const auto own = std::make_shared<const Material>(*coat);
   // Its base is black, but what its albedo leaves is asked for: it is what the material shows.
-  ShadingMaterial prepared = PrepareUncoated(*own, Rgb(0, 0, 0));
+  ShadingMaterial prepared = PrepareUncoated(*own);
   prepared.own = own;
   FinishModel(&prepared);
   return std::make_shared<const ShadingMaterial>(std::move(prepared));
@@ -296,15 +293,16 @@ std::shared_ptr<const ShadingMaterial> PrepareCoat(const Material& material) {
 
 }  // namespace
 
-ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_radiance) {
-  ShadingMaterial prepared = PrepareUncoated(material, ambient_radiance);
+ShadingMaterial PrepareMaterial(const Material& material, bool in_ambient) {
+  ShadingMaterial prepared = PrepareUncoated(material);
+  prepared.in_ambient = in_ambient;
   SkipBlackBase(&prepared);
   FinishModel(&prepared);
   prepared.coat = PrepareCoat(material);
   // What coats and layers reflect of ambient light, and what coats leave of emission, depends on
   // the hit.
   const bool covered = prepared.coat || !prepared.layers.empty();
-  if ((covered && !IsBlack(ambient_radiance)) || (prepared.coat && !IsBlack(prepared.emission))) {
+  if ((covered && in_ambient) || (prepared.coat && !IsBlack(prepared.emission))) {
     prepared.mapped = true;
     prepared.textured = &material;
   }

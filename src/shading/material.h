@@ -96,7 +96,7 @@ struct UserModel {
 
 // A material prepared for shading; a split has no model of its own.
 struct ShadingMaterial {
-  Rgb ambient{0, 0, 0};  // radiance reflected of the scene's ambient light
+  Rgb of_ambient{0, 0, 0};  // what it reflects of light from everywhere
   Rgb emission{0, 0, 0};
   // For the albedo layer: diffuse reflectance, or base colour, or F0 of a conductor.
   Rgb albedo{0, 0, 0};
@@ -108,7 +108,7 @@ struct ShadingMaterial {
   bool mapped_model = false;  // of its reflection, not of its emission alone
   bool mapped_width = false;  // of the width of its lobe
   bool turned = false;        // maps turn the normal
-  Rgb ambient_radiance{0, 0, 0};
+  bool in_ambient = false;    // there is ambient light, which it reflects
   // `coat`: of materials with a clear coat (scene/coat.h), which is shaded as a surface of its own.
   std::shared_ptr<const ShadingMaterial> coat;
   std::shared_ptr<const Material> own;  // of a coat: what its `textured` points to
@@ -116,7 +116,8 @@ struct ShadingMaterial {
   std::vector<LayerModel> layers;  // over the model, bottom to top, under the coat
 };
 
-ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_radiance);
+// `in_ambient`: in a scene with ambient light.
+ShadingMaterial PrepareMaterial(const Material& material, bool in_ambient = false);
 
 // Leaves the material of the maps' factors.
 void DropMaps(ShadingMaterial* material);

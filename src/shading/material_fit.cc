@@ -42,8 +42,8 @@ struct Summary {
 };
 
 Summary Summarize(const Material& material) {
-  const ShadingMaterial prepared = PrepareMaterial(material, Rgb(1));
-  Summary summary{Rgb(0), DiffuseAlbedo(material), prepared.ambient};
+  const ShadingMaterial prepared = PrepareMaterial(material);
+  Summary summary{Rgb(0), DiffuseAlbedo(material), prepared.of_ambient};
   if (const auto* microfacet = std::get_if<MicrofacetModel>(&prepared.model)) {
     summary.lobe = microfacet->f0;
   } else if (const auto* phong = std::get_if<PhongMaterial>(&material.model)) {

@@ -109,7 +109,7 @@ class RunTexturer {
       MultiplyByVertexColors(model, MappedNumber::kEmission);
     }
     FinishNumbers(run_, t_);
-    if (!IsBlack(run_.material.ambient_radiance)) CoverAmbient();
+    if (run_.material.in_ambient) CoverAmbient();
   }
 
  private:
@@ -176,8 +176,8 @@ class RunTexturer {
                         std::clamp(n_dot_v, 0.0, 1.0));
         for (int c = 0; c < 3; ++c) {
           float& ambient = ChannelOf(t_->ambient, c)[i];
-          ambient = static_cast<float>(albedo.below * ambient +
-                                       albedo.lobe[c] * material.ambient_radiance[c]);
+          ambient =
+              static_cast<float>(albedo.below * ambient + albedo.lobe[c] * run_.scene.ambient[c]);
         }
       }
     }

@@ -46,6 +46,7 @@ struct MapTangents {
 struct TextureScene {
   const Scene* scene = nullptr;
   CameraFrame camera;
+  Rgb ambient{0, 0, 0};  // radiance of the scene's ambient light
   // What a sample stands for, in pixels: a sample of many is a small part of its pixel.
   double footprint = 1;
   std::vector<PreparedTexture> textures;  // one per texture of the scene

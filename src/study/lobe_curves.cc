@@ -23,7 +23,7 @@ double HalfRange(const Material& first) {
 }
 
 Curve LobeCurve(const NamedLobe& lobe, double view_deg, double from, double to) {
-  const ShadingMaterial material = PrepareMaterial(lobe.material, Rgb(0));
+  const ShadingMaterial material = PrepareMaterial(lobe.material);
   Curve curve;
   curve.title = lobe.label;
   curve.x.reserve(kLobePoints);

@@ -113,7 +113,7 @@ double MeasureGgx(GgxForm form, double roughness) {
                                              .metallic = 1,
                                              .roughness = roughness,
                                              .compensation = Compensation::kNone};
-  const ShadingMaterial prepared = PrepareMaterial(material, Rgb(0));
+  const ShadingMaterial prepared = PrepareMaterial(material);
   const double alpha = AlphaFromRoughness(roughness);
   const Vec3d half = (kToLight + kToView).normalized();
   const Vec3d across = (half % Vec3d(0, 1, 0)).normalized();

@@ -40,7 +40,7 @@ ShadingMaterial Metal(double roughness, Compensation compensation) {
   Material material;
   material.model = MetallicRoughnessMaterial{
       .base_color = Rgb(1), .metallic = 1, .roughness = roughness, .compensation = compensation};
-  return PrepareMaterial(material, Rgb(0));
+  return PrepareMaterial(material);
 }
 
 ShadingMaterial White(double metallic, double roughness, DiffuseCoupling coupling,
@@ -51,7 +51,7 @@ ShadingMaterial White(double metallic, double roughness, DiffuseCoupling couplin
                                              .roughness = roughness,
                                              .compensation = compensation,
                                              .diffuse_coupling = coupling};
-  return PrepareMaterial(material, Rgb(0));
+  return PrepareMaterial(material);
 }
 
 ShadingMaterial Dielectric(double roughness, DiffuseCoupling coupling, Compensation compensation) {

@@ -96,8 +96,7 @@ double MirrorError() {
 double PeakOf(double roughness) {
   Material material;
   material.model = GoldOf(roughness, 1);
-  return Reflect(PrepareMaterial(material, Rgb(0)), Vec3d(0, 0, 1), DirectionAt(-30),
-                 DirectionAt(30))
+  return Reflect(PrepareMaterial(material), Vec3d(0, 0, 1), DirectionAt(-30), DirectionAt(30))
       .specular.x;
 }
 

@@ -362,7 +362,7 @@ Json ExplainPixel(const Scene& scene, const PixelLayers& layers, const PixelWith
   }
   Json lights = Json::array();
   ExplainedMaterial explained;
-  explained.prepared = PrepareMaterial(material, {0, 0, 0});
+  explained.prepared = PrepareMaterial(material);
   explained.base = explained.prepared;
   explained.base.layers.clear();
   explained.base.coat.reset();

@@ -57,7 +57,7 @@ TEST_CASE("a white surface stays white under a coat of any roughness, by numbers
 // The worst error of a sphere's pixels against Reflect at the normals that a layer shows, relative
 // to it; of pixels away from the outline.
 double WorstAgainstTwin(const Scene& scene, const Vec3d& to_light, double irradiance) {
-  const ShadingMaterial twin = PrepareMaterial(scene.materials[0], Rgb(0));
+  const ShadingMaterial twin = PrepareMaterial(scene.materials[0]);
   RenderSettings settings;
   settings.layers = {"all"};
   const Image image = RenderImage(scene, settings);
@@ -198,7 +198,7 @@ TEST_CASE("a coat dims what a material emits, by what it reflects") {
   model.coat_roughness = 0.3;
   Scene scene = OrthographicSphere(model, 1);
   scene.materials[0].emission = Rgb(3, 2, 1);
-  const ShadingMaterial twin = PrepareMaterial(scene.materials[0], Rgb(0));
+  const ShadingMaterial twin = PrepareMaterial(scene.materials[0]);
   const Image image = RenderImage(scene, {});
   const size_t middle = static_cast<size_t>(32 * 64 + 32);
   const double left = LeftByCoat(*twin.coat, 1)[0];

@@ -184,12 +184,12 @@ TEST_CASE("A coat that comes and goes has one place", "[prepared_scene]") {
   set_coat(0, 1);
   set_coat(1, 0);
   PreparedMaterials materials;
-  PrepareMaterials(scene, Rgb(0), 1, &materials);
+  PrepareMaterials(scene, false, 1, &materials);
   REQUIRE(materials.all.size() == 4);  // two, black and a coat
   for (const double coat : {0.0, 1.0, 0.0, 1.0}) {
     for (const uint32_t i : {0u, 1u}) {
       set_coat(i, coat);
-      PrepareMaterials(scene, Rgb(0), std::vector<uint32_t>{i}, &materials);
+      PrepareMaterials(scene, false, std::vector<uint32_t>{i}, &materials);
       CHECK(materials.coats[i].valid() == (coat > 0));
     }
   }

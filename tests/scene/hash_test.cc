@@ -161,6 +161,22 @@ TEST_CASE("hashes that are kept give that of the scene, whatever changes") {
   check();
 }
 
+TEST_CASE("of many materials those are hashed that have changed") {
+  Scene scene = MakeScene();
+  scene.materials.resize(1000, scene.materials[0]);
+  KeptHashes kept;
+  HashScene(scene, &kept);
+  for (const size_t changed : {size_t{0}, size_t{255}, size_t{256}, size_t{999}}) {
+    scene.materials[changed].emission = Rgb(static_cast<double>(1 + changed));
+    kept.ForgetMaterial(changed);
+    CHECK(HashScene(scene, &kept) == HashScene(scene));
+  }
+  scene.materials.resize(1001, scene.materials[0]);
+  CHECK(HashScene(scene, &kept) == HashScene(scene));
+  std::swap(scene.materials[0], scene.materials[999]);
+  CHECK(HashScene(scene) != HashScene(scene, &kept));  // the order counts
+}
+
 TEST_CASE("what is shared, and shapes that are the same, are hashed once") {
   Scene scene = MakeScene();
   const auto picture = MakePicture(1);

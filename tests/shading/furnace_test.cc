@@ -100,7 +100,7 @@ class LitFurnace {
 
   // What the material reflects of a radiance of 1 from everywhere, of each channel.
   Rgb Reflected(const Material& material) {
-    const ShadingMaterial prepared = PrepareMaterial(material, Rgb(0));
+    const ShadingMaterial prepared = PrepareMaterial(material);
     const ShadingLight light{.color = Rgb(1)};  // at the origin, and the hits around it
     PrepareRun(prepared, 0, kBatchCapacity, &surface_);
     Rgb sum(0, 0, 0);

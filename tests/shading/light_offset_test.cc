@@ -106,7 +106,7 @@ ReflectedRadiance ReflectFromSpheres(const ShadingLight& light, HitsOnSpheres* h
                                      bool in_place) {
   Material material;
   material.model = MetallicRoughnessMaterial{};
-  const ShadingMaterial prepared = PrepareMaterial(material, {0, 0, 0});
+  const ShadingMaterial prepared = PrepareMaterial(material);
   LightBatch evaluated;
   EvaluateLight(light, hits->batch, hits->surface, &evaluated);
   ShadeScratch scratch;

@@ -151,7 +151,7 @@ TEST_CASE("wherever a model reflects light there is a strategy that looks") {
     size_t reflecting = 0, first = 0;
     for (const Surfaced& surfaced : AllCombinations()) {
       CAPTURE(surfaced.name);
-      const ShadingMaterial material = PrepareMaterial(surfaced.material, Rgb(0));
+      const ShadingMaterial material = PrepareMaterial(surfaced.material);
       for (const double n_dot_v : kViews) {
         CAPTURE(n_dot_v);
         SampledHits hits(material, n_dot_v);
@@ -225,7 +225,7 @@ TEST_CASE("samples of every lobe have its albedo for their mean, and none is out
   std::uniform_real_distribution<float> unit(0, 1);
   AlignedArray<float> u(kCoverageHits), v(kCoverageHits);
   for (const Surfaced& surfaced : AllCombinations()) {
-    const ShadingMaterial material = PrepareMaterial(surfaced.material, Rgb(0));
+    const ShadingMaterial material = PrepareMaterial(surfaced.material);
     if (!HasSampledLobe(material)) continue;
     const auto* microfacet = std::get_if<MicrofacetModel>(&material.model);
     const bool mirror = HasDeltaLobe(material);

@@ -98,7 +98,7 @@ TEST_CASE("the samples of a lobe integrate to its albedo") {
   for (const double roughness : {0.05, 0.2, 0.5, 0.8}) {
     Material material = Metal(Rgb(0.9, 0.5, 0.2), 1, roughness);
     std::get<MetallicRoughnessMaterial>(material.model).compensation = Compensation::kNone;
-    const ShadingMaterial prepared = PrepareMaterial(material, Rgb(0));
+    const ShadingMaterial prepared = PrepareMaterial(material);
     for (const double view_deg : kResidualViewsDeg) {
       const Vec3d to_view = ViewDirection(view_deg);
       Rgb sum(0);

@@ -195,29 +195,28 @@ TEST_CASE("closed forms are for Lambert's diffuse reflection alone") {
 }
 
 TEST_CASE("what materials reflect of light from everywhere") {
-  const Rgb sky(0.5, 1, 2);
   PhongMaterial phong;
   phong.color = {1, 1, 1};
   phong.ka = {0.25, 0.25, 0.25};
   phong.kd = {0.75, 0.75, 0.75};
-  CheckEqual(Prepare(phong, sky).ambient, sky * 0.25);
+  CheckEqual(Prepare(phong).of_ambient, Rgb(0.25));
   MetallicRoughnessMaterial metallic_roughness;
   metallic_roughness.base_color = {0.5, 0.25, 1};
-  CheckEqual(Prepare(metallic_roughness, sky).ambient, {0.25, 0.25, 2});
+  CheckEqual(Prepare(metallic_roughness).of_ambient, {0.5, 0.25, 1});
   // A white base under a clear coat gives back all light, a black one the coat's 9.178 % (Fresnel's
   // mean for 1.5: Egan and Hilgeman 1973).
   DielectricMaterial dielectric;
   dielectric.ior = 1.5;
   dielectric.base_color = {1, 1, 1};
-  CheckEqual(Prepare(dielectric, sky).ambient, sky);
+  CheckEqual(Prepare(dielectric).of_ambient, Rgb(1));
   dielectric.base_color = {0, 0, 0};
-  CHECK(Prepare(dielectric, {1, 1, 1}).ambient.x == Approx(0.0918).margin(5e-5));
+  CHECK(Prepare(dielectric).of_ambient.x == Approx(0.0918).margin(5e-5));
   // So does a conductor that absorbs nothing; F0 is 4 %.
   ConductorMaterial conductor;
   conductor.eta = {1.5, 1.5, 1.5};
   conductor.k = {0, 0, 0};
-  const ShadingMaterial metal = Prepare(conductor, {1, 1, 1});
-  CHECK(metal.ambient.x == Approx(0.0918).margin(5e-5));
+  const ShadingMaterial metal = Prepare(conductor);
+  CHECK(metal.of_ambient.x == Approx(0.0918).margin(5e-5));
   CHECK(metal.albedo.x == Approx(0.04));
 }
 
@@ -281,7 +280,7 @@ TEST_CASE("Kulla and Conty's lobe takes the average of the Fresnel curve that th
   }
   const QuadratureRule& rule = GaussLegendre(32);
   for (size_t i = 0; i < materials.size(); ++i) {
-    const auto model = std::get<MicrofacetModel>(PrepareMaterial(materials[i], Rgb(0)).model);
+    const auto model = std::get<MicrofacetModel>(PrepareMaterial(materials[i]).model);
     Rgb average(0);
     for (size_t k = 0; k < rule.x.size(); ++k) {
       average += FresnelOf(model, rule.x[k], 1 - rule.x[k]) * (2 * rule.x[k] * rule.w[k]);

@@ -6,16 +6,13 @@
 
 namespace nacre {
 
-// Under no ambient light unless it is told.
-inline ShadingMaterial Prepare(const Material& material, const Rgb& sky = {0, 0, 0}) {
-  return PrepareMaterial(material, sky);
-}
+inline ShadingMaterial Prepare(const Material& material) { return PrepareMaterial(material); }
 
 template <class Model>
-ShadingMaterial Prepare(const Model& model, const Rgb& sky = {0, 0, 0}) {
+ShadingMaterial Prepare(const Model& model) {
   Material material;
   material.model = model;
-  return Prepare(material, sky);
+  return Prepare(material);
 }
 
 }  // namespace nacre

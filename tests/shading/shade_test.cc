@@ -427,17 +427,16 @@ TEST_CASE("a light near a huge, far surface keeps its direction") {
 }
 
 TEST_CASE("constants of materials") {
-  const Rgb sky(0.5, 1, 2);
   Material material;
   material.emission = Rgb(1, 2, 3);
   material.model = LambertMaterial{Rgb(0.5, 0.5, 0.25)};
-  CHECK(PrepareMaterial(material, sky).ambient == Rgb(0.25, 0.5, 0.5));
-  CHECK(PrepareMaterial(material, sky).emission == Rgb(1, 2, 3));
+  CHECK(PrepareMaterial(material).of_ambient == Rgb(0.5, 0.5, 0.25));
+  CHECK(PrepareMaterial(material).emission == Rgb(1, 2, 3));
   PhongMaterial phong;
   phong.ka = Rgb(0.5, 0.5, 0.5);
   phong.color = Rgb(1, 0.5, 0.25);
   material.model = phong;
-  CHECK(PrepareMaterial(material, sky).ambient == Rgb(0.25, 0.25, 0.25));
+  CHECK(PrepareMaterial(material).of_ambient == Rgb(0.5, 0.25, 0.125));
 }
 
 }  // namespace

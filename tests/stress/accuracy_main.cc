@@ -155,7 +155,7 @@ void PrintHighlights() {
                                                .compensation = Compensation::kNone};
     const double alpha = AlphaFromRoughness(roughness);
     PrintHighlight(
-        "GGX, roughness", roughness, PrepareMaterial(material, Rgb(0)), alpha,
+        "GGX, roughness", roughness, PrepareMaterial(material), alpha,
         [&](const Vec3d& n) { return TrueGgx(n, alpha); },
         [&](const Imath::V3f& n, const Imath::V3f& l, const Imath::V3f& v) {
           return TextbookGgx(n, l, v, static_cast<float>(alpha));
@@ -168,7 +168,7 @@ void PrintHighlights() {
                                    .ks = Rgb(1),
                                    .shininess = shininess};
     PrintHighlight(
-        "Phong, exponent", shininess, PrepareMaterial(material, Rgb(0)), 0.5 / std::sqrt(shininess),
+        "Phong, exponent", shininess, PrepareMaterial(material), 0.5 / std::sqrt(shininess),
         [&](const Vec3d& n) {
           return PhongLobe(n, kHighlightToLight, kHighlightToView, shininess);
         },
@@ -187,7 +187,7 @@ double WhiteAlbedo(double roughness, double metallic, double n_dot_v) {
   Material material;
   material.model =
       MetallicRoughnessMaterial{.base_color = Rgb(1), .metallic = metallic, .roughness = roughness};
-  const auto model = std::get<MicrofacetModel>(PrepareMaterial(material, Rgb(0)).model);
+  const auto model = std::get<MicrofacetModel>(PrepareMaterial(material).model);
   const double one = AlbedoOfOne(model.shadowing, roughness, n_dot_v);
   const double schlick = AlbedoOfSchlick(model.shadowing, roughness, n_dot_v);
   const double more = 1 / AlbedoOne(model.albedo.lobe, n_dot_v) - 1;

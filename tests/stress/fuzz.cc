@@ -85,7 +85,7 @@ uint64_t Mix(uint64_t hash, uint64_t value) {
 // Turquin's scale is at most 1 / E. Phong's normalisations are below n + 8. The factor 10 is for
 // Kulla and Conty's lobe.
 double LargestReflection(const Material& material) {
-  const ShadingMaterial prepared = PrepareMaterial(material, Rgb(0));
+  const ShadingMaterial prepared = PrepareMaterial(material);
   double largest = 1;
   if (const auto* phong = std::get_if<PhongFamilyModel>(&prepared.model)) {
     largest = phong->shininess + 8;
@@ -126,7 +126,7 @@ class ChunkFuzz {
       const size_t end = begin + kRunLength;
       const Material material = DrawMaterial(model, &random_);
       const Rgb color = DrawLight(&random_);
-      const ShadingMaterial prepared = PrepareMaterial(material, Rgb(0));
+      const ShadingMaterial prepared = PrepareMaterial(material);
       Shade(prepared, color, begin, end, &ordered_);
       Shade(prepared, color, moved_.place[end - 1], moved_.place[begin] + 1, &moved_);
       for (size_t hit = begin; hit < end; ++hit) {

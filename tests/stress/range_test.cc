@@ -35,7 +35,7 @@ Vec3d Reflect(const Material& material, const Rgb& color, const Point& point, bo
   EvaluateLight(light, hits, surface, &batch);
   REQUIRE(batch.irradiance[0] > 0);
   ShadeScratch scratch;
-  const ShadingMaterial prepared = PrepareMaterial(material, Rgb(0));
+  const ShadingMaterial prepared = PrepareMaterial(material);
   PrepareRun(prepared, 0, 1, &surface);
   ShadeRun(prepared, {hits, surface, light, &batch}, 0, 1, &scratch, &radiance);
   const Soa3<float>& part = specular ? radiance.specular : radiance.diffuse;

@@ -87,7 +87,7 @@ double Difference(const BothSides& sides, const Soa3<float>& there, const Soa3<f
 
 void CheckReciprocal(const Material& material, BothSides* sides, double bound, double floor) {
   const ShadingLight light{.color = Rgb(1)};  // at the origin, and the hits around it
-  const ShadingMaterial prepared = PrepareMaterial(material, Rgb(0));
+  const ShadingMaterial prepared = PrepareMaterial(material);
   for (Side* side : {&sides->there, &sides->back}) {
     ClearRadiance(kHits, &side->radiance);
     PrepareRun(prepared, 0, kHits, &side->surface);

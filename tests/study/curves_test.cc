@@ -12,7 +12,7 @@ namespace nacre {
 namespace {
 
 NamedMaterial Prepared(const std::string& label, const Material& material) {
-  return {label, PrepareMaterial(material, Rgb(0))};
+  return {label, PrepareMaterial(material)};
 }
 
 Material Matte(double albedo) {

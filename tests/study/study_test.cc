@@ -20,7 +20,7 @@ template <class Model>
 ShadingMaterial Prepare(const Model& model) {
   Material material;
   material.model = model;
-  return PrepareMaterial(material, Rgb(0));
+  return PrepareMaterial(material);
 }
 
 std::vector<NamedMaterial> AllModels() {
@@ -140,7 +140,7 @@ TEST_CASE(
       material.specular = 0.8;
       Material any;
       any.model = material;
-      const Rgb share = ReflectedShare(PrepareMaterial(any, Rgb(0)), ShareOf::kFurnace, mu);
+      const Rgb share = ReflectedShare(PrepareMaterial(any), ShareOf::kFurnace, mu);
       for (int c = 0; c < 3; ++c) {
         const double base = material.base_color[c];
         const auto lobe = [&](double f0, double f90) {  // compensated as Turquin has it
@@ -165,7 +165,7 @@ TEST_CASE("ks is what Phong's lobes reflect of light from along the normal") {
       Material material;
       material.model =
           PhongMaterial{.model = model, .kd = Rgb(0), .ks = Rgb(1), .shininess = shininess};
-      const ShadingMaterial prepared = PrepareMaterial(material, Rgb(0));
+      const ShadingMaterial prepared = PrepareMaterial(material);
       const double furnace = model == PhongModel::kPhong        ? PhongFurnace(shininess)
                              : model == PhongModel::kBlinnPhong ? BlinnFurnace(shininess)
                                                                 : 1.0;
