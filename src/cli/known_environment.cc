@@ -2,12 +2,9 @@
 #include "cli/known_environment.h"
 
 #include <algorithm>
-#include <cstdlib>
-#include <string>
+#include <cstddef>
+#include <iterator>
 #include <string_view>
-#include <vector>
-
-#include <unistd.h>
 
 namespace nacre {
 namespace {
@@ -38,16 +35,14 @@ bool IsKnown(std::string_view name, std::string_view value) {
 
 }  // namespace
 
-void KeepKnownEnvironment() {
-  std::vector<std::string> others;
-  for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
+void KeepKnownEnvironment(char** environment) {
+  char** kept = environment;
+  for (char** entry = environment; *entry != nullptr; ++entry) {
     const std::string_view text = *entry;
     const size_t end = std::min(text.find('='), text.size());
-    const std::string_view name = text.substr(0, end);
-    const std::string_view value = text.substr(std::min(end + 1, text.size()));
-    if (!IsKnown(name, value)) others.emplace_back(name);
+    if (IsKnown(text.substr(0, end), text.substr(std::min(end + 1, text.size())))) *kept++ = *entry;
   }
-  for (const std::string& name : others) unsetenv(name.c_str());
+  *kept = nullptr;
 }
 
 }  // namespace nacre

@@ -168,6 +168,11 @@ void KeepFreedMemory() {
 #endif
 }
 
+// Called before the constructors of the libraries, where oneTBB loads the code that a variable
+// names (since 2021.12).
+void Start(int, char**, char** environment) { nacre::KeepKnownEnvironment(environment); }
+[[gnu::section(".preinit_array"), gnu::used]] void (*const g_start)(int, char**, char**) = Start;
+
 // Without formatting or allocating: that may be what failed.
 int FailPlainly(std::initializer_list<std::string_view> message) {
   for (const std::string_view part : message) {
@@ -181,7 +186,6 @@ int FailPlainly(std::initializer_list<std::string_view> message) {
 // What Run lets through: exceptions before its own reports, while it makes one, and of no known
 // type.
 int main(int argc, char** argv) {
-  nacre::KeepKnownEnvironment();
   KeepFreedMemory();
   try {
     return Run(argc, argv);

@@ -28,11 +28,14 @@ OIIO_NAMESPACE_END
 
 namespace {
 
+// Where OpenImageIO fails and says nothing, as of TIFF files with new versions of libtiff.
+constexpr const char* kNoReason = "its contents are damaged, or end early";
+
 // The first line: OpenImageIO adds what it did about it.
 const char* KeepMessage(const std::string& message) {
   thread_local std::array<char, 1024> kept;
   const std::string line = message.substr(0, message.find('\n'));
-  std::snprintf(kept.data(), kept.size(), "%s", line.empty() ? "unknown reason" : line.c_str());
+  std::snprintf(kept.data(), kept.size(), "%s", line.empty() ? kNoReason : line.c_str());
   return kept.data();
 }
 
@@ -149,7 +152,7 @@ std::string ReadAs(OIIO::TypeDesc type, NacreOiioFile* file, int32_t y0, int32_t
   }
   const std::string error = input->geterror();
   if (!g_complaint.empty()) return g_complaint;
-  return read && error.empty() ? std::string() : error.empty() ? "unknown reason" : error;
+  return read && error.empty() ? std::string() : error.empty() ? kNoReason : error;
 }
 
 // Codes are divided by white's, as in nacre's other readers: OpenImageIO multiplies by the rounded
