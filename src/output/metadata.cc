@@ -84,9 +84,11 @@ uint64_t HashPlanned(const FramePlan& plan, PreparedScene* prepared) {
   } else {
     for (const uint32_t i : *changed) prepared->hashes.ForgetMaterial(i);
   }
+  prepared->material_hashes.Forget();  // memory may run out
+  const uint64_t hash = HashScene(*plan.scene, &prepared->hashes);
   prepared->material_hashes.Set(of_lights, {});
   prepared->materials_hashed = versions.materials();
-  return HashScene(*plan.scene, &prepared->hashes);
+  return hash;
 }
 
 }  // namespace

@@ -157,6 +157,7 @@ double WidestNeighbour(const CellState& c, uint32_t pixel) {
 }
 
 bool HasConverged(const CellState& c, uint32_t pixel) {
+  if (c.sampled_share[pixel] == 0) return true;  // it is the background
   const double tolerance = c.intervals[pixel / kBlockPixels].tolerance[pixel % kBlockPixels];
   return IsWithinTolerance(c, pixel) && WidestNeighbour(c, pixel) <= kNeighbourSlack * tolerance;
 }

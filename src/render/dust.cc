@@ -67,8 +67,7 @@ class DustFinder {
   }
 
   void AddTriangle(const FilmTriangle& triangle) {
-    const Polygon whole(triangle.begin(), triangle.end());
-    Polygon in_row, in_pixel, room;
+    whole_.assign(triangle.begin(), triangle.end());
     const auto reached = [&](const Polygon& polygon, int axis, int from, int to) {
       const auto along = [&](const Vec2d& p) { return axis == 0 ? p.x : p.y; };
       const auto [low, high] =
@@ -76,17 +75,18 @@ class DustFinder {
                               [&](const Vec2d& a, const Vec2d& b) { return along(a) < along(b); });
       return Reached(along(*low), along(*high), from, to);
     };
-    const Range rows = reached(whole, 1, cell_.y0, cell_.y1);
+    const Range rows = reached(whole_, 1, cell_.y0, cell_.y1);
     for (int y = rows.first; y < rows.end; ++y) {
-      CutBetween(whole, 1, y - before_, y + after_, &in_row, &room);
-      if (in_row.empty()) continue;
-      const Range columns = reached(in_row, 0, cell_.x0, cell_.x1);
+      CutBetween(whole_, 1, y - before_, y + after_, &in_row_, &room_);
+      if (in_row_.empty()) continue;
+      const Range columns = reached(in_row_, 0, cell_.x0, cell_.x1);
       for (int x = columns.first; x < columns.end; ++x) {
-        CutBetween(in_row, 0, x - before_, x + after_, &in_pixel, &room);
-        for (size_t i = 2; i < in_pixel.size(); ++i) {
-          const Vec2d sides[2] = {in_pixel[i - 1] - in_pixel[0], in_pixel[i] - in_pixel[0]};
+        if (counts_[NumberOf(x, y)] > kMostPatches) continue;
+        CutBetween(in_row_, 0, x - before_, x + after_, &in_pixel_, &room_);
+        for (size_t i = 2; i < in_pixel_.size(); ++i) {
+          const Vec2d sides[2] = {in_pixel_[i - 1] - in_pixel_[0], in_pixel_[i] - in_pixel_[0]};
           const double area = std::abs(sides[0].cross(sides[1])) / 2;
-          if (area > 0) Add(x, y, {in_pixel[0], {sides[0], sides[1]}, true, area});
+          if (area > 0) Add(x, y, {in_pixel_[0], {sides[0], sides[1]}, true, area});
         }
       }
     }
@@ -146,6 +146,7 @@ class DustFinder {
   const double before_ = half_side_ - 0.5, after_ = half_side_ + 0.5;  // of a pixel's number
   uint32_t counts_[kCellPixels] = {};  // more than kMostPatches: it is left as it is
   std::vector<PatchOfPixel> all_;
+  Polygon whole_, in_row_, in_pixel_, room_;  // buffers
 };
 
 // Whether the point lies in the patch, but for rounding.
@@ -172,17 +173,18 @@ void FindDust(const FramePlan& plan, const Window& cell, const TileShapes& shape
   c->has_dust = false;
   const double half_side = plan.adaptive.dust_half_side;
   const SmallTriangles& triangles = plan.adaptive.small_triangles;
-  if (half_side == 0 || (shapes.triangles && !triangles.all)) return;
+  if (half_side == 0 || (shapes.triangles && !triangles.no_others)) return;
   DustFinder finder(cell, half_side);
   const Projector projector = MakeProjector(plan.camera);
   for (const auto& in_cell : shapes.spheres.cells) {
     for (const TileCandidate& candidate : in_cell) {
-      const ProjectedBounds bounds = Project(projector, candidate.sphere);
+      const ProjectedBounds bounds = ProjectClosely(projector, candidate.sphere);
       if (bounds.visible) finder.AddSphere(bounds);
     }
   }
-  ForEachTriangle(triangles, plan.surfaces.primitives, projector, cell,
-                  [&](uint32_t, const FilmTriangle& corners) { finder.AddTriangle(corners); });
+  ForEachNarrowTriangle(
+      triangles, plan.surfaces.primitives, projector, cell,
+      [&](uint32_t, const FilmTriangle& corners) { finder.AddTriangle(corners); });
   if (finder.Any()) finder.Finish(c);
 }
 
@@ -200,7 +202,7 @@ void MoveToDust(const FramePlan& plan, const Window& cell,
     for (size_t ray = entry * count; ray < (entry + 1) * count; ++ray) {
       const Vec2d u((film->x[ray] - middle.x) / (2 * half_side) + 0.5,
                     (film->y[ray] - middle.y) / (2 * half_side) + 0.5);
-      // The film's columns choose the patch, and the place along one of its sides.
+      // u.x chooses the patch, in proportion to the areas; what is left of it, and u.y, the place.
       double area = std::clamp(u.x, 0.0, 1.0) * share * 4 * half_side * half_side;
       size_t chosen = 0;
       for (; chosen + 1 < patches.size() && area >= patches[chosen].area; ++chosen) {
@@ -208,9 +210,11 @@ void MoveToDust(const FramePlan& plan, const Window& cell,
       }
       const Vec2d place(std::min(area / patches[chosen].area, 1.0), std::clamp(u.y, 0.0, 1.0));
       const Vec2d point = PointOf(patches[chosen], place);
-      double held = 1;  // by patches
-      for (size_t i = 0; i < patches.size(); ++i) held += i != chosen && Holds(patches[i], point);
-      c->sample_share[ray] = share / held;
+      double patches_here = 1;
+      for (size_t i = 0; i < patches.size(); ++i) {
+        patches_here += i != chosen && Holds(patches[i], point);
+      }
+      c->sample_share[ray] = share / patches_here;
       film->x[ray] = point.x;
       film->y[ray] = point.y;
     }

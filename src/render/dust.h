@@ -4,7 +4,8 @@
 // are spread over patches alone that hold the shapes' projections: all else of the pixel is the
 // background, and known.
 //
-// For a point at random in one of the patches, each as likely as its area, the value
+// For a point at random in one of the patches, which is chosen with a probability proportional to
+// its area, the value
 //   background + share / patches * (radiance - background)
 // has the pixel as its mean, `share` being the sum of the patches' areas as shares of the pixel and
 // `patches` how many of them the point lies in.

@@ -139,7 +139,7 @@ const std::vector<bool>& UsedMaterials(const FramePlan& plan, const PreparedMate
   const ViewKey key{
       prepared->shapes_made,
       prepared->versions.Of(splits ? SceneParts(ScenePart::kMaterials) : SceneParts()),
-      {static_cast<double>(plan.scene->materials.size())}};
+      {static_cast<double>(plan.scene->materials.size()), splits ? 1.0 : 0.0}};
   return prepared->used_materials.Get(key, [&] { return FindUsedMaterials(*plan.scene, splits); });
 }
 

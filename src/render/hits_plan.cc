@@ -132,9 +132,6 @@ HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Wind
   // Adaptive sampling reads footprints and outlines from the bins even if a tree traces the rays,
   // because bits must not depend on the intersector. It bins the whole frame, because they must not
   // depend on the region either, whose bins may fit into memory where the frame's do not.
-  // Adaptive sampling reads footprints and outlines from the bins even if a tree traces the rays,
-  // because bits must not depend on the intersector. It bins the whole frame, because they must not
-  // depend on the region either, whose bins may fit into memory where the frame's do not.
   const Window binned =
       adaptive ? ExtendToCells({0, 0, scene.image.width, scene.image.height}) : window;
   const bool centers = sampler.centered && !adaptive;

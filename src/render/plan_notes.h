@@ -11,7 +11,8 @@
 
 namespace nacre {
 
-// By material of the scene: whether any shape has it, directly or as a part of a split.
+// By material of the scene: whether any shape has it, directly or as a part of a split. `splits`:
+// whether there are any.
 std::vector<bool> FindUsedMaterials(const Scene& scene, bool splits);
 
 struct NotedMaterials {

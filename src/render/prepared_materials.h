@@ -28,7 +28,7 @@ enum class MaterialTrait : uint32_t {
   kPhongGain = 1 << 10,
   kModifiedPhongGain = 1 << 11,
   kBlinnPhongGain = 1 << 12,
-  // The form of Shadowing of the lobe, in its order.
+  // The form of Shadowing of the lobe: this bit and the three after it, in its order.
   kFirstShadowing = 1 << 13,
 };
 

@@ -37,7 +37,7 @@ void AddSmallSpheres(const FramePlan& plan, const Projector& projector,
                      const TileCandidates& candidates, std::vector<SmallFeature>* features) {
   for (const auto& cell : candidates.cells) {
     for (const TileCandidate& candidate : cell) {
-      const ProjectedBounds b = Project(projector, candidate.sphere);
+      const ProjectedBounds b = ProjectClosely(projector, candidate.sphere);
       const double width = b.x1 - b.x0, height = b.y1 - b.y0;
       if (!b.visible || !(width < kMaxRareWidth && height < kMaxRareWidth)) continue;
       features->push_back(
@@ -125,6 +125,7 @@ void AddShares(const PixelFilter& filter, const Window& cell, const SmallFeature
                Shares* shares) {
   ForEachShare(filter, cell, {feature.x, feature.y, feature.half_side, feature.half_side},
                [&](int column, int row, double share) {
+                 if (share == 0) return;  // the radiance may be infinite
                  shares->samples[row][column] += share;
                  shares->radiance[row][column] += share * feature.radiance;
                });

@@ -193,13 +193,13 @@ SmallTriangles BinSmallTriangles(const PrimitiveNumbers& numbers, const Projecto
         triangles.primitives[position] = static_cast<uint32_t>(scene.spheres.size() + i);
       });
   if (triangles.primitives.empty()) triangles.end.clear();
-  triangles.all = !others;
+  triangles.no_others = !others;
   return triangles;
 }
 
-void ForEachTriangle(const SmallTriangles& triangles, const PrimitiveNumbers& numbers,
-                     const Projector& projector, const Window& cell,
-                     const std::function<void(uint32_t, const FilmTriangle&)>& work) {
+void ForEachNarrowTriangle(const SmallTriangles& triangles, const PrimitiveNumbers& numbers,
+                           const Projector& projector, const Window& cell,
+                           const std::function<void(uint32_t, const FilmTriangle&)>& work) {
   if (triangles.end.empty()) return;
   const auto number = [](int pixel) { return static_cast<size_t>(pixel / kCellSize); };
   const size_t list =
@@ -217,11 +217,11 @@ void ForEachPiece(const SmallTriangles& triangles, const PrimitiveNumbers& numbe
                   const Projector& projector, const Window& cell,
                   const std::function<void(const TrianglePiece&)>& work) {
   const FilmBounds around = BoundsAround(cell, triangles.margin);
-  ForEachTriangle(triangles, numbers, projector, cell,
-                  [&](uint32_t primitive, const FilmTriangle& corners) {
-                    const PieceSource source{primitive, ShapeMaterial(numbers, primitive)};
-                    CutToPieces(source, corners, around, work);
-                  });
+  ForEachNarrowTriangle(triangles, numbers, projector, cell,
+                        [&](uint32_t primitive, const FilmTriangle& corners) {
+                          const PieceSource source{primitive, ShapeMaterial(numbers, primitive)};
+                          CutToPieces(source, corners, around, work);
+                        });
 }
 
 }  // namespace nacre

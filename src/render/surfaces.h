@@ -35,8 +35,8 @@ struct SurfacePlan {
 // Whether the mesh interpolates radiance, not normals (mesh_radiance.h).
 bool InterpolatesRadiance(const Mesh& mesh);
 
-// `ambient`: the sum of the scene's ambient lights, for which the materials were prepared. `used`:
-// by material of the scene.
+// `ambient`: the sum of the scene's ambient lights; whether it is black, the materials were
+// prepared for. `used`: by material of the scene.
 SurfacePlan PlanSurfaces(const Scene& scene, const RenderSettings& settings,
                          const CameraFrame& camera, const Rgb& ambient,
                          std::shared_ptr<const PreparedMaterials> materials,

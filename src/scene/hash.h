@@ -21,7 +21,7 @@ struct KeptHashes {
   };
   std::vector<Entry> shared;       // those of the scene that was hashed last
   std::optional<uint64_t> shapes;  // HashShapes()
-  // Those that are there are right: of materials, and of groups of them.
+  // Of materials, and of groups of them. What is set is up to date.
   std::vector<std::optional<uint64_t>> materials, material_groups;
 
   void ForgetMaterials();

@@ -68,7 +68,7 @@ double ProjectionMargin(const Projector& projector, double at) {
   return 1e-3 + kRelativeProjectionMargin * std::abs(at) + 1e-15 * projector.inverse_pixel;
 }
 
-ProjectedBounds Project(const Projector& p, const TraceSphere& sphere) {
+ProjectedBounds ProjectClosely(const Projector& p, const TraceSphere& sphere) {
   const double x = sphere.center.dot(p.right);
   const double y = sphere.center.dot(p.down);
   const double z = sphere.center.dot(p.forward);
@@ -85,6 +85,20 @@ ProjectedBounds Project(const Projector& p, const TraceSphere& sphere) {
   bounds.x1 = across.high * p.inverse_pixel + p.middle_x;
   bounds.y0 = along.low * p.inverse_pixel + p.middle_y;
   bounds.y1 = along.high * p.inverse_pixel + p.middle_y;
+  // A few units in the last place of the terms above, and of directions of length 1.
+  const auto rounding = [&](double at, double middle) {
+    return 8 * 0x1p-52 * (std::abs(at - middle) + std::abs(middle) + p.inverse_pixel);
+  };
+  bounds.x0 -= rounding(bounds.x0, p.middle_x);
+  bounds.x1 += rounding(bounds.x1, p.middle_x);
+  bounds.y0 -= rounding(bounds.y0, p.middle_y);
+  bounds.y1 += rounding(bounds.y1, p.middle_y);
+  return bounds;
+}
+
+ProjectedBounds Project(const Projector& p, const TraceSphere& sphere) {
+  ProjectedBounds bounds = ProjectClosely(p, sphere);
+  if (!bounds.visible) return bounds;
   bounds.x0 -= ProjectionMargin(p, bounds.x0);
   bounds.x1 += ProjectionMargin(p, bounds.x1);
   bounds.y0 -= ProjectionMargin(p, bounds.y0);

@@ -50,8 +50,12 @@ struct ProjectedBounds {
   bool visible;  // false: no camera ray can hit the sphere; the bounds are undefined
 };
 
-// With a margin on each side, so that the box surely contains the outline.
+// With a margin on each side, so that the box surely contains the outline, and what rays hit that
+// round otherwise.
 ProjectedBounds Project(const Projector& projector, const TraceSphere& sphere);
+// The same with a margin of the rounding of doubles alone, which is a small part of the box even
+// where that is a billionth of a pixel wide.
+ProjectedBounds ProjectClosely(const Projector& projector, const TraceSphere& sphere);
 
 // An upper bound of the rounding errors of bounds and rays at this film coordinate.
 double ProjectionMargin(const Projector& projector, double at);
