@@ -304,9 +304,9 @@ class FaultsTest(unittest.TestCase):
             #include <new>
             #include <stdexcept>
             #include <fmt/format.h>
-            // Before the program removes them from its environment.
-            static int left = std::atoi(std::getenv("FAILURES"));
-            static const char* const kind = std::getenv("KIND");
+            // The program removes others from its environment.
+            static int left = std::atoi(std::getenv("NACRE_TEST_FAILURES"));
+            static const char* const kind = std::getenv("NACRE_TEST_KIND");
             FMT_BEGIN_NAMESPACE
             std::string vformat(string_view format, format_args arguments) {
               if (left-- > 0) {
@@ -326,7 +326,7 @@ class FaultsTest(unittest.TestCase):
             for failures in 1, 100:
                 with self.subTest(kind=kind, failures=failures):
                     result = run('render', FIRST, '-o', self.out / 'a.png', *SMALL, env=dict(
-                        os.environ, LD_PRELOAD=str(library), KIND=kind, FAILURES=str(failures)))
+                        os.environ, LD_PRELOAD=str(library), NACRE_TEST_KIND=kind, NACRE_TEST_FAILURES=str(failures)))
                     self.assertEqual(result.returncode, 70, result.stderr)
                     self.assertTrue(result.stderr.startswith(words), result.stderr)
                     self.assertEqual(result.stderr.count('error: '), 1)

@@ -2,6 +2,7 @@
 // tests/render/convergence_test.cc: which pixels are told as not settled.
 #include "render/convergence.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "catch.h"
@@ -25,6 +26,7 @@ size_t CountUnsettledOf(double low, double high, size_t levels) {
     for (size_t channel = 0; channel < 3; ++channel) cell->replicate[r][channel][0] = 0.6;
     cell->replicate[r][3][0] = 1;
   }
+  std::fill_n(cell->sampled_share, kCellPixels, 1.0);
   cell->outlined = 1;
   cell->on_outline[0] = cell->sees_background[0] = true;
   cell->coverage[0] = 0.5;
