@@ -186,7 +186,7 @@ int FailPlainly(std::initializer_list<std::string_view> message) {
 // What Run lets through: exceptions before its own reports, while it makes one, and of no known
 // type.
 int main(int argc, char** argv) {
-  nacre::KeepKnownEnvironment(environ);  // where nothing is called before constructors
+  nacre::KeepKnownEnvironment(environ);  // again, for C libraries that do not call Start
   KeepFreedMemory();
   try {
     return Run(argc, argv);

@@ -155,7 +155,7 @@ Scene DistantDust() {
   return scene;
 }
 
-// Over a floor, under a point and a lamp: how bright spheres may be is not known beforehand.
+// Over a floor, under a point and a lamp: no bound is known of how bright the spheres may be.
 Scene DustUnderLamps() {
   Scene scene = Floor(0.05);
   const MaterialId matte = AddMatte(&scene, 0.9);
