@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -73,7 +74,7 @@ ViewKey KeyOfSurfaces(const Scene& scene, const PreparedScene& prepared) {
   return key;
 }
 
-// That of a plan before follows the camera, if it can.
+// That of a plan before follows the camera, or takes over a few spheres, if it can.
 std::shared_ptr<Intersector> FindIntersector(const Scene& scene, const RenderSettings& settings,
                                              PreparedScene* prepared) {
   // A camera on its way around what it looks at, and somewhat away from it.
@@ -81,10 +82,14 @@ std::shared_ptr<Intersector> FindIntersector(const Scene& scene, const RenderSet
   const Vec3d& eye = scene.camera.position;
   const bool shells = settings.intersector == IntersectorChoice::kShells;
   ViewKey key = KeyOfSurfaces(scene, *prepared);
-  key.made = prepared->shapes_made;
   key.numbers.push_back(shells ? 1 : 0);
   Kept<ViewKey, std::shared_ptr<Intersector>>& kept = prepared->intersector;
-  if (kept.IsUpToDate(key) && !kept.value->MoveTo(scene, eye)) kept.Forget();
+  const bool same_shapes =
+      std::exchange(prepared->intersector_shapes, prepared->shapes_made) == prepared->shapes_made;
+  if (kept.IsUpToDate(key) &&
+      !(same_shapes ? kept.value->MoveTo(scene, eye) : kept.value->ChangeSpheres(scene, eye))) {
+    kept.Forget();
+  }
   return kept.Get(key, [&] {
     ++prepared->intersectors_made;
     const double reach =

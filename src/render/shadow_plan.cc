@@ -263,7 +263,8 @@ bool PlanShadows(const Scene& scene, const RenderSettings& settings, const HitsP
   const ViewKey key{
       prepared->intersectors_made,
       prepared->versions.Of(ScenePart::kLights | ScenePart::kCamera | ScenePart::kImage),
-      {static_cast<double>(settings.intersector), settings.general_path ? 1.0 : 0.0}};
+      {static_cast<double>(settings.intersector), settings.general_path ? 1.0 : 0.0,
+       static_cast<double>(prepared->shapes_made)}};
   KnownLights known{prepared->lights.IsUpToDate(key), 0};
   if (!known.found) {
     prepared->lights.Forget();  // in case that an exception ends the search

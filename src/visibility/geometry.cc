@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -49,6 +50,14 @@ bool LacksBack(const Scene& scene, const Mesh& mesh) {
   return scene.image.culling && material < scene.materials.size() &&
          scene.materials[material].single_sided;
 }
+
+// As the tests read it, relative to the camera. Adding 0 turns -0 into 0: some tests would do so,
+// and others not.
+TraceSphere Traced(const Sphere& sphere, const Vec3d& eye) {
+  return {sphere.center - eye + Vec3d(0), sphere.radius};
+}
+
+double ReachOf(const TraceSphere& sphere) { return sphere.center.length() + sphere.radius; }
 
 // Calls move(i) for i < count, on several threads; returns the largest result, or 0.
 template <class Move>
@@ -109,15 +118,39 @@ TraceGeometry MakeTraceGeometry(const Scene& scene, const Vec3d& camera_position
   return geometry;
 }
 
+std::optional<std::vector<ChangedSphere>> ChangeSpheres(const Scene& scene, size_t most,
+                                                        int threads, TraceGeometry* geometry) {
+  if (scene.spheres.size() != geometry->spheres.size()) return std::nullopt;
+  std::mutex mutex;
+  std::vector<ChangedSphere> changed;
+  const double extent = MoveAll(scene.spheres.size(), threads, [&](size_t i) {
+    const TraceSphere now = Traced(scene.spheres[i], geometry->eye);
+    if (!Coincide(now, geometry->spheres[i])) {
+      const std::lock_guard lock(mutex);
+      if (changed.size() <= most) {
+        changed.push_back({static_cast<uint32_t>(i), geometry->spheres[i]});
+      }
+    }
+    return ReachOf(now);
+  });
+  if (changed.size() > most) return std::nullopt;
+  std::sort(changed.begin(), changed.end(),
+            [](const ChangedSphere& a, const ChangedSphere& b) { return a.index < b.index; });
+  for (const ChangedSphere& sphere : changed) {
+    geometry->spheres[sphere.index] = Traced(scene.spheres[sphere.index], geometry->eye);
+  }
+  // Without triangles that is all there is; with them it stays what holds for them, too.
+  geometry->extent = geometry->positions.empty() ? extent : std::max(geometry->extent, extent);
+  return changed;
+}
+
 void MoveGeometry(const Scene& scene, const Vec3d& camera_position, int threads,
                   TraceGeometry* geometry) {
   geometry->eye = camera_position;
   geometry->extent = MoveAll(scene.spheres.size(), threads, [&](size_t i) {
-    const Sphere& sphere = scene.spheres[i];
-    // Adding 0 turns -0 into 0: some tests would do so, and others not.
-    const TraceSphere traced{sphere.center - camera_position + Vec3d(0), sphere.radius};
+    const TraceSphere traced = Traced(scene.spheres[i], camera_position);
     std::construct_at(geometry->spheres.data() + i, traced);
-    return traced.center.length() + traced.radius;
+    return ReachOf(traced);
   });
   Vec3d* to = geometry->positions.data();
   for (const Mesh& mesh : scene.meshes) {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/huge_pages.h"
@@ -58,6 +59,18 @@ struct TraceGeometry {
 
 // Throws Error (kBadInput) when there are more primitives than ids.
 TraceGeometry MakeTraceGeometry(const Scene& scene, const Vec3d& camera_position, int threads = 0);
+
+// A sphere that has changed, and what it was.
+struct ChangedSphere {
+  uint32_t index;
+  TraceSphere before;
+};
+
+// Takes over the spheres of `scene`, whose other shapes are the geometry's, as is its camera.
+// Returns those that have changed, in ascending order; nothing, with the geometry as it was, where
+// these are more than `most`, or there is another number of spheres.
+std::optional<std::vector<ChangedSphere>> ChangeSpheres(const Scene& scene, size_t most,
+                                                        int threads, TraceGeometry* geometry);
 
 // Makes the coordinates of all but shells relative to another camera. `scene` has the same shapes.
 void MoveGeometry(const Scene& scene, const Vec3d& camera_position, int threads,

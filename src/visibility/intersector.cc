@@ -66,6 +66,22 @@ bool Intersector::MoveTo(const Scene& scene, const Vec3d& camera_position) {
   return !AreNested(s.geometry.spheres);
 }
 
+bool Intersector::ChangeSpheres(const Scene& scene, const Vec3d& camera_position) {
+  State& s = *state_;
+  constexpr size_t kMost = 16;
+  const bool meshes = !scene.meshes.empty() || !s.geometry.positions.empty();
+  if (meshes || s.tree || s.boxes || s.HasShells()) return false;
+  if (camera_position != s.geometry.eye) return false;
+  const auto changed = nacre::ChangeSpheres(scene, kMost, s.settings.threads, &s.geometry);
+  if (!changed) return false;
+  if (!s.bins.end.empty()) ChangeBins(s.geometry, *changed, &s.bins);
+  ForgetOccluders();
+  for (LightOccluders& light : s.forgotten) {
+    if (light.bins && !TakeChanged(s.geometry, *changed, &*light.bins)) light.bins.reset();
+  }
+  return true;
+}
+
 bool Intersector::SpheresAreNested() const { return state_->nested; }
 
 bool Intersector::HasTree() const { return state_->tree; }

@@ -67,6 +67,11 @@ class Intersector {
   // nested; a new one must be made.
   bool MoveTo(const Scene& scene, const Vec3d& camera_position);
 
+  // Makes it that of another scene, of whose shapes some spheres alone have changed. Bins stay, and
+  // occluders as after ForgetOccluders. False: it cannot be, because there are trees, other shapes
+  // or many changes, or the camera is another; a new one must be made.
+  bool ChangeSpheres(const Scene& scene, const Vec3d& camera_position);
+
   // Whether so many spheres lie within one another that Closest and Occluded are faster than what
   // is found in bins (shell_tree.h).
   bool SpheresAreNested() const;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "base/parallel.h"
 #include "visibility/cell_lists.h"
@@ -11,27 +13,20 @@
 namespace nacre {
 namespace {
 
-// Indices from first to last; empty if first > last.
-struct IndexRange {
-  uint16_t first, last;
-};
-
-// The columns of cells and the rows of pixels that a sphere may cover. A picture has at most 65536
-// rows.
-struct SphereBox {
-  IndexRange columns, rows;
-};
-
-// The intervals of `size` pixels that [low, high] overlaps, of `count` that begin at pixel `begin`.
-IndexRange IndicesOf(double low, double high, int begin, int size, int count) {
-  const double first = std::max((low - begin) / size, 0.0);
-  const double last = std::min((high - begin) / size, count - 1.0);
-  if (!(last >= 0 && first < count)) return {1, 0};
-  return {static_cast<uint16_t>(first), static_cast<uint16_t>(last)};
+// Calls emit(cell) for each cell that the box overlaps.
+template <class Emit>
+void ForCells(const SphereBins& bins, const SphereBox& box, const Emit& emit) {
+  const auto& [columns, rows] = box;
+  if (rows.first > rows.last) return;
+  for (int row = rows.first / kCellSize; row <= rows.last / kCellSize; ++row) {
+    for (int column = columns.first; column <= columns.last; ++column) {
+      emit(bins.Cell(column, row));
+    }
+  }
 }
 
 // A cell's pixel rows that lie in the range, as bits.
-uint16_t RowsOfCell(const IndexRange& rows, size_t cell_row) {
+uint16_t RowsOfCell(const SphereBox::Range& rows, size_t cell_row) {
   const int cell_begin = static_cast<int>(cell_row) * kCellSize;
   const int first = std::max(rows.first - cell_begin, 0);
   const int last = std::min(rows.last - cell_begin, kCellSize - 1);
@@ -62,10 +57,9 @@ FilmPoint ProjectPoint(const Projector& projector, const Vec3d& point) {
           point.dot(projector.down) * scale + projector.middle_y};
 }
 
-// A thousandth of a pixel and a billionth of the film coordinate. The last term is the rounding of
-// directions of length 1, which matters for telephoto lenses, whose pixels are that small.
 double ProjectionMargin(const Projector& projector, double at) {
-  return 1e-3 + kRelativeProjectionMargin * std::abs(at) + 1e-15 * projector.inverse_pixel;
+  return kProjectionMargin + kRelativeProjectionMargin * std::abs(at) +
+         kDirectionRounding * projector.inverse_pixel;
 }
 
 ProjectedBounds ProjectClosely(const Projector& p, const TraceSphere& sphere) {
@@ -85,9 +79,8 @@ ProjectedBounds ProjectClosely(const Projector& p, const TraceSphere& sphere) {
   bounds.x1 = across.high * p.inverse_pixel + p.middle_x;
   bounds.y0 = along.low * p.inverse_pixel + p.middle_y;
   bounds.y1 = along.high * p.inverse_pixel + p.middle_y;
-  // A few units in the last place of the terms above, and of directions of length 1.
   const auto rounding = [&](double at, double middle) {
-    return 8 * 0x1p-52 * (std::abs(at - middle) + std::abs(middle) + p.inverse_pixel);
+    return kProjectionRounding * (std::abs(at - middle) + std::abs(middle) + p.inverse_pixel);
   };
   bounds.x0 -= rounding(bounds.x0, p.middle_x);
   bounds.x1 += rounding(bounds.x1, p.middle_x);
@@ -117,24 +110,9 @@ bool BinSpheres(const TraceGeometry& geometry, const CameraFrame& frame, const W
   HugeArray<SphereBox> boxes(geometry.spheres.size());
   ParallelFor(CellListPieces(boxes.size()), threads, [&](size_t piece) {
     const auto [begin, end] = CellListPiece(boxes.size(), piece);
-    for (size_t i = begin; i < end; ++i) {
-      const ProjectedBounds b = Project(bins->projector, geometry.spheres[i]);
-      boxes[i] = {
-          IndicesOf(b.x0 - sample_margin, b.x1 + sample_margin, window.x0, kCellSize,
-                    bins->columns),
-          IndicesOf(b.y0 - sample_margin, b.y1 + sample_margin, window.y0, 1, window.height())};
-      if (!b.visible) boxes[i].rows = {1, 0};
-    }
+    FindBoxes(*bins, geometry.spheres.data() + begin, end - begin, boxes.data() + begin);
   });
-  const auto for_cells = [&](size_t i, const auto& emit) {
-    const auto& [columns, rows] = boxes[i];
-    if (rows.first > rows.last) return;
-    for (int row = rows.first / kCellSize; row <= rows.last / kCellSize; ++row) {
-      for (int column = columns.first; column <= columns.last; ++column) {
-        emit(bins->Cell(column, row));
-      }
-    }
-  };
+  const auto for_cells = [&](size_t i, const auto& emit) { ForCells(*bins, boxes[i], emit); };
   const size_t cells = static_cast<size_t>(bins->columns) * static_cast<size_t>(bins->rows);
   const bool fits = SortIntoCells(
       geometry.spheres.size(), cells, max_entries, threads, for_cells, &bins->end,
@@ -149,6 +127,71 @@ bool BinSpheres(const TraceGeometry& geometry, const CameraFrame& frame, const W
       });
   if (!fits) *bins = {};
   return fits;
+}
+
+void ChangeBins(const TraceGeometry& geometry, const std::vector<ChangedSphere>& changed,
+                SphereBins* bins) {
+  struct Entry {
+    size_t cell;
+    uint32_t sphere;
+    uint16_t pixel_rows;
+    bool operator<(const Entry& other) const {
+      return std::tie(cell, sphere) < std::tie(other.cell, other.sphere);
+    }
+  };
+  std::vector<Entry> gone, come;
+  for (const auto& [index, before] : changed) {
+    const auto add_to = [&](std::vector<Entry>* entries, const TraceSphere& sphere) {
+      SphereBox box;
+      FindBoxes(*bins, &sphere, 1, &box);
+      ForCells(*bins, box, [&](size_t cell) {
+        const size_t row = cell / static_cast<size_t>(bins->columns);
+        entries->push_back({cell, index, RowsOfCell(box.rows, row)});
+      });
+    };
+    add_to(&gone, before);
+    add_to(&come, geometry.spheres[index]);
+  }
+  std::sort(gone.begin(), gone.end());
+  std::sort(come.begin(), come.end());
+  const size_t size = bins->spheres.size() - gone.size() + come.size();
+  HugeArray<uint32_t> spheres(size);
+  HugeArray<uint16_t> pixel_rows(size);
+  uint32_t from = 0, to = 0;
+  const auto copy_until = [&](uint32_t end) {
+    std::copy(bins->spheres.data() + from, bins->spheres.data() + end, spheres.data() + to);
+    std::copy(bins->pixel_rows.data() + from, bins->pixel_rows.data() + end,
+              pixel_rows.data() + to);
+    to += end - from;
+    from = end;
+  };
+  auto next_gone = gone.begin(), next_come = come.begin();
+  for (size_t cell = 0; cell < bins->end.size(); ++cell) {
+    const uint32_t end = bins->end[cell];
+    const auto place_of = [&](uint32_t sphere) {
+      const uint32_t* const list = bins->spheres.data();
+      return static_cast<uint32_t>(std::lower_bound(list + from, list + end, sphere) - list);
+    };
+    for (;;) {
+      const bool goes = next_gone != gone.end() && next_gone->cell == cell;
+      const bool comes = next_come != come.end() && next_come->cell == cell;
+      if (!goes && !comes) break;
+      if (goes && (!comes || next_gone->sphere <= next_come->sphere)) {
+        copy_until(place_of(next_gone->sphere));
+        ++from;
+        ++next_gone;
+      } else {
+        copy_until(place_of(next_come->sphere));
+        spheres[to] = next_come->sphere;
+        pixel_rows[to++] = next_come->pixel_rows;
+        ++next_come;
+      }
+    }
+    copy_until(end);
+    bins->end[cell] = to;
+  }
+  bins->spheres = std::move(spheres);
+  bins->pixel_rows = std::move(pixel_rows);
 }
 
 }  // namespace nacre

@@ -26,10 +26,10 @@ inline Window ExtendToCells(const Window& window) {
 
 // A camera's projection from camera space to pixels.
 struct Projector {
-  bool perspective;
-  Vec3d right, down, forward;  // unit axes
-  double inverse_pixel;        // pixels per slope; orthographic: per length
-  double middle_x, middle_y;   // where the axis `forward` crosses the film, in pixels
+  bool perspective = true;
+  Vec3d right{1, 0, 0}, down{0, -1, 0}, forward{0, 0, -1};  // unit axes
+  double inverse_pixel = 1;           // pixels per slope; orthographic: per length
+  double middle_x = 0, middle_y = 0;  // where the axis `forward` crosses the film, in pixels
 };
 
 Projector MakeProjector(const CameraFrame& frame);
@@ -59,8 +59,13 @@ ProjectedBounds ProjectClosely(const Projector& projector, const TraceSphere& sp
 
 // An upper bound of the rounding errors of bounds and rays at this film coordinate.
 double ProjectionMargin(const Projector& projector, double at);
-inline constexpr double kRelativeProjectionMargin =
-    1e-9;  // the part proportional to the coordinate
+// A thousandth of a pixel, a billionth of the film coordinate, and the rounding of directions of
+// length 1, which matters for telephoto lenses, whose pixels are that small.
+inline constexpr double kProjectionMargin = 1e-3;
+inline constexpr double kRelativeProjectionMargin = 1e-9;
+inline constexpr double kDirectionRounding = 1e-15;
+// That of ProjectClosely: a few units in the last place of its terms and of directions of length 1.
+inline constexpr double kProjectionRounding = 8 * 0x1p-52;
 
 // For each cell the spheres that any of its camera rays could hit, in ascending order.
 struct SphereBins {
@@ -79,6 +84,18 @@ struct SphereBins {
   uint32_t Begin(size_t cell) const { return cell == 0 ? 0 : end[cell - 1]; }
 };
 
+// The columns of cells and the rows of pixels that a sphere may cover: from first to last, none if
+// first > last. A picture has at most 65536 rows.
+struct SphereBox {
+  struct Range {
+    uint16_t first, last;
+  };
+  Range columns, rows;
+};
+
+// Those of the bins' camera, window and margin: the bounds of Project.
+void FindBoxes(const SphereBins& bins, const TraceSphere* spheres, size_t count, SphereBox* boxes);
+
 // The sample margin of samples that are all pixel centres: half a pixel inside the border.
 inline constexpr double kPixelCenterMargin = -0.5;
 
@@ -87,5 +104,9 @@ inline constexpr double kPixelCenterMargin = -0.5;
 // picture.
 bool BinSpheres(const TraceGeometry& geometry, const CameraFrame& frame, const Window& window,
                 double sample_margin, size_t max_entries, int threads, SphereBins* bins);
+
+// Makes them those of spheres of which these have changed, as BinSpheres would.
+void ChangeBins(const TraceGeometry& geometry, const std::vector<ChangedSphere>& changed,
+                SphereBins* bins);
 
 }  // namespace nacre

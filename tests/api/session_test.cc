@@ -5,6 +5,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <string>
 #include <thread>
 #include <vector>
@@ -68,6 +69,55 @@ TEST_CASE("a session's pictures are those of its scene, change by change and bac
   session.Set("/image/height", 9);
   session.Set("/image/width", 12);
   CHECK(session.Render().width() == 12);
+}
+
+// Of more spheres than occluders are listed of: what is binned follows a sphere, a camera, or both.
+TEST_CASE("a session of many spheres, sphere by sphere") {
+  std::mt19937 random(5);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  nacre::Scene scene;
+  scene.AddMaterial("grey", {{"model", "blinn_phong"}, {"kd", 0.5}, {"ks", 0.3}});
+  scene.AddLight("lamp", {{"type", "point"}, {"position", {2, 4, 5}}, {"intensity", 60}});
+  scene.AddLight(
+      "sun", {{"type", "directional"}, {"direction_of_travel", {-1, -2, -1}}, {"irradiance", 1}});
+  for (int i = 0; i < 400; ++i) {
+    scene.AddShape({{"type", "sphere"},
+                    {"center", {uniform(-2, 2), uniform(-2, 2), uniform(-3, 2)}},
+                    {"radius", uniform(0.05, 0.3)},
+                    {"material", "grey"}});
+  }
+  scene.Set("/camera/position", {0, 0, 7});
+  nacre::Session session(scene);
+  const auto set = [&](const std::string& pointer, const nacre::Value& value) {
+    scene.Set(pointer, value);
+    session.Set(pointer, value);
+  };
+  const auto sphere = [&] {
+    return "/shapes/" + std::to_string(std::uniform_int_distribution<int>(0, 399)(random));
+  };
+  CheckEqual(session.Render(Small()), nacre::Render(scene, Small()));
+  for (int step = 0; step < 48; ++step) {
+    INFO("step " << step);
+    const std::string shape = sphere();
+    if (step % 3 == 0) set(shape + "/radius", step % 9 == 0 ? 1.0 : 0.4);
+    if (step % 3 == 1) {
+      for (int i = 0; i < (step % 12 == 1 ? 20 : 2); ++i) {
+        set(sphere() + "/center", {uniform(-2, 2), uniform(-2, 2), uniform(-3, 9)});
+      }
+    }
+    if (step % 3 == 2) {
+      set("/shapes/7/center", {0.3, 0.2, 3});  // twice the same, and as another one
+      set("/shapes/7/radius", 0.5);
+      set("/shapes/" + std::to_string(step) + "/radius", 0.5);
+      set("/shapes/" + std::to_string(step) + "/center", {0.3, 0.2, 3});
+    }
+    if (step % 5 == 0) set("/camera/position", {uniform(-1, 1), uniform(-1, 1), 7});
+    if (step % 7 == 0) set("/lights/lamp/position", {uniform(-3, 3), 4, 5});
+    if (step % 11 == 0) set("/image/spp", step % 2 == 0 ? 1 : 3);
+    CheckEqual(session.Render(Small()), nacre::Render(scene, Small()));
+  }
 }
 
 TEST_CASE("a session refuses what is wrong, and keeps its scene") {

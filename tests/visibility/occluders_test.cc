@@ -338,6 +338,57 @@ TEST_CASE("bins of a camera that has moved are those of a new one") {
   });
 }
 
+// Spheres that leave, come near, grow around everything, shrink, and coincide with others or part.
+TEST_CASE("bins of spheres that have changed are those of new ones") {
+  Random random(59);
+  Scene scene = RandomSpheres(&random, 3000);
+  scene.spheres[40] = scene.spheres[41];
+  const std::vector<Light> lights = {PointAt({1, 4, -2}), SunAlong({0.3, -1, 0.2})};
+  const std::vector<Ray> camera_rays = CameraRays(&random, 600);
+  const Vec3d eye(0.2, 0.1, 0);
+  Intersector changing(scene, eye, {.tree = false});
+  changing.FindOccluders({&lights[0], &lights[1]}, false);
+  const auto check = [&] {
+    REQUIRE(changing.ChangeSpheres(scene, eye));
+    changing.FindOccluders({&lights[0], &lights[1]}, false);
+    const Intersector fresh(scene, eye);
+    const std::vector<Surface> surfaces = TraceSurfaces(fresh, camera_rays);
+    for (uint32_t light = 0; light < 2; ++light) {
+      const std::vector<ShadowRay> rays = RaysTo(lights[light], eye, surfaces);
+      REQUIRE(changing.Occluders(light).bins);
+      ForEachTarget([&](Target) {
+        for (const bool outward : {false, true}) {
+          CHECK(TraceShadows(changing, rays, light, outward) ==
+                TraceShadows(fresh, rays, kAnyLight, outward));
+        }
+      });
+    }
+  };
+  check();
+  scene.spheres[7] = MakeSphere({0, 0, -3}, 1.5);
+  check();
+  scene.spheres[8] = scene.spheres[7];  // now they coincide, of which 7 has changed before
+  check();
+  scene.spheres[9] = scene.spheres[10];  // of which one has never changed
+  scene.spheres[7] = MakeSphere({1e4, 0, 0}, 2);
+  check();
+  scene.spheres[40].center.y += 0.1;  // it leaves the one that it coincided with
+  scene.spheres[41].radius *= 5;
+  check();
+  for (int i = 0; i < 30; ++i) {  // more than rays are tested against one by one
+    const auto k = static_cast<size_t>(random.Uniform(0, 3000));
+    scene.spheres[k] =
+        MakeSphere(random.InBox({-2, -2, -7}, {2, 2, 0.5}), random.Magnitude(0.01, 1));
+    check();
+  }
+  scene.spheres.pop_back();
+  CHECK_FALSE(changing.ChangeSpheres(scene, eye));
+  scene.spheres.push_back(scene.spheres[0]);
+  CHECK_FALSE(changing.ChangeSpheres(scene, Vec3d(0)));
+  for (size_t i = 0; i < 100; ++i) scene.spheres[i].radius *= 2;
+  CHECK_FALSE(changing.ChangeSpheres(scene, eye));
+}
+
 TEST_CASE("bins are those of the light that is asked for") {
   Random random(58);
   const Scene scene = RandomSpheres(&random, 3000);

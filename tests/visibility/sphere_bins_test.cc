@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// tests/visibility/sphere_bins_test.cc: bins of spheres that change.
+#include "visibility/sphere_bins.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "catch.h"
+#include "targets.h"
+#include "visibility/rays.h"
+
+namespace nacre {
+namespace {
+
+template <class T>
+std::vector<T> Copy(const HugeArray<T>& array) {
+  return {array.begin(), array.end()};
+}
+
+TEST_CASE("bins of spheres that have changed are those that are made anew") {
+  Random random(71);
+  Scene scene = RandomSpheres(&random, 500);
+  const Vec3d eye(0.1, 0, 0.3);
+  CameraFrame frame;  // along -z
+  frame.projection = GENERATE(Projection::kPerspective, Projection::kOrthographic);
+  frame.forward = {0, 0, -1};
+  const double pixel = frame.projection == Projection::kPerspective ? 0.01 : 0.04;
+  frame.step_x = {pixel, 0, 0};
+  frame.step_y = {0, -pixel, 0};
+  frame.corner = frame.forward - (frame.step_x * 200 + frame.step_y * 100) / 2;
+  const Window window{16, 0, 150, 90};
+  const double margin = GENERATE(kPixelCenterMargin, 1.5);
+  TraceGeometry geometry = MakeTraceGeometry(scene, eye);
+  SphereBins bins;
+  REQUIRE(BinSpheres(geometry, frame, window, margin, 1u << 20, 2, &bins));
+  size_t moved = 0;
+  for (int step = 0; step < 60; ++step) {
+    // One or more, some of which come in view or leave it, or lie about the camera.
+    const int count = step % 4 == 0 ? 5 : 1;
+    for (int i = 0; i < count; ++i) {
+      const auto k = static_cast<size_t>(random.Uniform(0, 500));
+      scene.spheres[k] = MakeSphere(random.InBox({-6, -4, -7}, {6, 4, 2}),
+                                    random.Magnitude(0.01, step % 10 == 0 ? 3 : 0.3));
+    }
+    const auto changed = ChangeSpheres(scene, 8, 2, &geometry);
+    REQUIRE(changed);
+    ChangeBins(geometry, *changed, &bins);
+    SphereBins fresh;
+    REQUIRE(BinSpheres(MakeTraceGeometry(scene, eye), frame, window, margin, 1u << 20, 1, &fresh));
+    moved += Copy(bins.spheres).size();
+    REQUIRE(bins.end == fresh.end);
+    REQUIRE(Copy(bins.spheres) == Copy(fresh.spheres));
+    REQUIRE(Copy(bins.pixel_rows) == Copy(fresh.pixel_rows));
+    REQUIRE(geometry.extent == MakeTraceGeometry(scene, eye).extent);
+  }
+  CHECK(moved > 1000);
+}
+
+// What overlaps the bounds of Project: the twin of the kernel.
+SphereBox::Range Overlapped(double low, double high, int begin, int size, int count) {
+  const double first = std::max((low - begin) / size, 0.0);
+  const double last = std::min((high - begin) / size, count - 1.0);
+  if (!(last >= 0 && first < count)) return {1, 0};
+  return {static_cast<uint16_t>(first), static_cast<uint16_t>(last)};
+}
+
+TEST_CASE("boxes of spheres are those of their projections on every target") {
+  Random random(72);
+  const auto projection = GENERATE(Projection::kPerspective, Projection::kOrthographic);
+  const double pixel = GENERATE(1e-9, 0.01, 0.3);  // of slope, or of length
+  const Window window = GENERATE(Window{16, 0, 150, 90}, Window{0, 32, 16, 48});
+  const double margin = GENERATE(kPixelCenterMargin, 0.0, 1.5);
+  std::vector<TraceSphere> spheres(1001);  // of no multiple of a vector
+  for (TraceSphere& sphere : spheres) {
+    const double depth = random.Magnitude(1e-3, 1e6);
+    const auto across = [&] { return random.Uniform(-150, 300) * pixel; };
+    sphere = {{across() * depth, across() * depth, -depth}, depth * random.Magnitude(1e-6, 10)};
+    if (random.Uniform(0, 1) < 0.2) sphere.center = random.InBox({-2, -2, -2}, {2, 2, 2});
+    if (random.Uniform(0, 1) < 0.1)
+      sphere.radius = -sphere.center.z;  // it touches the camera's plane
+  }
+  SphereBins made;
+  CameraFrame frame;
+  frame.projection = projection;
+  frame.forward = {0, 0, -1};
+  frame.step_x = {pixel, 0, 0};
+  frame.step_y = {0, -pixel, 0};
+  frame.corner = frame.forward - (frame.step_x * 166 + frame.step_y * 96) / 2;
+  REQUIRE(BinSpheres({}, frame, window, margin, 1u << 20, 1, &made));
+  size_t seen = 0;
+  ForEachTarget([&](Target) {
+    std::vector<SphereBox> boxes(spheres.size());
+    FindBoxes(made, spheres.data(), spheres.size(), boxes.data());
+    for (size_t i = 0; i < spheres.size(); ++i) {
+      const ProjectedBounds b = Project(made.projector, spheres[i]);
+      const SphereBox::Range none{1, 0};
+      const auto columns =
+          b.visible ? Overlapped(b.x0 - margin, b.x1 + margin, window.x0, kCellSize, made.columns)
+                    : none;
+      const auto rows =
+          b.visible ? Overlapped(b.y0 - margin, b.y1 + margin, window.y0, 1, window.height())
+                    : none;
+      INFO(i);
+      REQUIRE(boxes[i].columns.first == columns.first);
+      REQUIRE(boxes[i].columns.last == columns.last);
+      REQUIRE(boxes[i].rows.first == rows.first);
+      REQUIRE(boxes[i].rows.last == rows.last);
+      seen += columns.first <= columns.last && rows.first <= rows.last ? 1 : 0;
+    }
+  });
+  CHECK(seen > 100);
+}
+
+}  // namespace
+}  // namespace nacre
