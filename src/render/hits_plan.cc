@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -84,12 +83,17 @@ std::shared_ptr<Intersector> FindIntersector(const Scene& scene, const RenderSet
   ViewKey key = KeyOfSurfaces(scene, *prepared);
   key.numbers.push_back(shells ? 1 : 0);
   Kept<ViewKey, std::shared_ptr<Intersector>>& kept = prepared->intersector;
-  const bool same_shapes =
-      std::exchange(prepared->intersector_shapes, prepared->shapes_made) == prepared->shapes_made;
-  if (kept.IsUpToDate(key) &&
-      !(same_shapes ? kept.value->MoveTo(scene, eye) : kept.value->ChangeSpheres(scene, eye))) {
-    kept.Forget();
+  if (kept.IsUpToDate(key)) {
+    kept.Forget();  // what follows may throw halfway
+    if (prepared->intersector_shapes == prepared->shapes_made) {
+      if (kept.value->MoveTo(scene, eye)) kept.Set(key, kept.value);
+    } else if (kept.value->ChangeSpheres(scene, eye)) {
+      kept.Set(key, kept.value);
+      // Bins that had no room may have it now.
+      if (!prepared->camera_bins.value) prepared->camera_bins.Forget();
+    }
   }
+  prepared->intersector_shapes = prepared->shapes_made;
   return kept.Get(key, [&] {
     ++prepared->intersectors_made;
     const double reach =
@@ -151,8 +155,7 @@ HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Wind
       EmbreeVersion() != nullptr) {
     work = EstimateCameraWork(scene, camera, window);
     work.to_bin = !prepared->camera_bins.IsUpToDate(bins);
-    double& lost =
-        prepared->lost_to_tiles.Get({prepared->intersectors_made, {}, {}}, [] { return 0.0; });
+    double& lost = prepared->lost_to_tiles.Get({prepared->shapes_made, {}, {}}, [] { return 0.0; });
     tree_pays_off = TreePaysOff(work, plan.intersector->HasTree(), &lost);
   }
   const bool want_tiles = may_tile && !tree_pays_off;

@@ -104,7 +104,7 @@ struct PreparedScene {
   Kept<ViewKey, bool> eye_outside;
   Kept<ViewKey, std::vector<Window>> mesh_windows;
   Kept<ViewKey, bool> camera_bins;       // the result of BinForCamera
-  Kept<ViewKey, double> lost_to_tiles;   // TreePaysOff's, of this intersector
+  Kept<ViewKey, double> lost_to_tiles;   // TreePaysOff's, of these shapes
   Kept<ViewKey, std::monostate> lights;  // whether the intersector has the lights' occluders
 
   KeptHashes hashes;

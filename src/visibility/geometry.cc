@@ -3,6 +3,7 @@
 #include "visibility/geometry.h"
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -122,23 +123,20 @@ std::optional<std::vector<ChangedSphere>> ChangeSpheres(const Scene& scene, size
                                                         int threads, TraceGeometry* geometry) {
   if (scene.spheres.size() != geometry->spheres.size()) return std::nullopt;
   std::mutex mutex;
+  std::atomic<size_t> count = 0;
   std::vector<ChangedSphere> changed;
   const double extent = MoveAll(scene.spheres.size(), threads, [&](size_t i) {
     const TraceSphere now = Traced(scene.spheres[i], geometry->eye);
-    if (!Coincide(now, geometry->spheres[i])) {
+    if (!Coincide(now, geometry->spheres[i]) && count.fetch_add(1) < most) {
       const std::lock_guard lock(mutex);
-      if (changed.size() <= most) {
-        changed.push_back({static_cast<uint32_t>(i), geometry->spheres[i]});
-      }
+      changed.push_back({static_cast<uint32_t>(i), geometry->spheres[i], now});
     }
     return ReachOf(now);
   });
-  if (changed.size() > most) return std::nullopt;
+  if (count > most) return std::nullopt;
   std::sort(changed.begin(), changed.end(),
             [](const ChangedSphere& a, const ChangedSphere& b) { return a.index < b.index; });
-  for (const ChangedSphere& sphere : changed) {
-    geometry->spheres[sphere.index] = Traced(scene.spheres[sphere.index], geometry->eye);
-  }
+  for (const ChangedSphere& sphere : changed) geometry->spheres[sphere.index] = sphere.now;
   // Without triangles that is all there is; with them it stays what holds for them, too.
   geometry->extent = geometry->positions.empty() ? extent : std::max(geometry->extent, extent);
   return changed;

@@ -60,10 +60,10 @@ struct TraceGeometry {
 // Throws Error (kBadInput) when there are more primitives than ids.
 TraceGeometry MakeTraceGeometry(const Scene& scene, const Vec3d& camera_position, int threads = 0);
 
-// A sphere that has changed, and what it was.
+// A sphere that has changed, what it was and what it is.
 struct ChangedSphere {
   uint32_t index;
-  TraceSphere before;
+  TraceSphere before, now;
 };
 
 // Takes over the spheres of `scene`, whose other shapes are the geometry's, as is its camera.

@@ -15,6 +15,10 @@
 
 namespace nacre {
 
+// An entry is the number of a sphere and its pixel rows.
+static constexpr size_t kMaxCameraBinEntries =
+    kMaxCameraBinBytes / (sizeof(uint32_t) + sizeof(uint16_t));
+
 // Trees hold pointers to the geometry.
 struct Intersector::State {
   IntersectorSettings settings;
@@ -60,6 +64,7 @@ bool Intersector::MoveTo(const Scene& scene, const Vec3d& camera_position) {
   State& s = *state_;
   if (camera_position == s.geometry.eye) return true;
   if (s.HasShells() || (s.boxes && !s.boxes->Serve(camera_position))) return false;
+  s.bins = {};
   MoveGeometry(scene, camera_position, s.settings.threads, &s.geometry);
   ForgetOccluders();
   // Spheres that nearly are nested may be by the roundings of other coordinates.
@@ -74,12 +79,12 @@ bool Intersector::ChangeSpheres(const Scene& scene, const Vec3d& camera_position
   if (camera_position != s.geometry.eye) return false;
   const auto changed = nacre::ChangeSpheres(scene, kMost, s.settings.threads, &s.geometry);
   if (!changed) return false;
-  if (!s.bins.end.empty()) ChangeBins(s.geometry, *changed, &s.bins);
+  if (!s.bins.end.empty() && !ChangeBins(*changed, kMaxCameraBinEntries, &s.bins)) return false;
   ForgetOccluders();
   for (LightOccluders& light : s.forgotten) {
-    if (light.bins && !TakeChanged(s.geometry, *changed, &*light.bins)) light.bins.reset();
+    if (light.bins && !TakeChanged(*changed, &*light.bins)) light.bins.reset();
   }
-  return true;
+  return !AreNested(s.geometry.spheres);
 }
 
 bool Intersector::SpheresAreNested() const { return state_->nested; }
@@ -115,10 +120,8 @@ bool Intersector::SphereIsFirst(uint32_t sphere, const RayBatch& rays, size_t ra
 
 bool Intersector::BinForCamera(const CameraFrame& frame, const Window& window,
                                double sample_margin) {
-  // An entry is the number of a sphere and its pixel rows.
-  constexpr size_t kMaxEntries = kMaxCameraBinBytes / (sizeof(uint32_t) + sizeof(uint16_t));
   state_->camera = frame;
-  return BinSpheres(state_->geometry, frame, window, sample_margin, kMaxEntries,
+  return BinSpheres(state_->geometry, frame, window, sample_margin, kMaxCameraBinEntries,
                     state_->settings.threads, &state_->bins);
 }
 

@@ -362,25 +362,15 @@ bool MoveBins(const TraceGeometry& geometry, LightBins* bins) {
 }
 
 // Where a changed sphere was it is still an entry, which proposes it as a candidate in vain: the
-// exact test reads the geometry. `large` holds with each sphere all that coincide with it, by which
-// a ray knows the surface that it starts on.
-bool TakeChanged(const TraceGeometry& geometry, const std::vector<ChangedSphere>& changed,
-                 LightBins* bins) {
-  constexpr size_t kMostTaken = 8;
-  std::vector<uint32_t> large = bins->large;
+// exact test reads the geometry.
+bool TakeChanged(const std::vector<ChangedSphere>& changed, LightBins* bins) {
+  constexpr size_t kMost = 8;
   for (const ChangedSphere& sphere : changed) {
-    const TraceSphere& now = geometry.spheres[sphere.index];
-    for (uint32_t i = 0; i < geometry.SphereCount(); ++i) {
-      if (!Coincide(now, geometry.spheres[i])) continue;
-      const auto place = std::lower_bound(large.begin(), large.end(), i);
-      if (place != large.end() && *place == i) continue;
-      if (++bins->taken > kMostTaken) return false;
-      large.insert(place, i);
-    }
+    const auto end = bins->changed.end();
+    if (std::find(bins->changed.begin(), end, sphere.index) != end) continue;
+    bins->changed.push_back(sphere.index);
   }
-  bins->large = std::move(large);
-  bins->large_first = FindFirstCoincident(geometry.spheres, bins->large);
-  return true;
+  return bins->changed.size() <= kMost;
 }
 
 }  // namespace nacre

@@ -76,11 +76,9 @@ struct LightBins {
   std::vector<uint32_t> end;       // where each cell's list ends
   HugeArray<BinnedSphere> binned;  // cell by cell, padded by a vector
   HugeArray<uint32_t> spheres;     // their indices
-  // Spheres that every ray is tested against, in ascending order: those that cover many cells, and
-  // those that have changed since (TakeChanged).
-  std::vector<uint32_t> large;
+  std::vector<uint32_t> large;     // spheres that every ray is tested against, in ascending order
   std::vector<uint32_t> large_first;  // for each of them the first one that coincides with it
-  size_t taken = 0;                   // how many TakeChanged has added
+  std::vector<uint32_t> changed;  // since they were binned: every ray is tested against these, too
 
   bool overfull = false;  // there would be too many entries, and no sphere is binned
 
@@ -113,10 +111,9 @@ LightBins BinForLight(const TraceGeometry& geometry, const ShadowLight& light, s
 // too far, and they must be made again.
 bool MoveBins(const TraceGeometry& geometry, LightBins* bins);
 
-// Makes them hold for spheres of which these have changed: every ray is tested against them and
-// those that they coincide with now. False: they would be too many, and bins must be made again.
-bool TakeChanged(const TraceGeometry& geometry, const std::vector<ChangedSphere>& changed,
-                 LightBins* bins);
+// Makes them hold for spheres of which these have changed. False: every ray would be tested against
+// too many, and bins must be made again.
+bool TakeChanged(const std::vector<ChangedSphere>& changed, LightBins* bins);
 
 // Memory budget, in entries, for the bins of all lights together.
 inline constexpr size_t kBinEntryBudget = size_t{1} << 19;

@@ -307,6 +307,24 @@ HWY_INLINE void TestLarge(const TraceGeometry& geometry, const LightBins& bins,
   }
 }
 
+// Sets `occluded` where a sphere that has changed occludes the ray.
+HWY_INLINE void TestChanged(const TraceGeometry& geometry, const LightBins& bins,
+                            ShadowRayBatch* rays) {
+  for (const uint32_t sphere : bins.changed) {
+    for (size_t first = 0; first < rays->count; first += kMaxPacketWidth) {
+      const size_t count = std::min<size_t>(kMaxPacketWidth, rays->count - first);
+      uint32_t left = 0;
+      for (size_t lane = 0; lane < count; ++lane) {
+        left |= static_cast<uint32_t>(rays->occluded[first + lane] == 0) << lane;
+      }
+      for (uint32_t hit = LanesOccludedBy(geometry, sphere, *rays, first, left); hit != 0;
+           hit &= hit - 1) {
+        rays->occluded[first + static_cast<size_t>(__builtin_ctz(hit))] = 1;
+      }
+    }
+  }
+}
+
 // Starts fetching the spheres of a ray's cell.
 HWY_INLINE void Prefetch(const LightBins& bins, uint32_t cell) {
   if (cell == kNoCell) return;
@@ -319,6 +337,7 @@ void OccludedByBinsT(const TraceGeometry& geometry, const LightBins& bins, Shado
   LightSpaceRays local;
   ToLightSpace(bins, *rays, &local);
   TestLarge(geometry, bins, rays);
+  TestChanged(geometry, bins, rays);
   constexpr size_t kAhead = 4;
   constexpr size_t kRun = 6;  // runs at least as long are tested as vectors of rays
   for (size_t i = 0, end = 0; i < rays->count; i = end) {

@@ -101,36 +101,36 @@ ProjectedBounds Project(const Projector& p, const TraceSphere& sphere) {
 
 bool BinSpheres(const TraceGeometry& geometry, const CameraFrame& frame, const Window& window,
                 double sample_margin, size_t max_entries, int threads, SphereBins* bins) {
-  *bins = {};
-  bins->window = window;
-  bins->sample_margin = sample_margin;
-  bins->columns = (window.width() + kCellSize - 1) / kCellSize;
-  bins->rows = (window.height() + kCellSize - 1) / kCellSize;
-  bins->projector = MakeProjector(frame);
+  *bins = {};  // which they stay where memory runs out
+  SphereBins made;
+  made.window = window;
+  made.sample_margin = sample_margin;
+  made.columns = (window.width() + kCellSize - 1) / kCellSize;
+  made.rows = (window.height() + kCellSize - 1) / kCellSize;
+  made.projector = MakeProjector(frame);
   HugeArray<SphereBox> boxes(geometry.spheres.size());
   ParallelFor(CellListPieces(boxes.size()), threads, [&](size_t piece) {
     const auto [begin, end] = CellListPiece(boxes.size(), piece);
-    FindBoxes(*bins, geometry.spheres.data() + begin, end - begin, boxes.data() + begin);
+    FindBoxes(made, geometry.spheres.data() + begin, end - begin, boxes.data() + begin);
   });
-  const auto for_cells = [&](size_t i, const auto& emit) { ForCells(*bins, boxes[i], emit); };
-  const size_t cells = static_cast<size_t>(bins->columns) * static_cast<size_t>(bins->rows);
+  const auto for_cells = [&](size_t i, const auto& emit) { ForCells(made, boxes[i], emit); };
+  const size_t cells = static_cast<size_t>(made.columns) * static_cast<size_t>(made.rows);
   const bool fits = SortIntoCells(
-      geometry.spheres.size(), cells, max_entries, threads, for_cells, &bins->end,
+      geometry.spheres.size(), cells, max_entries, threads, for_cells, &made.end,
       [&](size_t entries) {
-        bins->spheres = HugeArray<uint32_t>(entries);
-        bins->pixel_rows = HugeArray<uint16_t>(entries);
+        made.spheres = HugeArray<uint32_t>(entries);
+        made.pixel_rows = HugeArray<uint16_t>(entries);
       },
       [&](size_t i, size_t cell, uint32_t position) {
-        bins->spheres[position] = static_cast<uint32_t>(i);
-        bins->pixel_rows[position] =
-            RowsOfCell(boxes[i].rows, cell / static_cast<size_t>(bins->columns));
+        made.spheres[position] = static_cast<uint32_t>(i);
+        made.pixel_rows[position] =
+            RowsOfCell(boxes[i].rows, cell / static_cast<size_t>(made.columns));
       });
-  if (!fits) *bins = {};
+  if (fits) *bins = std::move(made);
   return fits;
 }
 
-void ChangeBins(const TraceGeometry& geometry, const std::vector<ChangedSphere>& changed,
-                SphereBins* bins) {
+bool ChangeBins(const std::vector<ChangedSphere>& changed, size_t max_entries, SphereBins* bins) {
   struct Entry {
     size_t cell;
     uint32_t sphere;
@@ -140,7 +140,8 @@ void ChangeBins(const TraceGeometry& geometry, const std::vector<ChangedSphere>&
     }
   };
   std::vector<Entry> gone, come;
-  for (const auto& [index, before] : changed) {
+  for (const ChangedSphere& changed_sphere : changed) {
+    const uint32_t index = changed_sphere.index;
     const auto add_to = [&](std::vector<Entry>* entries, const TraceSphere& sphere) {
       SphereBox box;
       FindBoxes(*bins, &sphere, 1, &box);
@@ -149,12 +150,14 @@ void ChangeBins(const TraceGeometry& geometry, const std::vector<ChangedSphere>&
         entries->push_back({cell, index, RowsOfCell(box.rows, row)});
       });
     };
-    add_to(&gone, before);
-    add_to(&come, geometry.spheres[index]);
+    add_to(&gone, changed_sphere.before);
+    add_to(&come, changed_sphere.now);
   }
   std::sort(gone.begin(), gone.end());
   std::sort(come.begin(), come.end());
+  if (gone.empty() && come.empty()) return true;
   const size_t size = bins->spheres.size() - gone.size() + come.size();
+  if (size > max_entries) return false;
   HugeArray<uint32_t> spheres(size);
   HugeArray<uint16_t> pixel_rows(size);
   uint32_t from = 0, to = 0;
@@ -192,6 +195,7 @@ void ChangeBins(const TraceGeometry& geometry, const std::vector<ChangedSphere>&
   }
   bins->spheres = std::move(spheres);
   bins->pixel_rows = std::move(pixel_rows);
+  return true;
 }
 
 }  // namespace nacre

@@ -105,8 +105,8 @@ inline constexpr double kPixelCenterMargin = -0.5;
 bool BinSpheres(const TraceGeometry& geometry, const CameraFrame& frame, const Window& window,
                 double sample_margin, size_t max_entries, int threads, SphereBins* bins);
 
-// Makes them those of spheres of which these have changed, as BinSpheres would.
-void ChangeBins(const TraceGeometry& geometry, const std::vector<ChangedSphere>& changed,
-                SphereBins* bins);
+// Makes them those of spheres of which these have changed, as BinSpheres would. Fails, with the
+// bins as they were, if there would be more than `max_entries`. They are of the same camera.
+bool ChangeBins(const std::vector<ChangedSphere>& changed, size_t max_entries, SphereBins* bins);
 
 }  // namespace nacre

@@ -39,6 +39,18 @@ RenderSettings RandomSettings(std::minstd_rand* random) {
   return settings;
 }
 
+// Begins a plan that is given up at one of its steps.
+void EndPlan(const Scene& scene, RenderSettings settings, int step, PreparedScene* prepared) {
+  settings.on_plan_progress = [&](double) {
+    if (step-- == 0) throw Cancelled{};
+  };
+  try {
+    MakePlan(scene, settings, prepared);
+  } catch (const Cancelled&) {
+    SUCCEED("it is another plan's turn");
+  }
+}
+
 void CheckChanges(const std::string& file, LiveScene* changed, const std::vector<Change>& changes,
                   int count) {
   LiveScene& live = *changed;
@@ -53,6 +65,8 @@ void CheckChanges(const std::string& file, LiveScene* changed, const std::vector
     CAPTURE(file, i, change.pointer, value);
     prepared.versions.Change(live.Set(change.pointer, value));
     const RenderSettings settings = RandomSettings(&random);
+    if (random() % 4 == 0)
+      EndPlan(live.scene(), settings, static_cast<int>(random() % 5), &prepared);
     const FramePlan plan = MakePlan(live.scene(), settings, &prepared);
     const FramePlan anew = MakePlan(live.scene(), settings);
     REQUIRE(plan.why.notes == anew.why.notes);
@@ -149,10 +163,10 @@ TEST_CASE("Pictures of many changed items have the bits of new ones", "[prepared
                                                    {"base_color", {0.03 * i, 0.5, 0.5}}};
   }
   Json shapes = Json::array();
-  for (int i = 0; i < 120; ++i) {
+  for (int i = 0; i < 300; ++i) {  // more than occluders are listed of
     shapes.push_back({{"type", "sphere"},
-                      {"center", {i % 12 - 5.5, i / 12 - 4.5, 0.1 * (i % 7)}},
-                      {"radius", 0.4},
+                      {"center", {0.6 * (i % 20) - 5.7, 0.6 * (i / 20) - 4.2, 0.1 * (i % 7)}},
+                      {"radius", 0.25},
                       {"material", "m" + std::to_string(i % 30)}});
     if (i % 40 == 7) shapes.back()["material"] = {{"model", "phong"}, {"shininess", 20}};
   }

@@ -342,12 +342,14 @@ TEST_CASE("bins of a camera that has moved are those of a new one") {
 TEST_CASE("bins of spheres that have changed are those of new ones") {
   Random random(59);
   Scene scene = RandomSpheres(&random, 3000);
-  scene.spheres[40] = scene.spheres[41];
+  scene.spheres[5] = MakeSphere({-0.5, 0.3, -1}, 0.3);  // in view, and never changed
+  scene.spheres[40] = scene.spheres[41] = MakeSphere({0.5, 0.3, -1}, 0.3);
   const std::vector<Light> lights = {PointAt({1, 4, -2}), SunAlong({0.3, -1, 0.2})};
   const std::vector<Ray> camera_rays = CameraRays(&random, 600);
   const Vec3d eye(0.2, 0.1, 0);
   Intersector changing(scene, eye, {.tree = false});
   changing.FindOccluders({&lights[0], &lights[1]}, false);
+  size_t kept = 0, hits_on_5 = 0;
   const auto check = [&] {
     REQUIRE(changing.ChangeSpheres(scene, eye));
     changing.FindOccluders({&lights[0], &lights[1]}, false);
@@ -356,6 +358,7 @@ TEST_CASE("bins of spheres that have changed are those of new ones") {
     for (uint32_t light = 0; light < 2; ++light) {
       const std::vector<ShadowRay> rays = RaysTo(lights[light], eye, surfaces);
       REQUIRE(changing.Occluders(light).bins);
+      kept += changing.Occluders(light).bins->changed.empty() ? 0 : 1;
       ForEachTarget([&](Target) {
         for (const bool outward : {false, true}) {
           CHECK(TraceShadows(changing, rays, light, outward) ==
@@ -369,9 +372,13 @@ TEST_CASE("bins of spheres that have changed are those of new ones") {
   check();
   scene.spheres[8] = scene.spheres[7];  // now they coincide, of which 7 has changed before
   check();
-  scene.spheres[9] = scene.spheres[10];  // of which one has never changed
+  scene.spheres[9] = scene.spheres[5];  // which has never changed, and is the one that is hit
   scene.spheres[7] = MakeSphere({1e4, 0, 0}, 2);
   check();
+  for (const Surface& surface : TraceSurfaces(Intersector(scene, eye), camera_rays)) {
+    hits_on_5 += surface.primitive == 5 ? 1 : 0;
+  }
+  CHECK(hits_on_5 > 5);
   scene.spheres[40].center.y += 0.1;  // it leaves the one that it coincided with
   scene.spheres[41].radius *= 5;
   check();
@@ -381,12 +388,62 @@ TEST_CASE("bins of spheres that have changed are those of new ones") {
         MakeSphere(random.InBox({-2, -2, -7}, {2, 2, 0.5}), random.Magnitude(0.01, 1));
     check();
   }
+  CHECK(kept > 30);  // of both lights, but where there were too many
   scene.spheres.pop_back();
   CHECK_FALSE(changing.ChangeSpheres(scene, eye));
   scene.spheres.push_back(scene.spheres[0]);
   CHECK_FALSE(changing.ChangeSpheres(scene, Vec3d(0)));
   for (size_t i = 0; i < 100; ++i) scene.spheres[i].radius *= 2;
   CHECK_FALSE(changing.ChangeSpheres(scene, eye));
+}
+
+// A sphere that differs from another by a rounding that a camera further away does not see.
+TEST_CASE("a changed sphere coincides with another once the camera has moved") {
+  Random random(60);
+  Scene scene = RandomSpheres(&random, 3000);
+  scene.spheres[7] = scene.spheres[8] = MakeSphere({0.3, 0, -1}, 0.5);
+  scene.spheres[8].radius = 0.4;
+  const Light sun = SunAlong({0.3, -1, 0.2});
+  Intersector changing(scene, Vec3d(0), {.tree = false});
+  changing.FindOccluders({&sun}, false);
+  scene.spheres[8] = MakeSphere({0.1 + 0.2, 0, -1}, 0.5);
+  REQUIRE(scene.spheres[8].center != scene.spheres[7].center);
+  REQUIRE(changing.ChangeSpheres(scene, Vec3d(0)));
+  changing.FindOccluders({&sun}, false);
+  const Vec3d eye(5, 0, 0.5);
+  REQUIRE(scene.spheres[8].center - eye == scene.spheres[7].center - eye);
+  REQUIRE(changing.MoveTo(scene, eye));
+  changing.FindOccluders({&sun}, false);
+  std::vector<Ray> rays(400);
+  for (Ray& ray : rays) {
+    ray.direction = scene.spheres[7].center + random.Direction() * 0.5 - eye;
+  }
+  const Intersector fresh(scene, eye);
+  const std::vector<Surface> surfaces = TraceSurfaces(fresh, rays);
+  const std::vector<ShadowRay> shadows = RaysTo(sun, eye, surfaces);
+  size_t on_7 = 0;
+  for (const Surface& surface : surfaces) on_7 += surface.primitive == 7 ? 1 : 0;
+  CHECK(on_7 > 20);
+  CHECK(TraceShadows(changing, shadows, 0) == TraceShadows(fresh, shadows));
+}
+
+TEST_CASE("bins of a camera that has moved are gone") {
+  Random random(61);
+  Scene scene = RandomSpheres(&random, 3000);
+  CameraFrame frame;
+  frame.projection = Projection::kPerspective;
+  frame.forward = {0, 0, -1};
+  frame.step_x = {0.01, 0, 0};
+  frame.step_y = {0, -0.01, 0};
+  frame.corner = frame.forward - (frame.step_x * 160 + frame.step_y * 96) / 2;
+  Intersector moving(scene, Vec3d(0), {.tree = false});
+  REQUIRE(moving.BinForCamera(frame, {0, 0, 160, 96}, 0.5));
+  REQUIRE(moving.MoveTo(scene, {0.4, 0.1, 2}));
+  scene.spheres[70].center.x += 0.3;
+  REQUIRE(moving.ChangeSpheres(scene, {0.4, 0.1, 2}));
+  REQUIRE(moving.BinForCamera(frame, {0, 0, 160, 96}, 0.5));
+  TileCandidates candidates;
+  CHECK(moving.EnterTile({64, 48, 80, 64}, TileRays::kAny, &candidates));
 }
 
 TEST_CASE("bins are those of the light that is asked for") {
