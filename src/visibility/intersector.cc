@@ -24,6 +24,7 @@ struct Intersector::State {
   IntersectorSettings settings;
   TraceGeometry geometry;
   bool nested = false;
+  size_t changes = 0;  // of spheres, since it was last asked whether they are nested
   std::vector<LightOccluders> occluders;  // by number of the light
   std::vector<LightOccluders> forgotten;  // until the next FindOccluders
   CameraFrame camera;
@@ -84,6 +85,11 @@ bool Intersector::ChangeSpheres(const Scene& scene, const Vec3d& camera_position
   for (LightOccluders& light : s.forgotten) {
     if (light.bins && !TakeChanged(*changed, &*light.bins)) light.bins.reset();
   }
+  // Few changes nest few spheres.
+  constexpr size_t kMostUnseen = 64;
+  s.changes += changed->size();
+  if (s.changes <= kMostUnseen) return true;
+  s.changes = 0;
   return !AreNested(s.geometry.spheres);
 }
 
