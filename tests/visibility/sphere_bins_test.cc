@@ -115,7 +115,7 @@ TEST_CASE("boxes of spheres are those of their projections on every target") {
       seen += columns.first <= columns.last && rows.first <= rows.last ? 1 : 0;
     }
   });
-  CHECK(seen > 100);
+  CHECK(seen > 20);  // a build may have one target alone
 }
 
 }  // namespace
