@@ -73,7 +73,8 @@ ViewKey KeyOfSurfaces(const Scene& scene, const PreparedScene& prepared) {
   return key;
 }
 
-// That of a plan before follows the camera, or takes over a few spheres, if it can.
+// Returns the intersector of an earlier plan where that can follow the camera, or a few spheres
+// that have changed; else a new one.
 std::shared_ptr<Intersector> FindIntersector(const Scene& scene, const RenderSettings& settings,
                                              PreparedScene* prepared) {
   // A camera on its way around what it looks at, and somewhat away from it.
@@ -84,12 +85,12 @@ std::shared_ptr<Intersector> FindIntersector(const Scene& scene, const RenderSet
   key.numbers.push_back(shells ? 1 : 0);
   Kept<ViewKey, std::shared_ptr<Intersector>>& kept = prepared->intersector;
   if (kept.IsUpToDate(key)) {
-    kept.Forget();  // what follows may throw halfway
+    kept.Forget();  // an exception in what follows would leave it half updated
     if (prepared->intersector_shapes == prepared->shapes_made) {
       if (kept.value->MoveTo(scene, eye)) kept.Set(key, kept.value);
     } else if (kept.value->ChangeSpheres(scene, eye)) {
       kept.Set(key, kept.value);
-      // Bins that had no room may have it now.
+      // Camera bins that took too much memory may fit now.
       if (!prepared->camera_bins.value) prepared->camera_bins.Forget();
     }
   }

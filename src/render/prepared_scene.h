@@ -95,11 +95,10 @@ struct PreparedScene {
   // For one plan only: trees need not serve other cameras.
   bool for_one_plan = false;
 
-  // Its coordinates are relative to the camera, which it follows (Intersector::MoveTo), as it does
-  // few changes of spheres (Intersector::ChangeSpheres). Bins and occluder lists are kept inside
-  // it.
+  // Follows the camera, to which its coordinates are relative (Intersector::MoveTo), and changes of
+  // a few spheres (Intersector::ChangeSpheres). Bins and occluder lists are kept inside it.
   Kept<ViewKey, std::shared_ptr<Intersector>> intersector;
-  uint64_t intersector_shapes = 0;  // shapes_made of those it has
+  uint64_t intersector_shapes = 0;  // the value of shapes_made for the shapes that it holds
   uint64_t intersectors_made = 0;   // how often intersector was made
   Kept<ViewKey, bool> eye_outside;
   Kept<ViewKey, std::vector<Window>> mesh_windows;

@@ -52,8 +52,8 @@ bool LacksBack(const Scene& scene, const Mesh& mesh) {
          scene.materials[material].single_sided;
 }
 
-// As the tests read it, relative to the camera. Adding 0 turns -0 into 0: some tests would do so,
-// and others not.
+// The sphere as the hit tests read it, relative to the camera. Adding 0 turns -0 into 0, which some
+// hit tests would do and others not.
 TraceSphere Traced(const Sphere& sphere, const Vec3d& eye) {
   return {sphere.center - eye + Vec3d(0), sphere.radius};
 }
@@ -137,7 +137,7 @@ std::optional<std::vector<ChangedSphere>> ChangeSpheres(const Scene& scene, size
   std::sort(changed.begin(), changed.end(),
             [](const ChangedSphere& a, const ChangedSphere& b) { return a.index < b.index; });
   for (const ChangedSphere& sphere : changed) geometry->spheres[sphere.index] = sphere.now;
-  // Without triangles that is all there is; with them it stays what holds for them, too.
+  // With triangles, whose extent is not computed again, the extent must not shrink.
   geometry->extent = geometry->positions.empty() ? extent : std::max(geometry->extent, extent);
   return changed;
 }

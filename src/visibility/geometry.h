@@ -60,15 +60,16 @@ struct TraceGeometry {
 // Throws Error (kBadInput) when there are more primitives than ids.
 TraceGeometry MakeTraceGeometry(const Scene& scene, const Vec3d& camera_position, int threads = 0);
 
-// A sphere that has changed, what it was and what it is.
+// A sphere that has changed, with its former and its present value.
 struct ChangedSphere {
   uint32_t index;
   TraceSphere before, now;
 };
 
-// Takes over the spheres of `scene`, whose other shapes are the geometry's, as is its camera.
-// Returns those that have changed, in ascending order; nothing, with the geometry as it was, where
-// these are more than `most`, or there is another number of spheres.
+// Replaces the geometry's spheres by those of `scene`, which must have the same other shapes and
+// the same camera. Returns the spheres that have changed, in ascending order. If there are more
+// than `most`, or if the number of spheres differs, returns nullopt and leaves the geometry as it
+// was.
 std::optional<std::vector<ChangedSphere>> ChangeSpheres(const Scene& scene, size_t most,
                                                         int threads, TraceGeometry* geometry);
 

@@ -24,7 +24,7 @@ struct Intersector::State {
   IntersectorSettings settings;
   TraceGeometry geometry;
   bool nested = false;
-  size_t changes = 0;  // of spheres, since it was last asked whether they are nested
+  size_t changes = 0;  // how many spheres have changed since AreNested was last asked
   std::vector<LightOccluders> occluders;  // by number of the light
   std::vector<LightOccluders> forgotten;  // until the next FindOccluders
   CameraFrame camera;
@@ -85,7 +85,7 @@ bool Intersector::ChangeSpheres(const Scene& scene, const Vec3d& camera_position
   for (LightOccluders& light : s.forgotten) {
     if (light.bins && !TakeChanged(*changed, &*light.bins)) light.bins.reset();
   }
-  // Few changes nest few spheres.
+  // AreNested looks at a sample: a few changes at a time cannot matter to it.
   constexpr size_t kMostUnseen = 64;
   s.changes += changed->size();
   if (s.changes <= kMostUnseen) return true;

@@ -361,8 +361,8 @@ bool MoveBins(const TraceGeometry& geometry, LightBins* bins) {
   return true;
 }
 
-// Where a changed sphere was it is still an entry, which proposes it as a candidate in vain: the
-// exact test reads the geometry.
+// A changed sphere still has entries at its former place, which propose it in vain: the exact test
+// reads the geometry.
 bool TakeChanged(const std::vector<ChangedSphere>& changed, LightBins* bins) {
   constexpr size_t kMost = 8;
   for (const ChangedSphere& sphere : changed) {

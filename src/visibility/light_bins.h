@@ -111,8 +111,8 @@ LightBins BinForLight(const TraceGeometry& geometry, const ShadowLight& light, s
 // too far, and they must be made again.
 bool MoveBins(const TraceGeometry& geometry, LightBins* bins);
 
-// Makes them hold for spheres of which these have changed. False: every ray would be tested against
-// too many, and bins must be made again.
+// Updates the bins after some spheres have changed. Returns false if every ray would have to be
+// tested against too many of them, so that new bins must be made.
 bool TakeChanged(const std::vector<ChangedSphere>& changed, LightBins* bins);
 
 // Memory budget, in entries, for the bins of all lights together.

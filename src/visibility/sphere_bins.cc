@@ -101,7 +101,7 @@ ProjectedBounds Project(const Projector& p, const TraceSphere& sphere) {
 
 bool BinSpheres(const TraceGeometry& geometry, const CameraFrame& frame, const Window& window,
                 double sample_margin, size_t max_entries, int threads, SphereBins* bins) {
-  *bins = {};  // which they stay where memory runs out
+  *bins = {};  // they stay empty if memory runs out below
   SphereBins made;
   made.window = window;
   made.sample_margin = sample_margin;

@@ -64,7 +64,8 @@ double ProjectionMargin(const Projector& projector, double at);
 inline constexpr double kProjectionMargin = 1e-3;
 inline constexpr double kRelativeProjectionMargin = 1e-9;
 inline constexpr double kDirectionRounding = 1e-15;
-// That of ProjectClosely: a few units in the last place of its terms and of directions of length 1.
+// The rounding that ProjectClosely allows for: a few units in the last place of its terms and of
+// directions of length 1.
 inline constexpr double kProjectionRounding = 8 * 0x1p-52;
 
 // For each cell the spheres that any of its camera rays could hit, in ascending order.
@@ -93,7 +94,7 @@ struct SphereBox {
   Range columns, rows;
 };
 
-// Those of the bins' camera, window and margin: the bounds of Project.
+// The boxes of spheres in the bins' window, by the bounds of Project and the bins' sample margin.
 void FindBoxes(const SphereBins& bins, const TraceSphere* spheres, size_t count, SphereBox* boxes);
 
 // The sample margin of samples that are all pixel centres: half a pixel inside the border.
@@ -105,8 +106,9 @@ inline constexpr double kPixelCenterMargin = -0.5;
 bool BinSpheres(const TraceGeometry& geometry, const CameraFrame& frame, const Window& window,
                 double sample_margin, size_t max_entries, int threads, SphereBins* bins);
 
-// Makes them those of spheres of which these have changed, as BinSpheres would. Fails, with the
-// bins as they were, if there would be more than `max_entries`. They are of the same camera.
+// Updates the bins after some spheres have changed, with the same result as BinSpheres for the same
+// camera. Returns false, and leaves the bins as they were, if there would be more than
+// `max_entries`.
 bool ChangeBins(const std::vector<ChangedSphere>& changed, size_t max_entries, SphereBins* bins);
 
 }  // namespace nacre

@@ -89,7 +89,7 @@ HWY_INLINE void StoreIndices(const RangeV& range, int begin, int size, int count
   hn::StoreU(hn::DemoteTo(di, hn::IfThenElseZero(some, last)), di, last_to);
 }
 
-// Of a vector of spheres.
+// Finds the boxes of one vector of spheres.
 HWY_INLINE void FindVector(const SphereBins& bins, const TraceSphere* spheres, SphereBox* boxes) {
   const BoxTag d;
   constexpr size_t kMost = hn::MaxLanes(BoxTag());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/visibility/sphere_bins_test.cc: bins of spheres that change.
+// tests/visibility/sphere_bins_test.cc: spheres binned for camera rays: boxes by the SIMD kernel,
+// and bins that follow spheres that change.
 #include "visibility/sphere_bins.h"
 
 #include <algorithm>
@@ -94,28 +95,29 @@ TEST_CASE("boxes of spheres are those of their projections on every target") {
   frame.step_y = down * pixel;
   frame.corner = frame.forward - (frame.step_x * 166 + frame.step_y * 96) / 2;
   REQUIRE(BinSpheres({}, frame, window, margin, 1u << 20, 1, &made));
-  size_t seen = 0;
+  std::vector<SphereBox> expected;
+  for (const TraceSphere& sphere : spheres) {
+    const ProjectedBounds b = Project(made.projector, sphere);
+    expected.push_back({{1, 0}, {1, 0}});
+    if (!b.visible) continue;
+    expected.back() = {Overlapped(b.x0 - margin, b.x1 + margin, window.x0, kCellSize, made.columns),
+                       Overlapped(b.y0 - margin, b.y1 + margin, window.y0, 1, window.height())};
+  }
+  // Counted once, whatever targets there are: most spheres are beside one of the windows.
+  CHECK(std::count_if(expected.begin(), expected.end(), [](const SphereBox& box) {
+          return box.columns.first <= box.columns.last && box.rows.first <= box.rows.last;
+        }) >= 30);
   ForEachTarget([&](Target) {
     std::vector<SphereBox> boxes(spheres.size());
     FindBoxes(made, spheres.data(), spheres.size(), boxes.data());
     for (size_t i = 0; i < spheres.size(); ++i) {
-      const ProjectedBounds b = Project(made.projector, spheres[i]);
-      const SphereBox::Range none{1, 0};
-      const auto columns =
-          b.visible ? Overlapped(b.x0 - margin, b.x1 + margin, window.x0, kCellSize, made.columns)
-                    : none;
-      const auto rows =
-          b.visible ? Overlapped(b.y0 - margin, b.y1 + margin, window.y0, 1, window.height())
-                    : none;
       INFO(i);
-      REQUIRE(boxes[i].columns.first == columns.first);
-      REQUIRE(boxes[i].columns.last == columns.last);
-      REQUIRE(boxes[i].rows.first == rows.first);
-      REQUIRE(boxes[i].rows.last == rows.last);
-      seen += columns.first <= columns.last && rows.first <= rows.last ? 1 : 0;
+      REQUIRE(boxes[i].columns.first == expected[i].columns.first);
+      REQUIRE(boxes[i].columns.last == expected[i].columns.last);
+      REQUIRE(boxes[i].rows.first == expected[i].rows.first);
+      REQUIRE(boxes[i].rows.last == expected[i].rows.last);
     }
   });
-  CHECK(seen > 20);  // a build may have one target alone
 }
 
 }  // namespace
