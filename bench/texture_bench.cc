@@ -12,6 +12,7 @@
 
 #include "base/parallel.h"
 #include "base/target.h"
+#include "shading/shade.h"
 #include "shading/textures.h"
 #include "texture/sample_kernel.h"
 

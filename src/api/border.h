@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// api/border.h: the public header beside the library's own types, and what passes between them.
+// api/border.h: the border between the public header and the library's own types, with conversions.
 // Inside namespace v0, names are the public ones; the library's own are written nacre::Scene.
 #pragma once
 
@@ -19,9 +19,9 @@ namespace nacre::v0 {
 
 Error ToPublic(const nacre::Error& error);
 
-// Calls body() in the default floating-point modes, so that the caller's change no bit. Errors of
-// the library and a lack of memory come out as v0::Error, anything else (what the caller's own
-// functions throw) as it is.
+// Calls body() in the default floating-point modes, so that the caller's modes do not affect
+// results. Errors of the library and a lack of memory are thrown as v0::Error, other exceptions
+// (those of the caller's own functions) unchanged.
 template <class Body>
 auto AtBorder(const Body& body) -> decltype(body()) {
   const DefaultFloatMode mode;
@@ -46,13 +46,13 @@ inline Vec3 ToPublic(const Vec3d& v) { return {v.x, v.y, v.z}; }
 inline Rgb ToPublic(const nacre::Rgb& c) { return {c.x, c.y, c.z}; }
 
 Image ToPublic(nacre::Image&& image);
-// A copy. Throws Error if a channel has not one sample for each pixel.
+// Copies an image. Throws Error unless each channel has one sample for each pixel.
 nacre::Image ToOwn(const Image& image);
 
-// The channel of this name; `what` needs it.
+// The channel with this name. Throws Error if there is none; `what` says who needs it.
 const Channel& RequireChannel(const Image& image, const std::string& name, const std::string& what);
 
-// Throws Error (kUsage) unless the image has pixels, and each channel one sample for each.
+// Throws Error (kUsage) unless the image has pixels, and each channel one sample for each pixel.
 void CheckImage(const Image& image);
 
 }  // namespace nacre::v0

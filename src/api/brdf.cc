@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// api/brdf.cc: reflection models of the public API, in double and through the kernels.
+// api/brdf.cc: reflection models of the public API, evaluated in double and by the SIMD kernels.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -37,7 +37,7 @@ ShadingMaterial Prepare(const Scene& scene, const std::string& name) {
       throw nacre::Error(ExitCode::kUsage, "Brdf", "\"" + name + "\" is a split",
                          "name one of the materials that it chooses from");
     }
-    // Maps belong to places on shapes; the model is that of their factors.
+    // Maps need a place on a shape; without one, the model has its constant factors only.
     DropMaps(&prepared);
     return prepared;
   }
@@ -47,17 +47,17 @@ ShadingMaterial Prepare(const Scene& scene, const std::string& name) {
       nearest.empty() ? "Scene::material_names lists them" : "did you mean \"" + nearest + "\"?");
 }
 
-// What |v|^2 of a unit vector may be off by. One that was made unit in float arithmetic is off by
-// up to 9 roundings of 2^-24 (a sum of squares, its root, the reciprocal and products, each of them
-// counted twice), by some more with the processor's estimate of the root. As much changes what is
-// reflected by as little; of vectors that are not unit the formulas mean nothing.
+// Tolerance for |v|^2 of a unit vector. A vector normalised in float arithmetic is off by up to 9
+// roundings of 2^-24 (a sum of squares, its root, the reciprocal and products, each counted twice),
+// and by some more with the processor's approximate root. The reflected light changes as little.
+// For vectors that are not unit the formulas are meaningless.
 constexpr double kUnitSquaredTolerance = 16 * 0x1p-24;
 
-// Throws Error (kUsage) for a vector that is not finite and unit; `number` is counted from 0, or
-// below that for the only one.
+// Throws Error (kUsage) for a vector that is not finite and unit; `number` is its index in an
+// array, negative for a single vector.
 void CheckUnit(const Vec3& v, const char* function, const char* name, std::ptrdiff_t number) {
   const double squared = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-  if (std::abs(squared - 1) <= kUnitSquaredTolerance) return;  // never of NaN
+  if (std::abs(squared - 1) <= kUnitSquaredTolerance) return;  // false for NaN
   const std::string what = number < 0 ? name : fmt::format("{} {}", name, number);
   const std::string length = std::isfinite(squared)
                                  ? fmt::format("has length {}, not 1", std::sqrt(squared))
@@ -115,7 +115,7 @@ void CopyFrom(const Soa3<float>& from, size_t begin, size_t count,
   }
 }
 
-// A batch under a light of irradiance 1, and what it takes to shade it.
+// A batch of directions under a light of irradiance 1, with the buffers to shade it.
 class Batch {
  public:
   Batch() {
@@ -147,9 +147,9 @@ class Batch {
   ReflectedRadiance radiance_, of_coat_;
 };
 
-// A thread's batch, which it keeps for its next call: to make one takes as long as to shade some
-// hundred pairs. None while a call of the thread's uses it, of which a caller's own model may make
-// another.
+// The thread's batch, which is kept for the thread's next call: making one takes as long as shading
+// some hundred pairs. While a call uses it, a nested call (which a user's own model may make) gets
+// a batch of its own.
 class BorrowedBatch {
  public:
   BorrowedBatch() : batch_(std::move(Kept())) {

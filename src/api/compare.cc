@@ -38,7 +38,7 @@ void CopyPerceptual(const PerceptualMetrics& own, std::vector<LayerMetrics>* lay
   }
 }
 
-// Written so that NaN is out of range.
+// Written so that NaN is refused.
 void RequireUpTo(double value, double most, const char* setting) {
   if (value >= 0 && value <= most) return;
   throw nacre::Error(ExitCode::kUsage, std::string("CompareSettings::") + setting,

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// api/error.cc: errors of the public API, and what this build and machine are.
+// api/error.cc: errors of the public API, and information about this build and machine.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "api/border.h"
 #include "base/target.h"
 #include "base/version.h"
-#include "scene_io/load_scene.h"
+#include "scene_io/schema.h"
 
 namespace nacre::v0 {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// api/image.cc: images of the public API: to and from the library's own, and read from files.
+// api/image.cc: images of the public API: conversion to and from the library's own, and reading.
 #include <cstdint>
 #include <limits>
 
 #include "api/border.h"
-#include "image_io/image_file.h"
+#include "image_io/read_image.h"
 
 namespace nacre::v0 {
 namespace {
@@ -62,7 +62,7 @@ nacre::Image ToOwn(const Image& image) {
   own.data = ToOwn(image.data);
   own.channels.reserve(image.channels.size());
   for (const Channel& channel : image.channels) {
-    // How files store them is of no interest to what works on samples.
+    // The type in files does not matter to functions that work on samples.
     own.channels.push_back({channel.name, nacre::PixelType::kFloat, channel.samples});
   }
   own.metadata = image.metadata;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// api/picture.cc: pictures for a display, in memory.
+// api/picture.cc: display pictures in memory.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@
 namespace nacre::v0 {
 namespace {
 
-// Values that are a display's already.
+// For values that are display values already.
 void RoundToCodes(const std::array<const float*, 3>& rgb, size_t count, uint8_t* rgb8) {
   for (size_t i = 0; i < count; ++i) {
     for (size_t c = 0; c < 3; ++c) {
@@ -22,7 +22,7 @@ void RoundToCodes(const std::array<const float*, 3>& rgb, size_t count, uint8_t*
   }
 }
 
-// Without A. Throws Error (kUsage) unless there are pixels, and four bytes for each.
+// Drops A. Throws Error (kUsage) unless there are pixels, and four bytes for each.
 Rgb8Picture ToOwn(const Picture& picture) {
   const bool any = picture.width > 0 && picture.height > 0;
   const size_t pixels =
@@ -103,7 +103,7 @@ std::vector<uint8_t> EncodeJpeg(const Picture& picture, int quality) {
     if (quality < 1 || quality > 100) {
       throw nacre::Error(ExitCode::kUsage, "quality", "is not within 1 to 100");
     }
-    constexpr int kMostPixels = 65500;  // of a side: libjpeg's
+    constexpr int kMostPixels = 65500;  // per side: the limit of libjpeg
     if (std::max(picture.width, picture.height) > kMostPixels) {
       throw nacre::Error(ExitCode::kUsage, "picture", "is too large for a JPEG file",
                          "a side has at most 65500 pixels");

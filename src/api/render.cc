@@ -53,7 +53,7 @@ nacre::ImageSettings Adjusted(nacre::ImageSettings image, const RenderSettings& 
 
 namespace {
 
-// The scene with the settings' own size, samples and seed; the same one if it has them.
+// The scene with the size, samples and seed of the settings; the same object if it has them.
 std::shared_ptr<const nacre::Scene> Adjusted(std::shared_ptr<const nacre::Scene> scene,
                                              const RenderSettings& settings) {
   const nacre::ImageSettings image = Adjusted(scene->image, settings);
@@ -67,7 +67,7 @@ std::shared_ptr<const nacre::Scene> Adjusted(std::shared_ptr<const nacre::Scene>
 
 Image Finish(const FramePlan& plan, PreparedScene* prepared, nacre::Image rendered,
              const nacre::RenderStats& counted, double plan_seconds, RenderStats* stats) {
-  // In files, colours and normals are of half floats.
+  // In files, colours and normals are stored as half floats.
   const std::vector<ChannelSpec> in_files = StripChannels(plan.film.layers, PixelType::kHalf);
   for (size_t i = 0; i < in_files.size(); ++i) rendered.channels[i].type = in_files[i].type;
   nacre::ExrHeader header = MakeExrHeader(plan, false, {}, prepared);

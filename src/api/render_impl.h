@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// api/render_impl.h: what renders of scenes and of sessions share.
+// api/render_impl.h: what rendering of scenes and of sessions has in common.
 #pragma once
 
 #include "api/border.h"
@@ -7,7 +7,7 @@
 
 namespace nacre::v0 {
 
-// AtBorder of what may be cancelled, which comes out as the public exception.
+// AtBorder for work that may be cancelled, which then throws the public Cancelled.
 template <class Body>
 auto Cancellable(const Body& body) -> decltype(body()) {
   return AtBorder([&] {
@@ -22,11 +22,11 @@ auto Cancellable(const Body& body) -> decltype(body()) {
 // Throws nacre::Error for settings that are out of range.
 nacre::RenderSettings ToOwn(const RenderSettings& settings);
 
-// With the size, samples and seed that the settings have.
+// `image` with the size, samples and seed that the settings specify.
 nacre::ImageSettings Adjusted(nacre::ImageSettings image, const RenderSettings& settings);
 
-// The picture of a plan for the caller, with its metadata; `prepared`, as MakeExrHeader's, and
-// `stats` may be null.
+// Completes a rendered picture for the caller, with its metadata. `prepared` is as for
+// MakeExrHeader; `stats` may be null.
 Image Finish(const FramePlan& plan, PreparedScene* prepared, nacre::Image rendered,
              const nacre::RenderStats& counted, double plan_seconds, RenderStats* stats);
 

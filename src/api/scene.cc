@@ -60,7 +60,8 @@ std::optional<Value> Scene::Get(const std::string& pointer) const {
   return AtBorder([&]() -> std::optional<Value> {
     const SceneDocument& document = impl_->source.document;
     std::optional<Json> value = ValueIn(document.tree, pointer);
-    // What was put of a model is whole where it is no object.
+    // A value that was set for a model is complete unless it is an object, which the model
+    // completes.
     if (!document.model.empty() && (!value || value->is_object())) {
       const auto made = impl_->Made();
       value = ValueIn({ModelTree(*made, made->image, document.tree.root), {}}, pointer);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// api/scene_bytes.cc: scenes of the public API as bytes, for other processes. The bytes are CBOR.
+// api/scene_bytes.cc: serialises scenes of the public API to bytes (CBOR), for other processes.
 #include <cstring>
 #include <filesystem>
 #include <utility>
@@ -27,7 +27,7 @@ std::vector<Item> ItemsOf(const Json& json) {
   return items;
 }
 
-// A relative path leads elsewhere in a process that works in another folder.
+// Makes a path absolute, as the other process may have another working directory.
 std::string Absolute(const std::filesystem::path& path) {
   return path.empty() ? std::string() : AbsolutePath(path).string();
 }

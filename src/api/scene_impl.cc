@@ -17,12 +17,12 @@ LoadOptions OptionsOf(const Scene::Impl::Source& source) {
   LoadOptions options;
   options.user_brdfs = source.user_brdfs;
   options.allow_paths = source.allow_paths;
-  // A program may ask for what a stranger's file may not.
+  // A program may exceed the limit for untrusted files.
   if (source.allow_paths) options.max_primitives = limits::kMaxPrimitivesMade;
   return options;
 }
 
-// The scene's materials of these names.
+// The scene's materials with these names. Throws Error for names that do not exist.
 std::vector<nacre::MaterialId> FindMaterials(const std::vector<std::string>& names,
                                              const nacre::Scene& scene) {
   std::unordered_map<std::string_view, uint32_t> places;

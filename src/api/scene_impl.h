@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// api/scene_impl.h: what a public scene is made of, and the scene that it makes.
+// api/scene_impl.h: the contents of a public scene, and the library's scene that is made from it.
 #pragma once
 
 #include <cstdint>
@@ -18,34 +18,34 @@
 namespace nacre::v0 {
 
 struct Scene::Impl {
-  // What was asked for. Values are not checked here.
+  // What the caller has specified. Values are not validated here.
   struct Source {
     nacre::SceneDocument document;
-    bool allow_paths = true;  // a program may name any file; a file, those of its folder
+    bool allow_paths = true;  // programs may name any file, files only those in their folder
     nacre::UserBrdfs user_brdfs;
-    // What is added without text, with its materials by name.
+    // Shapes that were added as numbers, and the names of their materials.
     std::vector<std::string> names;
-    std::unordered_map<std::string, uint32_t> places;  // of them
+    std::unordered_map<std::string, uint32_t> places;  // indices in `names`
     std::vector<nacre::Sphere> spheres;                // material: index into `names`
-    std::vector<nacre::Mesh> meshes;                   // likewise
+    std::vector<nacre::Mesh> meshes;                   // material: index into `names`
   };
   Source source;
 
-  // The scene as one that changes. Throws nacre::Error.
+  // Makes a scene that can be changed. Throws nacre::Error.
   static nacre::LiveScene MakeLive(const Source& source);
 
-  // The scene, checked; made when first asked for. Any thread. Throws nacre::Error.
+  // The validated scene, which the first call makes. Thread-safe. Throws nacre::Error.
   std::shared_ptr<const nacre::Scene> Made() const;
 
   Impl() = default;
-  // The scene of a document that has just been parsed, with the faults of that.
+  // Makes the scene of a document that has just been parsed. `faults` has what parsing found wrong.
   Impl(Source read, FaultList* faults);
   Impl(const Impl& other) : source(other.source), made_(other.MadeSoFar()) {}
   Impl& operator=(const Impl&) = delete;
 
-  // To be called after every change.
+  // To be called after every change of `source`.
   void Change() { made_.reset(); }
-  // The index of a name, which is added if it is new.
+  // The index of a name in `names`, which is added if it is new.
   nacre::MaterialId NameId(const std::string& name);
 
  private:
@@ -58,7 +58,7 @@ struct Scene::Impl {
   mutable std::shared_ptr<const nacre::Scene> made_;
 };
 
-// Its functions in the library's own form. Throws nacre::Error (kUsage) where some are missing.
+// Converts the functions of a user's model. Throws nacre::Error (kUsage) if some are missing.
 std::shared_ptr<const nacre::UserBrdf> ToOwn(const UserBrdf& brdf, const std::string& name);
 
 }  // namespace nacre::v0

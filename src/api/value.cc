@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// api/value.cc: values of the public API as the JSON text that scene files would have.
+// api/value.cc: converts values of the public API to the JSON text of scene files.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -11,7 +11,7 @@ namespace nacre::v0 {
 namespace {
 
 std::string Quoted(const std::string& text) {
-  // Bytes that are not UTF-8 are refused here as they would be in a file.
+  // Invalid UTF-8 is refused here, as it would be in a file.
   try {
     return nacre::Json(text).dump();
   } catch (const nacre::Json::exception&) {
@@ -36,8 +36,8 @@ std::string Value::ToJson(double number) {
     throw v0::ToPublic(
         nacre::Error(ExitCode::kUsage, "", fmt::format("{} is not a finite number", number)));
   }
-  const DefaultFloatMode mode;       // with DAZ, denormals would be 0
-  return fmt::format("{}", number);  // the shortest text that reads as the same double
+  const DefaultFloatMode mode;       // DAZ would make denormals 0
+  return fmt::format("{}", number);  // the shortest text that parses to the same double
 }
 
 std::string Value::ToJson(bool truth) { return truth ? "true" : "false"; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// api/write.cc: images of the public API to EXR and PNG files.
+// api/write.cc: writes images of the public API to EXR and PNG files.
 #include <algorithm>
 #include <charconv>
 #include <locale>
@@ -29,7 +29,7 @@ nacre::PixelType ToFile(SampleType type, bool half_floats) {
   return nacre::PixelType::kFloat;
 }
 
-// Sixteen numbers, as the reader prints a matrix; none if the text is anything else.
+// Parses sixteen numbers, as the reader prints a matrix; nullopt for any other text.
 std::optional<Imath::M44f> ParseMatrix(const std::string& text) {
   std::istringstream numbers(text);
   numbers.imbue(std::locale::classic());
@@ -40,7 +40,7 @@ std::optional<Imath::M44f> ParseMatrix(const std::string& text) {
   return matrix;
 }
 
-// What the file says by itself, and "transfer", which is no attribute of any file.
+// Metadata that the file has by itself, and "transfer", which is not an attribute of any file.
 bool IsFilesOwn(const std::string& name) {
   static const std::set<std::string> own = {
       "channels",          "chromaticities",     "chunkCount", "compression", "dataWindow",
@@ -50,9 +50,9 @@ bool IsFilesOwn(const std::string& name) {
   return own.contains(name);
 }
 
-// Attributes keep the types that nacre itself gives them.
+// Converts metadata to an attribute; attributes of nacre keep their types.
 nacre::ExrAttribute ToAttribute(const std::string& name, const std::string& text) {
-  // If all of the text is a number; else it stays text.
+  // The number, if the whole text is one; else the text.
   const auto number = [&](auto value) -> nacre::ExrAttribute {
     const char* const end = text.data() + text.size();
     const auto [last, error] = std::from_chars(text.data(), end, value);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/aligned.h: arrays that SIMD kernels load from: aligned, zeroed, padded to whole vectors.
+// base/aligned.h: arrays for SIMD kernels: aligned, zeroed, and padded to whole vectors.
 #pragma once
 
 #include <cstddef>

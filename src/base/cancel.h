@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/cancel.h: work that is ended before it is done, by a flag that any thread may set.
+// base/cancel.h: cancels work by a flag that any thread may set.
 #pragma once
 
 #include <atomic>
 
 namespace nacre {
 
-// null: nobody can ask for it.
+// A flag that cancels work when it becomes true; null: the work cannot be cancelled.
 using CancelPointer = const std::atomic<bool>*;
 
-// Thrown by work that was ended.
+// Thrown by work that has been cancelled.
 struct Cancelled {};
 
 inline bool IsCancelled(CancelPointer cancel) {

@@ -19,7 +19,7 @@ struct LaneOrder {
 };
 using LaneOrders = std::array<LaneOrder, 1 << kMaxCompactedLanes>;
 
-// Indexed by a mask's bits: its lanes in ascending order, then the first of them again.
+// Indexed by a mask's bits: the selected lanes in ascending order, then the first of them repeated.
 inline constexpr LaneOrders kCompactedLanes = [] {
   LaneOrders orders{};
   for (uint32_t bits = 0; bits < orders.size(); ++bits) {

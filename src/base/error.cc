@@ -9,7 +9,7 @@
 namespace nacre {
 namespace {
 
-// Levenshtein distance.
+// The Levenshtein distance of two words.
 size_t EditDistance(const std::string& a, const std::string& b) {
   std::vector<size_t> row(b.size() + 1);
   for (size_t j = 0; j <= b.size(); ++j) row[j] = j;

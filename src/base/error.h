@@ -16,7 +16,7 @@ enum class ExitCode : int {
   kCannotCompare = 2,  // compare, validate: there is nothing to compare
   kUsage = 64,         // command line, unknown output extension
   kBadInput = 65,      // missing, unreadable or malformed input
-  kInternal = 70,      // our fault, or out of memory
+  kInternal = 70,      // nacre's own fault, or out of memory
   kCannotWrite = 74,   // output unwritable, not a regular file, disk full
   kInterrupted = 130,  // SIGINT
   kTerminated = 143,   // SIGTERM

@@ -21,8 +21,9 @@ inline std::string Shortened(std::string_view text, size_t longest) {
   return excerpt;
 }
 
-// The same for the text's first line. Names, numbers and URIs in files may have megabytes, so
-// everything that is quoted from a file goes through one of these two functions.
+// The beginning of the text's first line, shortened in the same way. Names, numbers and URIs in
+// files may have megabytes, so everything that is quoted from a file goes through one of these
+// functions.
 inline std::string Excerpt(std::string_view text, size_t longest = 80) {
   const size_t line_end = text.find_first_of("\r\n");
   if (line_end >= longest) return Shortened(text, longest);  // npos, too

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/handover.h: tells ThreadSanitizer of data that goes from thread to thread through a library
-// that was not built with it (Embree), whose own synchronisation it cannot see. Elsewhere
-// nothing.
+// base/handover.h: tells ThreadSanitizer of data that passes between threads through a library that
+// was not built with it (Embree), whose synchronisation it cannot see. In other builds these
+// functions do nothing.
 //
-// The two are a release and an acquire of one key: what was written before HandOver(key) is there
-// after TakeOver(key). They order no more than the library truly does.
+// The two are a release and an acquire of one key: what was written before HandOver(key) is visible
+// after TakeOver(key). They must not claim more ordering than the library provides.
 #pragma once
 
 #if defined(__SANITIZE_THREAD__)

@@ -39,7 +39,7 @@ int64_t DetectTargets() {
   if (avx2) targets |= HWY_AVX2;
   if (avx3) targets |= HWY_AVX3;
 #else
-  targets |= HWY_STATIC_TARGET;  // the one that is compiled
+  targets |= HWY_STATIC_TARGET;  // the target of this compilation
 #endif
   return targets;
 }

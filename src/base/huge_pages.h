@@ -49,8 +49,8 @@ class HugeArray {
   size_t size_ = 0;
 };
 
-// An allocator of vectors of numbers in such pages, which leaves new elements as they are unless
-// they are given a value: resize() writes nothing.
+// An allocator for vectors of numbers in huge pages. New elements stay uninitialised unless they
+// are given a value, so that resize() writes nothing.
 template <typename T>
 struct HugeAllocator {
   using value_type = T;

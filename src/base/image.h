@@ -38,7 +38,7 @@ inline Window Intersect(const Window& a, const Window& b) {
   return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
 }
 
-// The smallest window that holds both, neither of which is empty.
+// The smallest window that contains both windows, neither of which is empty.
 inline Window BoundingWindow(const Window& a, const Window& b) {
   return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
 }
@@ -69,7 +69,7 @@ struct Image {
   std::vector<Channel> channels;
   std::map<std::string, std::string> metadata;  // header attributes as text
 
-  // The channel of this name, or nullptr.
+  // The channel with this name, or nullptr.
   const Channel* Find(std::string_view name) const {
     for (const Channel& channel : channels) {
       if (channel.name == name) return &channel;

@@ -49,10 +49,11 @@ HWY_INLINE V Log2(D d, V x) {
   return hn::Add(Log2OnePlusPolynomial(d, f), exponent);
 }
 
-// log2(1 - x) by tables (after Tang 1990): c = 2^(e + 1) m, and s of 16 numbers about 1 / m makes
-// s m = 1 + f with |f| <= 1/32. log2(c) = e + (1 - log2(s)) + log2(1 + f), of which the first two
-// cancel next to c = 1, where s = 1. The other s are such floats that 1 - log2(s) rounds by 2^-36
-// at most (Gal 1986), and f = s (m - 1) + (s - 1) is rounded once.
+// log2(1 - x) by tables (after Tang 1990). For c = 2^(e + 1) m, one of 16 numbers s near 1 / m
+// makes s m = 1 + f with |f| <= 1/32. Then log2(c) = e + (1 - log2(s)) + log2(1 + f), where the
+// first two terms cancel near c = 1, where s = 1. The other s are floats chosen so that 1 - log2(s)
+// has a rounding error of at most 2^-36 (Gal 1986), and f = s (m - 1) + (s - 1) is rounded only
+// once.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Log2OneMinusByTables(D d, V x, V c) {
   alignas(64) static constexpr float kScale[] = {1.93938172f, 1.8283602f,  1.72939241f, 1.64100206f,
@@ -66,9 +67,9 @@ HWY_INLINE V Log2OneMinusByTables(D d, V x, V c) {
   constexpr float kCoefficients[] = {1.44269502f, -0.721347272f, 0.481172562f, -0.361393839f};
   constexpr int kFirstOfMantissa = 19;
   const V one = hn::Set(d, 1.0f);
-  const V below_one = hn::Min(c, hn::Set(d, 1 - 0x1p-24f));  // 1 itself has another exponent
+  const V below_one = hn::Min(c, hn::Set(d, 1 - 0x1p-24f));  // 1 itself would have another exponent
   const V s = LookUp16<kFirstOfMantissa>(kScale, below_one);
-  const auto small = hn::Lt(x, hn::Set(d, 0.25f));  // m = c there
+  const auto small = hn::Lt(x, hn::Set(d, 0.25f));  // there, m = c
   const V m_minus_1 =
       hn::IfThenElse(small, hn::Sub(hn::Zero(d), x), hn::Sub(HalfMantissa(below_one), one));
   const V f = hn::MulAdd(s, m_minus_1, hn::Sub(s, one));
@@ -84,7 +85,7 @@ HWY_INLINE V Exp2ByTable(D d, V y) {
       1.0f,        1.04427373f, 1.09050775f, 1.13878858f, 1.18920708f, 1.24185777f,
       1.29683959f, 1.35425556f, 1.41421354f, 1.47682619f, 1.54221082f, 1.61049032f,
       1.68179286f, 1.75625217f, 1.8340081f,  1.91520655f};
-  // The rounding errors of kRoots.
+  // The rounding errors of the entries in kRoots.
   alignas(64) static constexpr float kRootLows[] = {0.0f,
                                                     4.83347016e-08f,
                                                     -1.30775399e-08f,
@@ -140,7 +141,7 @@ HWY_INLINE V Exp2(D d, V y) {
   const V shifter = hn::Set(d, 0x1.8p23f);
   const V shifted = hn::Add(clamped, shifter);
   const V f = hn::Sub(clamped, hn::Sub(shifted, shifter));
-  // Not by EvaluateEvenOdd, whose rounding error is twice as large.
+  // EvaluateEvenOdd would have a rounding error twice as large.
   const V p = EvaluatePolynomial(d, kCoefficients, f);
   const auto bits = hn::Add(hn::BitCast(di, p), hn::ShiftLeft<23>(hn::BitCast(di, shifted)));
   return hn::BitCast(d, bits);

@@ -9,8 +9,9 @@
 namespace nacre {
 namespace {
 
-// Whether a number that std::from_chars finds out of range is too small rather than too large. Its
-// digits cannot make up for an exponent that they have not: a text of that many would be needed.
+// Whether a number that std::from_chars reports as out of range underflows rather than overflows.
+// The sign of its exponent decides, as only a text with as many digits as the exponent says could
+// compensate for it.
 bool IsTooSmall(std::string_view word) {
   const size_t exponent = word.find_first_of("eE");
   if (exponent != std::string_view::npos) return word[exponent + 1] == '-';

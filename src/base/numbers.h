@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/numbers.h: numbers in the text of files.
+// base/numbers.h: parses numbers in the text of files.
 #pragma once
 
 #include <optional>
@@ -8,12 +8,12 @@
 
 namespace nacre {
 
-// The number that is all of `word`, which may begin with a + and have no digits on one side of its
-// point. Numbers too small for a double are 0. Nothing for what is no number, NaN, and what is not
-// finite.
+// Parses all of `word` as a number, which may begin with a + and lack digits on one side of its
+// point. Numbers too small for a double become 0. nullopt for anything else, including NaN and
+// numbers that are not finite.
 std::optional<double> ParseNumber(std::string_view word);
 
-// All the numbers of the text, with blanks between them. Nothing if any word of it is none.
+// Parses all words of the text, separated by blanks, as numbers. nullopt if any word is not one.
 std::optional<std::vector<double>> ParseNumbers(std::string_view text);
 
 }  // namespace nacre

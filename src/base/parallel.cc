@@ -22,21 +22,21 @@ class Loop {
  public:
   Loop(size_t count, const std::function<void(size_t)>& body) : count_(count), body_(body) {}
 
-  // Works until no index is left to begin: of the caller and of each helper. Indices are taken in
-  // order, one after the other: what is finished early is then needed early, and a consumer that
-  // wants them in order has little to keep.
+  // Runs bodies until no index is left; called by the caller and by each helper. Indices are begun
+  // in ascending order, one at a time, so that a consumer that needs results in order has to buffer
+  // few of them.
   void Work() {
     const FlushDenormals flush;
     try {
       for (size_t i = next_++; i < count_; i = next_++) body_(i);
     } catch (...) {
-      next_ = count_;  // no worker begins another
+      next_ = count_;  // workers begin no more indices
       const std::lock_guard lock(mutex_);
       if (!error_) error_ = std::current_exception();
     }
   }
 
-  // Once nobody works any more.
+  // To be called once all workers have finished.
   void ThrowIfFailed() {
     if (error_) std::rethrow_exception(error_);
   }
@@ -49,11 +49,11 @@ class Loop {
   std::exception_ptr error_;
 };
 
-// Threads that help with loops, kept from one to the next.
+// Threads that help with loops, and stay alive between loops.
 class Helpers {
  public:
-  // Works with up to `wanted` helpers. Nobody waits for one that has not come yet: loops within
-  // loops, and of several callers at once, go on whoever is busy elsewhere.
+  // Runs a loop with up to `wanted` helpers, without waiting for helpers that have not joined yet.
+  // So nested loops and loops of concurrent callers progress even if all helpers are busy.
   void Run(Loop* loop, int wanted) {
     Call call{loop, wanted};
     {
@@ -71,11 +71,11 @@ class Helpers {
  private:
   struct Call {
     Loop* loop;
-    int wanted;       // helpers that may still come
-    int working = 0;  // that have come, and not left
+    int wanted;       // helpers that may still join
+    int working = 0;  // helpers that are at work
   };
 
-  // Starts threads until there are as many. Fewer do where the system gives no more.
+  // Starts threads until there are this many, or fewer if the system refuses more.
   void Start(int threads) {
     try {
       for (; started_ < threads; ++started_) std::thread([this] { Help(); }).detach();
@@ -108,8 +108,8 @@ class Helpers {
   int started_ = 0;
 };
 
-// Never destroyed: helpers wait in it to the process's end. A child after a fork has none of them,
-// and starts its own.
+// Never destroyed, as helpers wait in it until the process ends. A child process after a fork has
+// no helpers, and starts its own.
 Helpers& TheHelpers() {
   static Helpers* helpers = [] {
     pthread_atfork(nullptr, nullptr, [] { helpers = new Helpers; });

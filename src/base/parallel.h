@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/parallel.h: work on all cores.
+// base/parallel.h: loops that run on several threads.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@ namespace nacre {
 
 // Calls body(i) for every i in [0, count), on up to `threads` threads (0: as many as the machine
 // has). Indices are begun in ascending order. Each worker runs with denormals flushed to zero
-// (FlushDenormals). An exception from a body stops the loop and is thrown to the caller. Bodies may
-// call it, too, and several threads at once.
+// (FlushDenormals). An exception of a body stops the loop and is thrown to the caller. Calls may be
+// nested in bodies, and may come from several threads at once.
 void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& body);
 
 // The number of threads that ParallelFor uses for `threads`.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/path.h: file name extensions, and paths from the root.
+// base/path.h: file name extensions and absolute paths.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace nacre {
 
-// Whether the path ends in `extension` (".exr", lower case), in whatever case it is written.
+// Whether the path ends in `extension` (".exr", in lower case), ignoring the path's case.
 inline bool HasExtension(const std::string& path, std::string_view extension) {
   std::string own = std::filesystem::path(path).extension().string();
   std::transform(own.begin(), own.end(), own.begin(),
@@ -19,15 +19,15 @@ inline bool HasExtension(const std::string& path, std::string_view extension) {
   return own == extension;
 }
 
-// The path from the root. A process may outlive the folder that it works in: then the path itself,
-// which leads nowhere.
+// Makes the path absolute. If the working folder no longer exists, returns the path itself, which
+// then leads nowhere.
 inline std::filesystem::path AbsolutePath(const std::filesystem::path& path) {
   std::error_code error;
   std::filesystem::path absolute = std::filesystem::absolute(path, error);
   return error ? path : absolute;
 }
 
-// The folder that the process works in; empty if it is gone.
+// The working folder; empty if it no longer exists.
 inline std::filesystem::path WorkingFolder() {
   std::error_code ignored;
   return std::filesystem::current_path(ignored);

@@ -14,7 +14,7 @@ using Rgb8 = std::array<uint8_t, 3>;
 
 struct Rgb8Picture {
   int width = 0, height = 0;
-  std::vector<uint8_t> rgb8;  // row by row, R, G and B of a pixel side by side
+  std::vector<uint8_t> rgb8;  // row by row, with interleaved R, G and B
 };
 
 // A picture of one colour.

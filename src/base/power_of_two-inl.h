@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/power_of_two-inl.h: the powers of two in numbers. Dividing by them is exact, and keeps
-// products in the range of the floating-point format.
+// base/power_of_two-inl.h: extracts the power of two in a number. Dividing by it is exact, and
+// keeps products in the range of the floating-point format.
 #if defined(NACRE_BASE_POWER_OF_TWO_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_BASE_POWER_OF_TWO_INL_H_
 #undef NACRE_BASE_POWER_OF_TWO_INL_H_
@@ -23,8 +23,8 @@ struct PowerOfTwoV {
   V power, inverse;
 };
 
-// For a normal v > 0 the power of two 2^e for which v / 2^e is in [1, 2), and 2^-e, which is 0 for
-// the largest e. For v = 0 both are finite.
+// For a normal v > 0: the power of two 2^e for which v / 2^e is in [1, 2), and 2^-e, which is 0 for
+// the largest e. For v = 0, both are finite.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE PowerOfTwoV<V> PowerOfTwo(D d, V v) {
   using Bits = std::conditional_t<sizeof(hn::TFromD<D>) == 4, uint32_t, uint64_t>;

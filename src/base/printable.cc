@@ -9,14 +9,14 @@
 namespace nacre {
 namespace {
 
-// A character of a text: its code point and how many bytes it takes; 0 bytes if these are not
-// UTF-8.
+// The first character of a text: its code point and its length in bytes, which is 0 if the bytes
+// are not UTF-8.
 struct Utf8Character {
   uint32_t code = 0;
   size_t bytes = 0;
 };
 
-// RFC 3629: no overlong forms, no surrogates, nothing beyond U+10FFFF.
+// RFC 3629 forbids overlong forms, surrogates, and code points beyond U+10FFFF.
 Utf8Character FirstCharacter(std::string_view text) {
   const auto byte = [&](size_t i) { return static_cast<uint8_t>(text[i]); };
   const uint8_t lead = byte(0);
@@ -34,7 +34,7 @@ Utf8Character FirstCharacter(std::string_view text) {
   return {code, bytes};
 }
 
-// The characters that Printable (printable.h) replaces.
+// The characters that Printable (printable.h) escapes.
 bool IsControlOrBidi(uint32_t code) {
   return code < 0x20 || (code >= 0x7f && code <= 0x9f) || (code >= 0x2028 && code <= 0x202e) ||
          (code >= 0x2066 && code <= 0x2069);

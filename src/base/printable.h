@@ -17,8 +17,8 @@ namespace nacre {
 // characters, backslashes included, stay as they are.
 std::string Printable(std::string_view text);
 
-// The same for text of several lines: line feeds and tabs stay. JSON keeps its meaning, because
-// such characters occur in its strings only, and are escaped as JSON escapes them.
+// Printable for text of several lines: keeps line feeds and tabs. JSON keeps its meaning, because
+// the escaped characters occur only in its strings, and are escaped as in JSON.
 std::string PrintableLines(std::string_view text);
 
 }  // namespace nacre

@@ -13,7 +13,7 @@ inline constexpr int kStripRows = 16;
 
 inline int StripCount(int height) { return (height + kStripRows - 1) / kStripRows; }
 
-// Rows of the strip that begins at row `y`.
+// The number of rows of the strip that begins at row `y`.
 inline int StripRows(int y, int height) { return std::min(kStripRows, height - y); }
 
 }  // namespace nacre

@@ -3,9 +3,9 @@
 // Together with visibility/inverse_length-inl.h, for doubles, it contains nearly all uses of #if
 // HWY_TARGET.
 //
-// AVX-512 estimates reciprocals to 14 bits: one Newton step makes that accurate to 1 ulp of a
-// float, in a third of a division's time. Estimates of other targets have 12 bits and would need
-// two steps, which is slower than a division.
+// AVX-512 estimates reciprocals to 14 bits, and one Newton step makes them accurate to 1 ulp of a
+// float, in a third of the time of a division. Estimates of other targets have 12 bits and would
+// need two steps, which are slower than a division.
 #if defined(NACRE_BASE_TARGET_OPS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_BASE_TARGET_OPS_INL_H_
 #undef NACRE_BASE_TARGET_OPS_INL_H_

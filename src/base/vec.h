@@ -15,7 +15,7 @@ using Vec2d = Imath::V2d;
 using Vec3d = Imath::V3d;
 using Vec3f = Imath::V3f;
 
-// |v|_1, by which rounding errors of coordinates are bounded.
+// |v|_1, used in bounds on rounding errors of coordinates.
 inline double SumOfAbs(const Vec3d& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
 // Linear radiometric or reflectance values, Rec. 709 primaries. Double in the scene, so that

@@ -64,7 +64,7 @@ HWY_INLINE Vec3V<V> MulAdd3(const Vec3V<V>& a, V b, const Vec3V<V>& c) {
   return {hn::MulAdd(a.x, b, c.x), hn::MulAdd(a.y, b, c.y), hn::MulAdd(a.z, b, c.z)};
 }
 
-// a b - c, likewise.
+// a b - c, fused if the target can.
 template <class V>
 HWY_INLINE Vec3V<V> MulSub3(const Vec3V<V>& a, V b, const Vec3V<V>& c) {
   return {hn::MulSub(a.x, b, c.x), hn::MulSub(a.y, b, c.y), hn::MulSub(a.z, b, c.z)};
@@ -94,7 +94,7 @@ HWY_INLINE void Store3(const Vec3V<V>& v, D d, hn::TFromD<D>* x, hn::TFromD<D>* 
   hn::Store(v.z, d, z);
 }
 
-// Without alignment.
+// Loads from addresses that need not be aligned.
 template <class D, class T>
 HWY_INLINE Vec3V<hn::Vec<D>> LoadU3(D d, const T* x, const T* y, const T* z) {
   return {hn::LoadU(d, x), hn::LoadU(d, y), hn::LoadU(d, z)};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/version.h: what this build is. Written at build time.
+// base/version.h: the version of this build. Written at build time.
 #pragma once
 
 namespace nacre {

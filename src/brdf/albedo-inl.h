@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// brdf/albedo-inl.h: directional albedos on SIMD vectors of floats or doubles, all lanes of one
-// material, or each of its own roughness. Scalar twins: brdf/albedo_curve.h and brdf/albedo.h.
+// brdf/albedo-inl.h: directional albedos on SIMD vectors of floats or doubles. The lanes share one
+// material, or each has its own roughness. Scalar twins: brdf/albedo_curve.h and brdf/albedo.h.
 #if defined(NACRE_BRDF_ALBEDO_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_BRDF_ALBEDO_INL_H_
 #undef NACRE_BRDF_ALBEDO_INL_H_
@@ -17,7 +17,7 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// An AlbedoFit for each lane, as arrays.
+// An AlbedoFit for each lane, as structure of arrays.
 struct AlbedoShapeLanes {
   const float *offset, *scale, *k, *softening;
   AlbedoForm form;
@@ -147,7 +147,7 @@ HWY_INLINE V AlbedoFresnel(D d, const FresnelAlbedoFit& fit, V albedo_one,
   return AlbedoNearMirror(d, fit.lobe, fit.fresnel, mirror, albedo_one, x);
 }
 
-// The same from n.v, for callers that need only one of them.
+// These overloads compute the variables from n.v, for callers that need only one of the albedos.
 template <class D, class Fit, class V = hn::Vec<D>>
 HWY_INLINE V AlbedoOne(D d, const Fit& fit, V n_dot_v) {
   return AlbedoOne(d, fit, ComputeAlbedoVariables(d, fit.shape, n_dot_v));

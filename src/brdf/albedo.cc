@@ -33,7 +33,7 @@ AlbedoFit BlendAlbedoCurves(Shadowing shadowing, double roughness) {
     AddCurve(at.weights[i], entry.one, &fit.one);
     AddCurve(at.weights[i], entry.schlick, &fit.schlick);
   }
-  if (!(fit.shape.offset > 0)) fit.schlick = {};  // a mirror has no width
+  if (!(fit.shape.offset > 0)) fit.schlick = {};  // a mirror's lobe has no width to correct for
   return fit;
 }
 
@@ -81,7 +81,7 @@ DielectricCurves MakeDielectricCurves(Shadowing shadowing, double eta) {
   curves.fresnel.reserve(kAlbedoIntervals + 1);
   curves.average.reserve(kAlbedoIntervals + 1);
   for (int i = 0; i <= kAlbedoIntervals; ++i) {
-    // A mirror has no curve: its neighbour's is near the limit.
+    // A mirror has no curve. That of the next roughness is near the limit for roughness 0.
     const double root = std::max(i, 1) / static_cast<double>(kAlbedoIntervals);
     const FresnelAlbedoFit fit = MakeDielectricAlbedoFit(shadowing, root * root, eta);
     curves.fresnel.push_back(fit.fresnel);
@@ -98,7 +98,8 @@ DielectricCurve BlendDielectricCurves(const DielectricCurves& curves, double rou
     AddCurve(at.weights[i], curves.fresnel[node], &curve.fresnel);
     curve.average += at.weights[i] * curves.average[node];
   }
-  if (IsDeltaLobe(AlphaFromRoughness(roughness))) curve.fresnel = {};  // a mirror has no width
+  // A mirror's lobe has no width to correct for.
+  if (IsDeltaLobe(AlphaFromRoughness(roughness))) curve.fresnel = {};
   return curve;
 }
 

@@ -25,13 +25,13 @@ struct AlbedoFit {
   double schlick_average = 0;  // 2 int B mu dmu
 };
 
-// roughness in [0, 1], and continuous in it.
+// roughness is in [0, 1]; the fit is continuous in it.
 AlbedoFit MakeAlbedoFit(Shadowing shadowing, double roughness);
 
-// The same without the averages, whose logarithm is most of the work.
+// MakeAlbedoFit without the averages, whose logarithm is most of the work.
 AlbedoFit BlendAlbedoCurves(Shadowing shadowing, double roughness);
 
-// The same with a third curve, for the exact Fresnel curve of a dielectric.
+// An AlbedoFit with a third curve, for the exact Fresnel curve of a dielectric.
 struct FresnelAlbedoFit {
   AlbedoFit lobe;
   AlbedoPolynomial fresnel{};
@@ -39,28 +39,30 @@ struct FresnelAlbedoFit {
   double average = 0;  // 2 int of the albedo mu dmu
 };
 
-// eta >= 1: light from the thinner side. (From the denser side, total reflection sets in at a
-// corner that a polynomial cannot follow.) A quadrature: about half a millisecond.
+// eta >= 1: light arrives from the optically thinner side. (From the denser side, total reflection
+// sets in at a corner that a polynomial cannot follow.) Computed by quadrature, in about half a
+// millisecond.
 FresnelAlbedoFit MakeDielectricAlbedoFit(Shadowing shadowing, double roughness, double eta);
 
-// The third curves of an index at the roughnesses of brdf/albedo_table.h, and their averages: for
-// hits with a roughness each, whose curve is blended of four of them. Some tens of milliseconds.
+// The third curve of FresnelAlbedoFit, and its average, for one index at all roughnesses of
+// brdf/albedo_table.h. Hits that have a roughness each blend theirs from four of these.
+// MakeDielectricCurves takes some tens of milliseconds.
 struct DielectricCurves {
   std::vector<AlbedoPolynomial> fresnel;
   std::vector<double> average;
 };
 DielectricCurves MakeDielectricCurves(Shadowing shadowing, double eta);
 
-// The curve of a roughness, and its average.
+// The third curve of one roughness, and its average.
 struct DielectricCurve {
   AlbedoPolynomial fresnel{};
   double average = 0;
 };
 DielectricCurve BlendDielectricCurves(const DielectricCurves& curves, double roughness);
 
-// 1 - E: the light that a lobe with F = 1 loses because it would have to bounce again. Accurate
-// relative to itself, except for kSchlickDirect: for smooth surfaces it is far below the rounding
-// error of E.
+// 1 - E: the light that a lobe with F = 1 loses because it would have to bounce again. Its relative
+// error is small, except for kSchlickDirect, although for smooth surfaces it is far below the
+// rounding error of E.
 template <typename Real>
 Real AlbedoLoss(const AlbedoFit& fit, Real n_dot_v) {
   const auto x = ComputeAlbedoVariables(fit.shape, n_dot_v);
@@ -77,8 +79,8 @@ Real AlbedoOne(const AlbedoFit& fit, Real n_dot_v) {
                   Real(1));
 }
 
-// The albedo for a Fresnel curve, from its value at v.h = n.v, which a mirror would have, and a
-// polynomial for what the lobe's width changes.
+// The albedo for a Fresnel curve, from `mirror`, the curve's value at v.h = n.v, which would be a
+// mirror's albedo, and a polynomial for the effect of the lobe's width.
 template <typename Real>
 Real AlbedoNearMirror(const AlbedoFit& fit, const AlbedoPolynomial& polynomial, Real mirror,
                       Real n_dot_v) {

@@ -19,7 +19,8 @@ AlbedoShape MakeAlbedoShape(Shadowing shadowing, double roughness) {
   if (shape.form == AlbedoForm::kMasked) {
     const double k = SchlickK(shadowing, roughness);
     shape.k = static_cast<float>(k);
-    // What is left at n.v = 0 is a moment of D's tail, alpha^2 log(1 / alpha), cut off at k.
+    // The albedo that is left at n.v = 0 is a moment of D's tail, alpha^2 log(1 / alpha), cut off
+    // at k.
     if (alpha > 0) {
       shape.softening = static_cast<float>(alpha * alpha * (2 + std::log(1 + k / alpha)));
     }
@@ -29,13 +30,13 @@ AlbedoShape MakeAlbedoShape(Shadowing shadowing, double roughness) {
 
 double AlbedoNodeCosine(const AlbedoShape& shape, int i) {
   const double root = (1 + std::cos(NodeAngle(i))) / double{shape.scale};
-  const double tangent = root * root;  // of half the angle
+  const double tangent = root * root;  // tan(theta / 2)
   return std::min(1.0, 2 * double{shape.offset} * tangent / ((1 - tangent) * (1 + tangent)));
 }
 
 std::array<double, kAlbedoTerms> InterpolateAlbedo(const std::array<double, kAlbedoTerms>& values) {
   std::array<double, kAlbedoTerms> polynomial{};
-  // T_j by its recurrence T_j+1 = 2 z T_j - T_j-1, as coefficients.
+  // `chebyshev` holds the coefficients of T_j, from the recurrence T_j+1 = 2 z T_j - T_j-1.
   std::array<double, kAlbedoTerms> before{};
   std::array<double, kAlbedoTerms> chebyshev{1};
   for (size_t j = 0; j < kAlbedoTerms; ++j) {

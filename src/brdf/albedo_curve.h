@@ -4,8 +4,8 @@
 //
 // An albedo of a lobe of width alpha has a boundary layer: it bends where n.v is about alpha, and
 // its slope has a logarithm at 0. The angle theta with tan(theta) = n.v / 6 alpha turns the layer
-// into an ordinary curve, its half-angle tangent does so without trigonometry, and the square root
-// of that tames the logarithm: in z a polynomial of degree 17 is right to 2e-5 at every alpha.
+// into an ordinary curve, tan(theta / 2) does so without trigonometry, and the square root of that
+// tames the logarithm: a polynomial in z of degree 17 has errors of 2e-5 at every alpha.
 #pragma once
 
 #include <algorithm>
@@ -37,7 +37,7 @@ inline AlbedoForm AlbedoFormOf(Shadowing shadowing) {
 // The parameters of a curve's variable and factors besides n.v. `offset` is 0 for a mirror.
 struct AlbedoShape {
   float offset = 0;     // 6 alpha
-  float scale = 2;      // of sqrt(tan(theta / 2)), so that z is 1 where n.v is
+  float scale = 2;      // multiplies sqrt(tan(theta / 2)), so that z is 1 at n.v = 1
   float k = 0;          // kMasked: Schlick's k
   float softening = 0;  // kMasked: see AlbedoMasking
   AlbedoForm form = AlbedoForm::kLossSquared;
@@ -53,8 +53,9 @@ template <typename Real>
 struct AlbedoVariables {
   Real z;        // in [-1, 1]
   Real n_dot_v;  // in (0, 1]
-  Real layer;    // about 2 offset / n.v far above the layer, 1 at 0: the shape of the loss 1 - E,
-                 // squared of Smith's forms, which lose alpha^2 (1 + mu^2) / 2 mu^2
+  // 1 at n.v = 0, and about 2 offset / n.v far above the boundary layer. The loss 1 - E has this
+  // shape, or its square for Smith's forms, which lose alpha^2 (1 + mu^2) / 2 mu^2.
+  Real layer;
 };
 
 template <typename Real>
@@ -65,8 +66,8 @@ AlbedoVariables<Real> ComputeAlbedoVariables(const AlbedoShape& shape, Real n_do
   return {shape.scale * std::sqrt(mu * inverse) - 1, mu, 2 * offset * inverse};
 }
 
-// kSchlickDirect: the lesson's masking at alpha = 0, (mu / (mu (1 - k) + k))^2, with the light's mu
-// softened by the lobe's width. As E is divided by, curves of this form are relative to it.
+// kSchlickDirect's masking at alpha = 0, (mu / (mu (1 - k) + k))^2, with the light's mu softened by
+// the lobe's width. Because E is used as a divisor, curves of this form are relative to it.
 template <typename Real>
 Real AlbedoMasking(const AlbedoShape& shape, Real n_dot_v) {
   const Real k = shape.k;
@@ -81,7 +82,7 @@ Real AlbedoFactor(const AlbedoShape& shape, const AlbedoVariables<Real>& x) {
     case AlbedoForm::kMasked:
       return AlbedoMasking(shape, x.n_dot_v);
     case AlbedoForm::kLossLinear:
-      // alpha (1 - mu) / mu + alpha^2 times 12; the last summand keeps wide lobes smooth.
+      // 12 times alpha (1 - mu) / mu + alpha^2; the last summand keeps wide lobes smooth.
       return x.layer * (1 - x.n_dot_v + x.layer * (Real(1) / 12 + shape.offset / 4));
     case AlbedoForm::kLossSquared:
       break;

@@ -11,16 +11,17 @@ namespace {
 
 double Square(double x) { return x * x; }
 
-constexpr double kPanelRatio = 4;  // of neighbouring panels' sizes, away from where they are finest
+constexpr double kPanelRatio = 4;  // size of a panel over that of its neighbour nearer the anchor
 
-// A stretch of light elevations, counted from the horizon or from the viewer's own elevation:
-// whichever it is near, so that neither is a difference of rounded angles.
+// An interval of light elevations, measured from the horizon or from the viewer's elevation,
+// whichever is nearer, so that neither distance is a difference of rounded angles.
 struct Panel {
   bool from_viewer;
   double begin, end;
 };
 
-// Panels on [begin, end] of one anchor whose sizes grow by kPanelRatio from `finest` at the anchor.
+// Appends panels that cover `length` on one side of an anchor (the viewer or the horizon); `sign`
+// is the side. Their sizes grow by kPanelRatio from `finest` at the anchor.
 void AppendPanels(bool from_viewer, double length, double finest, double sign,
                   std::vector<Panel>* panels) {
   double begin = 0;
@@ -32,13 +33,13 @@ void AppendPanels(bool from_viewer, double length, double finest, double sign,
   }
 }
 
-// Fine to 2 alpha about the mirror direction; at the horizon, where the visibility has a pole at
-// -n.v and bends at alpha, fine to the lesser of the two.
+// The panels are as fine as 2 alpha about the mirror direction. At the horizon, where the
+// visibility has a pole at -n.v and bends at alpha, they are as fine as the lesser of the two.
 std::vector<Panel> MakePanels(double alpha, double view) {
   std::vector<Panel> panels;
   panels.reserve(64);
   const double peak = 2 * alpha;
-  // Closer than 1e-10 there is no light to tell the difference.
+  // Closer to the horizon than 1e-10 there is too little light to matter.
   const double horizon = view > 0 ? std::min(alpha, std::max(view, 1e-10)) : alpha;
   AppendPanels(true, M_PI_2 - view, std::min(peak, 2 * horizon), 1, &panels);
   if (view > 0) {
@@ -95,14 +96,14 @@ std::vector<AlbedoNode> MakeAlbedoNodes(double alpha, double n_dot_v, int points
 
 double AlbedoOfOne(Shadowing shadowing, double roughness, double n_dot_v, int points) {
   const double alpha = AlphaFromRoughness(roughness);
-  if (IsDeltaLobe(alpha)) {  // all light of the mirror direction, where n.l = n.v
+  if (IsDeltaLobe(alpha)) {  // a mirror reflects the mirror direction only, where n.l = n.v
     if (shadowing != Shadowing::kSchlickDirect) return 1;
     return 4 * n_dot_v * n_dot_v * Visibility(shadowing, n_dot_v, n_dot_v, roughness);
   }
   double sum = 0;
   for (const AlbedoNode& node : MakeAlbedoNodes(alpha, n_dot_v, points)) {
     // int D dphi = 2 alpha^2 (1 + 2 K / s + K^2 A / s^3) with s^2 = 4 C^2 c^2 p q, K = 2 (1 -
-    // alpha^2) C^2 c^2 and A = C^2 p + c^2 q; C and c cancelled on paper.
+    // alpha^2) C^2 c^2 and A = C^2 p + c^2 q; C and c are cancelled analytically.
     const double pq_root = std::sqrt(node.p * node.q);
     const double both = (1 - alpha * alpha) * std::sqrt(node.sin_sum2 * node.cos_difference2);
     const double mixed = node.sin_sum2 * node.p + node.cos_difference2 * node.q;
@@ -126,13 +127,14 @@ double AlbedoOfSchlick(Shadowing shadowing, double roughness, double n_dot_v) {
 }
 
 double CoupledDiffuseAlbedo(double n_dot_v) {
-  // For n.l = sin(elevation) and every azimuth, which the integrand is smooth and periodic in.
+  // n.l = sin(elevation). The integrand is smooth and periodic in the azimuth, so that equidistant
+  // azimuths are accurate.
   constexpr int kAzimuths = 64;
   const QuadratureRule& rule = GaussLegendre(32);
   const double sin_v = std::sqrt((1 - n_dot_v) * (1 + n_dot_v));
   double sum = 0;
   for (size_t i = 0; i < rule.x.size(); ++i) {
-    // Two stretches, each fine where it meets the horizon: elevation = x^2 pi / 2.
+    // The nodes are dense towards the horizon: elevation = x^2 pi / 2.
     const double elevation = rule.x[i] * rule.x[i] * M_PI_2;
     const double weight =
         rule.w[i] * 2 * rule.x[i] * M_PI_2 * std::sin(elevation) * std::cos(elevation);

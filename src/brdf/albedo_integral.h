@@ -17,8 +17,8 @@ namespace nacre {
 // albedos of the default have errors of 2e-7, those of the fast rule 4e-6.
 struct AlbedoQuadrature {
   int points = 12;     // Gauss-Legendre points in each panel of the light's elevation
-  double step = 0.42;  // of the azimuth's warped variable
-  double tail = 1e-9;  // of the azimuth, left out
+  double step = 0.42;  // step of the azimuth's warped variable
+  double tail = 1e-9;  // end of the azimuth's range that is left out
 };
 inline constexpr AlbedoQuadrature kFastAlbedoQuadrature{7, 0.5, 1e-6};
 
@@ -26,11 +26,11 @@ inline constexpr AlbedoQuadrature kFastAlbedoQuadrature{7, 0.5, 1e-6};
 // has fine detail. Each node is one elevation, given by the quantities that the azimuth's integrand
 // depends on; angles are halved sums and differences of the light's and the viewer's elevation.
 struct AlbedoNode {
-  double weight;  // of the quadrature, with the solid angle's and the projection's cosines
+  double weight;  // quadrature weight, including the cosines of solid angle and projection
   double n_dot_l;
-  double sin_sum2, cos_sum2;                // of the half sum; sin^2 is (v.h)^2 opposite the viewer
-  double sin_difference2, cos_difference2;  // cos^2 is (v.h)^2 on the viewer's side
-  double p, q;                              // sqrt(alpha^2 / (pi D)) at either
+  double sin_sum2, cos_sum2;                // sin_sum2 is (v.h)^2 opposite the viewer
+  double sin_difference2, cos_difference2;  // cos_difference2 is (v.h)^2 on the viewer's side
+  double p, q;  // sqrt(alpha^2 / (pi D)) opposite the viewer, and on the viewer's side
 };
 
 // The nodes of one n.v in [0, 1]. alpha must not be a delta lobe's.
@@ -39,21 +39,21 @@ std::vector<AlbedoNode> MakeAlbedoNodes(double alpha, double n_dot_v, int points
 // The visibility term of a shadowing form.
 double Visibility(Shadowing shadowing, double n_dot_l, double n_dot_v, double roughness);
 
-// F = 1: the azimuth integral of D has a closed form, one sum is left.
+// The albedo for F = 1. The azimuth integral of D has a closed form, which leaves one sum.
 double AlbedoOfOne(Shadowing shadowing, double roughness, double n_dot_v,
                    int points = AlbedoQuadrature().points);
 
 // 2 int AlbedoOfOne mu dmu: the mean over the hemisphere of lights.
 double AverageAlbedoOfOne(Shadowing shadowing, double roughness);
 
-// int (1 - (1 - v.h)^5) n.l / pi dl: what is left of a white diffuse lobe that is scaled by one
-// minus Schlick's weight of the half vector, light by light.
+// int (1 - (1 - v.h)^5) n.l / pi dl: the directional albedo of a white diffuse lobe that is scaled,
+// for each direction of light, by one minus Schlick's weight of the half vector.
 double CoupledDiffuseAlbedo(double n_dot_v);
 
 // int_0^2pi D F dphi at one node.
 //
 // In t = tan(phi/2), phi measured from the plane opposite the viewer, D is (1/pi alpha^2 ...) times
-// ((1 + (p/q) T^2) / (1 + T^2))^2 with T = t / t1: all that happens does so between t1 and 1,
+// ((1 + (p/q) T^2) / (1 + T^2))^2 with T = t / t1: the integrand varies between t1 and 1 only,
 // which may be decades apart. T = sinh(y) makes every decade equally smooth, and the trapezoidal
 // rule, whose error falls as exp(-pi^2 / step), then needs a few dozen points for any alpha.
 template <class Fresnel>
@@ -62,7 +62,7 @@ double AzimuthIntegral(const AlbedoNode& node, double alpha, const AlbedoQuadrat
   const double p_over_q = node.p / node.q;
   const double t1 = std::sqrt(node.sin_sum2 / node.cos_difference2 * p_over_q);
   const double growth = std::exp(rule.step);
-  const double end = 1 / (rule.tail * t1);  // of T: dphi falls as 1 / t
+  const double end = 1 / (rule.tail * t1);  // end of T: the rest of phi falls as 1 / t
   double sum = 0;
   double e = 1;  // exp(y)
   while (e < 2 * end) {

@@ -10,7 +10,7 @@
 
 namespace nacre {
 
-// Roughnesses stand at (i / kAlbedoIntervals)^2: curves change fastest where surfaces are smooth.
+// The table's roughnesses are (i / kAlbedoIntervals)^2: curves change fastest for smooth surfaces.
 inline constexpr int kAlbedoIntervals = 40;
 inline constexpr int kShadowingForms = 4;
 
@@ -23,15 +23,16 @@ struct AlbedoEntry {
 
 extern const AlbedoEntry kAlbedoTable[kShadowingForms][kAlbedoIntervals + 1];
 
-// As what 1 - E_avg falls: alpha^2 log(1 / alpha) of Smith's forms, alpha of kSchlickIbl.
+// What 1 - E_avg falls in proportion to: alpha^2 log(1 / alpha) for Smith's forms, alpha for
+// kSchlickIbl.
 inline double AverageLossScale(AlbedoForm form, double roughness) {
   const double alpha = AlphaFromRoughness(roughness);
   if (form == AlbedoForm::kLossLinear) return alpha;
   return alpha > 0 ? alpha * alpha * (1 + std::log1p(1 / alpha)) : 0;
 }
 
-// The cubic through the four roughnesses of the table around one: the first of them, and the
-// weights of all four.
+// Cubic interpolation through four consecutive roughnesses of the table around a given one:
+// `first` is the index of the first of them.
 struct AlbedoWeights {
   int first;
   double weights[4];

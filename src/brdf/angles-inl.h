@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// brdf/angles-inl.h: the angles of brdf/angles.h on SIMD vectors.
+// brdf/angles-inl.h: angles for reflection models on SIMD vectors. Scalar twin: brdf/angles.h.
 #if defined(NACRE_BRDF_ANGLES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_BRDF_ANGLES_INL_H_
 #undef NACRE_BRDF_ANGLES_INL_H_
@@ -46,8 +46,8 @@ struct AnglesV : HalfAnglesV<V> {
   V n_dot_l, n_dot_v;
 };
 
-// |a|^2, but at least the smallest normal number, which is added: that does not change sums above
-// 1e7 times it.
+// |a|^2 plus the smallest normal number, so that the result is at least that. Sums above 1e7 times
+// it do not change.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V SquaredLength(D d, const Vec3V<V>& a) {
   const V smallest = hn::Set(d, std::numeric_limits<hn::TFromD<D>>::min());
@@ -61,7 +61,7 @@ HWY_INLINE V USquared(V n_dot_u, V nxu_squared) {
   return hn::MulAdd(n_dot_u, n_dot_u, nxu_squared);
 }
 
-// The angles of a vector u along h.
+// The angles for a given vector u along h.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE HalfAnglesV<V> HalfAnglesOf(D d, const Vec3V<V>& n, const Vec3V<V>& u, V n_dot_u,
                                        const Vec3V<V>& l_minus_v) {
@@ -85,10 +85,11 @@ HWY_INLINE HalfAnglesV<V> ComputeHalfAngles(D d, const Vec3V<V>& n, const Vec3V<
   return HalfAnglesOf(d, n, u, FusedDot(n, u), l_minus_v);
 }
 
-// Of u = l + v as it is, ten operations fewer; n.u by n.l and n.v, as what it is off by points
-// along n. As good where its u_squared >= kUprightUSquared, light and viewer at most 150 degrees
-// apart: |l|^2 and |v|^2 differ by roundings, and a quarter of that times |l - v| / |u|, at most 4,
-// tilts u.
+// UprightHalfAngles takes u = l + v without that correction, which saves ten operations, and n.u as
+// n.l + n.v, because the error of this is a vector along n. The result is as accurate as that of
+// ComputeHalfAngles where its u_squared >= kUprightUSquared, that is, where light and viewer are at
+// most 150 degrees apart: |l|^2 and |v|^2 differ by rounding errors, and u is tilted by a quarter
+// of the difference times |l - v| / |u|, which is at most 4.
 constexpr float kUprightUSquared = 0.25f;
 
 template <class D, class V = hn::Vec<D>>

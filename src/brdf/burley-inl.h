@@ -23,7 +23,7 @@ HWY_INLINE V BurleyGrazing(D d, V cos) {
   return hn::Mul(hn::Mul(x2, x2), x);
 }
 
-// pi times the term, of the square of u = l + v and BurleyGrazing of both cosines.
+// pi times BurleyDiffuse, from |u|^2, u = l + v, and BurleyGrazing of both cosines.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V BurleySpread(D d, V u_squared, V grazing_l, V grazing_v, V roughness) {
   using T = hn::TFromD<D>;

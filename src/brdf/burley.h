@@ -2,9 +2,10 @@
 // brdf/burley.h: the diffuse term of Burley 2012, "Physically-Based Shading at Disney",
 // section 5.3. SIMD twin: burley-inl.h.
 //
-// Fitted to measured materials: darker towards grazing angles for smooth surfaces, brighter for
-// rough ones. Reciprocal, but not bound to keep energy: a white rough surface gives back more than
-// it receives at grazing angles, up to 1.56 times at roughness 1. brdf/eon.h does keep it.
+// The term is fitted to measured materials: darker towards grazing angles for smooth surfaces,
+// brighter for rough ones. It is reciprocal, but does not conserve energy: a white rough surface
+// reflects more than it receives at grazing angles, up to 1.56 times at roughness 1. brdf/eon.h
+// conserves energy.
 #pragma once
 
 #include <cmath>
@@ -20,25 +21,26 @@ Real BurleyGrazing(Real cos) {
   return x2 * x2 * x;
 }
 
-// The BRDF per unit of albedo: 1 / pi times what Fresnel's term of half the angle between light and
-// viewer makes of both angles. `roughness` is perceptual. 0 unless both are above the surface.
+// The BRDF per unit of albedo: 1 / pi times a Schlick-like factor for each of n.l and n.v, whose
+// F90 depends on half the angle between light and viewer. `roughness` is perceptual. The result is
+// 0 unless light and viewer are above the surface.
 template <typename Real>
 Real BurleyDiffuse(const Angles<Real>& a, Real roughness) {
   if (!(a.n_dot_l > 0) || !(a.n_dot_v > 0)) return 0;
-  // F at 90 degrees less 1: 2 roughness (v.h)^2 - 1/2, and (v.h)^2 = |u|^2 / 4.
+  // F90 - 1 = 2 roughness (v.h)^2 - 1/2, and (v.h)^2 = |u|^2 / 4.
   const Real rise = roughness * a.u_squared / 2 - static_cast<Real>(0.5);
   return (1 + rise * BurleyGrazing(a.n_dot_l)) * (1 + rise * BurleyGrazing(a.n_dot_v)) /
          static_cast<Real>(M_PI);
 }
 
-// The share of grazing light that a white surface gives back: above 1 from roughness 0.5 on. The
-// integral of the above over the directions of light, in Beta functions: the means over the azimuth
-// of rise and its square are a = roughness - 1/2 and a^2 + roughness^2 sin^2 / 2.
+// The directional albedo of a white surface at grazing angles, above 1 from roughness 0.5 on. It is
+// the integral of BurleyDiffuse over the directions of light, in Beta functions: the means over the
+// azimuth of `rise` and its square are a = roughness - 1/2 and a^2 + roughness^2 sin^2 / 2.
 template <typename Real>
 Real BurleyGrazingAlbedo(Real roughness) {
   const Real a = roughness - static_cast<Real>(0.5);
-  const Real mean_weight = static_cast<Real>(1.0 / 21);  // of BurleyGrazing, by the cosine law
-  const Real mean_cos2 = static_cast<Real>(1.0 / 252);   // of it times cos^2
+  const Real mean_weight = static_cast<Real>(1.0 / 21);  // cosine-weighted mean of BurleyGrazing
+  const Real mean_cos2 = static_cast<Real>(1.0 / 252);   // that of BurleyGrazing times cos^2
   return 1 + a * (1 + mean_weight) + a * a * mean_weight +
          roughness * roughness / 2 * (mean_weight - mean_cos2);
 }

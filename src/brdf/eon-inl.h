@@ -38,11 +38,11 @@ HWY_INLINE V EonLoss(D d, V cos) {
   const V g = hn::Mul(sin, sum);
   const V loss = hn::NegMulAdd(hn::Set(d, static_cast<float>(M_1_PI)), g,
                                hn::Set(d, static_cast<float>(kEonAlbedo)));
-  return hn::Max(loss, hn::Zero(d));  // 0 at grazing angles, which rounding may undercut
+  return hn::Max(loss, hn::Zero(d));  // 0 at grazing angles, where rounding may make it negative
 }
 
-// pi times the single reflection. `scale` is EonScale(roughness), and one of both cosines is above
-// 0: the limit keeps the quotient finite where it is less than a normal number.
+// pi times EonSingle. `scale` is EonScale(roughness). At least one of the cosines must be above 0;
+// the lower limit keeps the quotient finite where the larger cosine is denormal.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V EonSingleSpread(D d, V n_dot_l, V n_dot_v, V l_dot_v, V roughness, V scale) {
   const V one = hn::Set(d, 1.0f);
@@ -51,11 +51,11 @@ HWY_INLINE V EonSingleSpread(D d, V n_dot_l, V n_dot_v, V l_dot_v, V roughness, 
   const V larger =
       hn::Max(hn::Max(n_dot_l, n_dot_v), hn::Set(d, std::numeric_limits<float>::min()));
   const V t = hn::IfThenElse(forward, larger, one);
-  // Opposite directions of roughness 1 give 0, which rounding may undercut.
+  // Opposite directions at roughness 1 give 0, which rounding may make negative.
   return hn::Mul(scale, hn::Max(hn::MulAdd(roughness, hn::Div(s, t), one), hn::Zero(d)));
 }
 
-// pi times the multiple reflection, of EonLoss of both cosines.
+// pi times EonMultiple, from EonLoss of both cosines.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V EonMultipleSpread(D d, V loss_l, V loss_v, V roughness, V scale) {
   const V inverse_mean = hn::Set(d, static_cast<float>(1 / (kEonAlbedo - kEonMeanAlbedo)));

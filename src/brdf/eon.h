@@ -3,10 +3,11 @@
 // Portsmouth, Kutz and Hill 2025, "EON: A Practical Energy-Preserving Rough Diffuse BRDF", JCGT
 // 14(1). SIMD twin: eon-inl.h.
 //
-// Fujii's form of Oren and Nayar's model, which loses energy, and the light that it loses spread by
-// the reciprocal product of what it loses each way (Kelemen and Szirmay-Kalos 2001). Here with the
-// exact directional albedo: the white surface gives back all light, at every roughness and angle.
-// At roughness 0 it is Lambert's. The roughness is the model's own, in [0, 1].
+// EON is Fujii's form of Oren and Nayar's model, which loses energy, plus a lobe for the light that
+// it loses: the reciprocal product of its losses in the two directions (Kelemen and Szirmay-Kalos
+// 2001). Here it has the exact directional albedo, so that a white surface reflects all light, at
+// every roughness and angle. At roughness 0 it is Lambert's model. The roughness is the model's
+// own, in [0, 1].
 #pragma once
 
 #include <algorithm>
@@ -16,8 +17,8 @@
 
 namespace nacre {
 
-// Fujii's normalisation, 1 / (1 + (1/2 - 2 / 3 pi) roughness), and (2/3 - 28 / 15 pi) roughness
-// over it, the mean albedo's.
+// Fujii's normalisation is EonScale = 1 / (1 + (1/2 - 2 / 3 pi) roughness), and the mean albedo of
+// the single reflection is EonScale (1 + (2/3 - 28 / 15 pi) roughness).
 inline constexpr double kEonAlbedo = 0.5 - 2 / (3 * M_PI);
 inline constexpr double kEonMeanAlbedo = 2.0 / 3 - 28 / (15 * M_PI);
 
@@ -27,15 +28,15 @@ Real EonScale(Real roughness) {
 }
 
 // The directional albedo of the single reflection is scale (1 + roughness g / pi), 1 at grazing
-// angles: this is its loss over scale and roughness, kEonAlbedo - g / pi. As (1 - sin^3) / cos =
-// cos (1 + sin + sin^2) / (1 + sin), nothing is divided by the cosine.
+// angles. EonLoss is one minus that, divided by scale and roughness: kEonAlbedo - g / pi. With
+// (1 - sin^3) / cos = cos (1 + sin + sin^2) / (1 + sin), nothing is divided by the cosine.
 template <typename Real>
 Real EonLoss(Real cos) {
   const Real sin = std::sqrt(std::max((1 - cos) * (1 + cos), static_cast<Real>(0)));
   const Real angle = std::atan2(sin, cos);
   const Real tangential = cos * (1 + sin + sin * sin) / (1 + sin) - 1;
   const Real g = sin * (angle - sin * cos + 2 * tangential / 3);
-  // 0 at grazing angles, which rounding may undercut.
+  // The loss is 0 at grazing angles, where rounding may make it negative.
   return std::max<Real>(static_cast<Real>(kEonAlbedo) - g / static_cast<Real>(M_PI), 0);
 }
 
@@ -44,13 +45,13 @@ template <typename Real>
 Real EonSingle(Real n_dot_l, Real n_dot_v, Real l_dot_v, Real roughness) {
   const Real s = l_dot_v - n_dot_l * n_dot_v;
   const Real s_over_t = s > 0 ? s / std::max(n_dot_l, n_dot_v) : s;
-  // Opposite directions of roughness 1 give 0, which rounding may undercut.
+  // Opposite directions at roughness 1 give 0, which rounding may make negative.
   const Real spread = std::max<Real>(1 + roughness * s_over_t, 0);
   return EonScale(roughness) * spread / static_cast<Real>(M_PI);
 }
 
-// Multiple reflection, per unit of EonMultipleAlbedo: the product of both losses over their mean,
-// in which all but one roughness and scale cancel.
+// Multiple reflection, per unit of EonMultipleAlbedo: the product of the losses in both directions
+// over their mean. All factors of roughness and scale but one cancel.
 template <typename Real>
 Real EonMultiple(Real n_dot_l, Real n_dot_v, Real roughness) {
   const Real mean_loss = static_cast<Real>(kEonAlbedo - kEonMeanAlbedo);
@@ -70,7 +71,7 @@ Real EonMultipleAlbedo(Real albedo, Real roughness) {
   return albedo * EonMultipleRatio(albedo, roughness);
 }
 
-// The BRDF of one channel. 0 unless both are above the surface.
+// The BRDF of one channel. 0 unless light and viewer are above the surface.
 template <typename Real>
 Real Eon(const Angles<Real>& a, Real albedo, Real roughness) {
   if (!(a.n_dot_l > 0) || !(a.n_dot_v > 0)) return 0;
@@ -79,7 +80,7 @@ Real Eon(const Angles<Real>& a, Real albedo, Real roughness) {
          EonMultipleAlbedo(albedo, roughness) * EonMultiple(a.n_dot_l, a.n_dot_v, roughness);
 }
 
-// The share of light from this angle that a surface of this albedo gives back.
+// The directional albedo at n.v of a surface with the albedo `albedo`.
 template <typename Real>
 Real EonDirectionalAlbedo(Real n_dot_v, Real albedo, Real roughness) {
   const Real loss = EonScale(roughness) * roughness * EonLoss(n_dot_v);

@@ -15,7 +15,7 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// 1 - v.h free of cancellation, at most 1.
+// 1 - v.h, computed without cancellation, at most 1.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V OneMinusVDotH(D d, V lv_squared, V twice_u_length) {
   using T = hn::TFromD<D>;
@@ -23,7 +23,6 @@ HWY_INLINE V OneMinusVDotH(D d, V lv_squared, V twice_u_length) {
   return hn::Min(hn::Mul(lv_squared, Reciprocal(d, denominator)), hn::Set(d, T(1)));
 }
 
-// v.h.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V VDotH(D d, V twice_u_length) {
   return hn::Mul(twice_u_length, hn::Set(d, hn::TFromD<D>(0.25)));
@@ -97,7 +96,7 @@ HWY_INLINE V FresnelConductor(D d, V v_dot_h, V one_minus_vh, V eta, V k) {
   return hn::Mul(half, hn::MulAdd(s, p, s));
 }
 
-// Schlick's curve less slope c (1 - c)^6, within [0, 1]; the slope is F82Slope's.
+// Schlick's curve minus slope c (1 - c)^6, clamped to [0, 1]; `slope` is F82Slope's.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V FresnelF82(D d, V v_dot_h, V one_minus_vh, V f0, V slope) {
   const V one = hn::Set(d, hn::TFromD<D>(1));

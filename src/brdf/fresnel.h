@@ -10,8 +10,9 @@
 namespace nacre {
 
 // 1 - v.h, computed as (|l - v|^2 / 4) / (1 + |u| / 2): v.h is near 1 wherever a surface is seen
-// from the front, and 1 minus it would be all rounding error. Where light and viewer are opposed it
-// is rounded to either side of 1; above 1 it would make 1 - F, and so the diffuse light, negative.
+// from the front, and subtracting it from 1 would leave only rounding error. Where light and viewer
+// are opposed, 1 - v.h is rounded to either side of 1; a value above 1 would make 1 - F, and so the
+// diffuse light, negative.
 template <typename Real>
 Real OneMinusVDotH(const Angles<Real>& a) {
   const Real ratio = a.lv_squared / (4 + 2 * std::sqrt(a.u_squared));
@@ -42,7 +43,8 @@ Real FresnelSchlick(Real f0, Real schlick_weight) {
   return f0 + (1 - f0) * schlick_weight;
 }
 
-// The same up to another reflectance at grazing incidence: F0 + (F90 - F0)(1 - v.h)^5.
+// Schlick's approximation with another reflectance at grazing incidence: F0 + (F90 - F0)
+// (1 - v.h)^5.
 template <typename Real>
 Real FresnelSchlick(Real f0, Real f90, Real schlick_weight) {
   return f0 + (f90 - f0) * schlick_weight;
@@ -51,7 +53,8 @@ Real FresnelSchlick(Real f0, Real f90, Real schlick_weight) {
 // Reflectance at normal incidence of a dielectric with index of refraction 1.5.
 inline constexpr double kDielectricF0 = 0.04;
 
-// Reflectance at normal incidence: ((eta - 1)^2 + k^2) / ((eta + 1)^2 + k^2); k = 0: a dielectric.
+// Reflectance at normal incidence: ((eta - 1)^2 + k^2) / ((eta + 1)^2 + k^2). A dielectric has
+// k = 0.
 template <typename Real>
 Real FresnelF0(Real eta, Real k) {
   return ((eta - 1) * (eta - 1) + k * k) / ((eta + 1) * (eta + 1) + k * k);
@@ -60,14 +63,14 @@ Real FresnelF0(Real eta, Real k) {
 // Fresnel's equations, unpolarised, for a dielectric of relative index eta = n_t / n_i (Born and
 // Wolf, 1.5.2). The differences in their numerators cancel for eta near 1; with g = eta
 // cos(theta_t) they are c - g = (1 - eta^2) / (c + g) and eta^2 c - g = (eta^2 - 1)(eta^2 c^2 -
-// sin^2) / (eta^2 c + g). 1 where reflection is total.
+// sin^2) / (eta^2 c + g). The result is 1 where reflection is total.
 template <typename Real>
 Real FresnelDielectric(Real v_dot_h, Real one_minus_vh, Real eta) {
   const Real eta2 = eta * eta;
   const Real contrast = (eta - 1) * (eta + 1);
   const Real cos2 = v_dot_h * v_dot_h;
   const Real sin2 = one_minus_vh * (1 + v_dot_h);
-  // g^2 = eta^2 - sin^2, in the form that cancels nothing but at the critical angle itself.
+  // g^2 = eta^2 - sin^2, in the form that cancels nowhere but at the critical angle itself.
   const Real g2 = eta < 1 ? eta2 - sin2 : contrast + cos2;
   if (!(g2 > 0)) return 1;
   const Real g = std::sqrt(g2);
@@ -77,7 +80,7 @@ Real FresnelDielectric(Real v_dot_h, Real one_minus_vh, Real eta) {
 }
 
 // Fresnel's equations, unpolarised, for a conductor of index eta + i k seen from vacuum, with
-// (a + i b)^2 = (eta + i k)^2 - sin^2 (Born and Wolf, 14.2). Of a^2 and b^2 the smaller follows
+// (a + i b)^2 = (eta + i k)^2 - sin^2 (Born and Wolf, 14.2). The smaller of a^2 and b^2 follows
 // from a b = eta k, and the numerators are sums of squares: nothing cancels.
 template <typename Real>
 Real FresnelConductor(Real v_dot_h, Real one_minus_vh, Real eta, Real k) {
@@ -99,22 +102,22 @@ Real FresnelConductor(Real v_dot_h, Real one_minus_vh, Real eta, Real k) {
   return s * (1 + p) / 2;
 }
 
-// Schlick's curve pulled through a second value, at cos = 1/7, where metals dip (Kutz, Hasan and
-// Edmondson 2021, eq. 6; the "F82-tint" of OpenPBR): less b c (1 - c)^6.
-// b from the reflectance there:
+// F82 is Schlick's curve minus b c (1 - c)^6, which makes it pass through a second value at
+// cos = 1/7, where the reflectance of metals dips (Kutz, Hasan and Edmondson 2021, eq. 6; the
+// "F82-tint" of OpenPBR). F82Slope is b for the reflectance f82 at that angle.
 template <typename Real>
 Real F82Slope(Real f0, Real f82) {
   const Real weight = Power5(Real(6) / 7);
   return (FresnelSchlick(f0, Real(1), weight) - f82) / (weight * 6 / 49);
 }
 
-// b from a tint, which multiplies Schlick's value there.
+// b for a tint, which multiplies Schlick's value at cos = 1/7.
 template <typename Real>
 Real F82SlopeFromTint(Real f0, Real tint) {
   return F82Slope(f0, tint * FresnelSchlick(f0, Real(1), Power5(Real(6) / 7)));
 }
 
-// Kept within [0, 1], which a very dark or very bright tint leaves.
+// The curve is clamped to [0, 1], which it leaves for very dark and very bright tints.
 template <typename Real>
 Real FresnelF82(Real v_dot_h, Real one_minus_vh, Real f0, Real slope) {
   const Real weight = Power5(one_minus_vh);

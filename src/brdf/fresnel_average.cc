@@ -13,8 +13,8 @@ double AverageDielectric(double eta) {
   if (eta >= 1) {
     return IntegrateTowardsZero([&](double c) { return 2 * c * FresnelDielectric(c, 1 - c, eta); });
   }
-  // Total reflection up to the critical cosine; from there in g^2 = eta^2 - sin^2, g dg = c dc,
-  // in which the curve has no root left.
+  // Reflection is total up to the critical cosine. From there on, the variable of integration is g,
+  // g^2 = eta^2 - sin^2, g dg = c dc, in which the curve has no square root left.
   const double critical2 = (1 - eta) * (1 + eta);
   return critical2 + eta * IntegrateTowardsZero([&](double x) {
                        const double g = x * eta;

@@ -11,13 +11,13 @@ Real AverageSchlick(Real f0, Real f90 = 1) {
   return f0 + (f90 - f0) / 21;
 }
 
-// F82: 2 int c^2 (1 - c)^6 dc = 1/126. Exact where the curve stays within [0, 1] by itself.
+// F82: 2 int c^2 (1 - c)^6 dc = 1/126. Exact where the curve stays within [0, 1] unclamped.
 template <typename Real>
 Real AverageF82(Real f0, Real slope) {
   return AverageSchlick(f0) - slope / 126;
 }
 
-// By quadrature, to 1e-12.
+// Computed by quadrature, to 1e-12.
 double AverageDielectric(double eta);
 double AverageConductor(double eta, double k);
 

@@ -30,9 +30,9 @@ HWY_INLINE V GgxDistribution(D d, const HalfAnglesV<V>& a, V alpha) {
   return hn::IfThenElseZero(above, squared);
 }
 
-// |u|^2 q, of which the distribution is alpha^2 |u|^4 / (pi (|u|^2 q)^2), for a kernel that merges
-// its divisions: q = sin^2 + alpha^2 cos^2 of the half vector's angle, at least alpha^2. Says
-// nothing of h below the surface.
+// |u|^2 q, where q = sin^2 + alpha^2 cos^2 of the half vector's angle, at least alpha^2. A kernel
+// that merges its divisions computes the distribution from it: alpha^2 |u|^4 / (pi (|u|^2 q)^2).
+// There is no test for h below the surface.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V GgxRootDenominator(D, const HalfAnglesV<V>& a, V alpha) {
   const V scaled = hn::Mul(a.n_dot_u, alpha);
@@ -67,7 +67,7 @@ HWY_INLINE V VisibilityDenominatorSeparable(D d, V n_dot_l, V n_dot_v, V alpha, 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V VisibilityDenominatorSchlick(D d, V n_dot_l, V n_dot_v, V k, V scale) {
   const V one_minus_k = hn::Sub(hn::Set(d, hn::TFromD<D>(1)), k);
-  // Mostly products of numbers that all hits share.
+  // Most of these factors are constants that all hits share.
   const V scale4 = hn::Mul(hn::Set(d, hn::TFromD<D>(4)), scale);
   return hn::Mul(hn::MulAdd(n_dot_l, one_minus_k, k),
                  hn::MulAdd(n_dot_v, hn::Mul(scale4, one_minus_k), hn::Mul(scale4, k)));

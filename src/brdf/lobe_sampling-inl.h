@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // brdf/lobe_sampling-inl.h: lobes sampled on SIMD vectors. Scalar twin: brdf/lobe_sampling.h.
 //
-// Log2 and Exp2 are named by their namespace: Highway's own are found beside them where a kernel
-// includes its math, too.
+// Calls of Log2 and Exp2 are qualified: where a kernel includes Highway's math library,
+// argument-dependent look-up would find its functions of the same names, too.
 #if defined(NACRE_BRDF_LOBE_SAMPLING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_BRDF_LOBE_SAMPLING_INL_H_
 #undef NACRE_BRDF_LOBE_SAMPLING_INL_H_
@@ -61,7 +61,7 @@ HWY_INLINE Vec3V<V> SampleGgxVisible(D d, const Vec3V<V>& normal, const Vec3V<V>
   return Mirrored(to_view, ToWorld(basis, Scale(half, inverse)));
 }
 
-// Of a distribution that is known.
+// GgxVisiblePdf from a known value of GgxDistribution.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V GgxVisiblePdf(D d, V distribution, V n_dot_v, V alpha) {
   const V cosine = hn::Max(n_dot_v, hn::Zero(d));
@@ -78,7 +78,7 @@ HWY_INLINE V GgxVisiblePdf(D d, const AnglesV<V>& a, V alpha) {
 // 1 - 2^y for y <= 0, without cancellation next to 0.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V OneMinusExp2(D d, V y) {
-  // 2^y less its first coefficient: base/math-inl.h.
+  // The coefficients of 2^y in base/math-inl.h without the first.
   constexpr float kCoefficients[] = {0.693147182f,   0.240226507f,  0.0555032715f,
                                      0.00961805694f, 0.0013400428f, 0.000154614449f};
   const V far = hn::Sub(hn::Set(d, 1.0f), HWY_NAMESPACE::Exp2(d, y));
@@ -86,7 +86,7 @@ HWY_INLINE V OneMinusExp2(D d, V y) {
   return hn::IfThenElse(hn::Gt(y, hn::Set(d, -0.5f)), near, far);
 }
 
-// L in base 2: log2(1 + 1 / spread).
+// L of the scalar twin with the logarithm to base 2: log2(1 + 1 / spread).
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V KullaContyLog2(D d, V spread) {
   const V one = hn::Set(d, 1.0f);
@@ -114,7 +114,7 @@ HWY_INLINE V KullaContyPdf(D d, V n_dot_l, V spread) {
   return hn::IfThenElseZero(hn::Gt(n_dot_l, hn::Zero(d)), hn::Div(n_dot_l, hn::Mul(sum, scale)));
 }
 
-// The direction at 1 - cos = x from `axis`.
+// The direction at 1 - cos = x from `axis`, with azimuth 2 pi u1.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Vec3V<V> DirectionAround(D d, const Vec3V<V>& axis, V x, V u1) {
   const V one = hn::Set(d, 1.0f);
@@ -144,7 +144,7 @@ HWY_INLINE Vec3V<V> SamplePhongLobe(D d, const Vec3V<V>& normal, const Vec3V<V>&
   return DirectionAround(d, Mirrored(to_view, normal), x, u1);
 }
 
-// Of a lobe c^shininess that is known: (shininess + 1) / 2 pi c^shininess.
+// PhongLobePdf from a known value of the lobe c^shininess: (shininess + 1) / 2 pi c^shininess.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V PhongLobePdf(D d, V lobe, V shininess) {
   const V scale =
@@ -166,7 +166,8 @@ HWY_INLINE Vec3V<V> SampleBlinnLobe(D d, const Vec3V<V>& normal, const Vec3V<V>&
   return Mirrored(to_view, DirectionAround(d, normal, OneMinusPowerCosine(d, shininess, u0), u1));
 }
 
-// Of a lobe (n.h)^shininess that is known: its pdf of h over 4 v.h, where |u| = 2 v.h.
+// BlinnLobePdf from a known value of the lobe (n.h)^shininess: the pdf of h over 4 v.h, where
+// |u| = 2 v.h.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V BlinnLobePdf(D d, V lobe, const AnglesV<V>& a, V shininess) {
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);

@@ -2,9 +2,9 @@
 // brdf/lobe_sampling.h: directions to light sampled from the lobes of reflection models. SIMD twin:
 // lobe_sampling-inl.h.
 //
-// Every lobe has a sampler, of u0 and u1 in [0, 1), and the pdf of what it gives per solid
-// angle. A sampled direction may lie below the surface, where models reflect nothing; pdfs
-// hold there too, and integrate to 1 over the whole sphere unless a lobe says otherwise.
+// Every lobe has a sampler, which takes u0 and u1 in [0, 1), and the pdf of its directions per
+// solid angle. A sampled direction may lie below the surface, where models reflect nothing; pdfs
+// are valid there, too, and integrate to 1 over the whole sphere unless stated otherwise.
 #pragma once
 
 #include <algorithm>
@@ -32,11 +32,11 @@ Real CosinePdf(Real n_dot_l) {
   return n_dot_l > 0 ? n_dot_l / static_cast<Real>(M_PI) : 0;
 }
 
-// GGX normals as far as the viewer sees them, mirrored: Dupuy and Benyoub 2023, "Sampling Visible
-// GGX Normals with Spherical Caps". With the surface squeezed by alpha the normals are those of a
-// hemisphere, and the mirror directions of what v sees of it fill the cap above -v evenly. A delta
-// lobe gives the mirror direction. Where rounding leaves n.v below 0, it is 0, here, in the pdf
-// and in the reflection models: the limit for grazing viewers.
+// Samples visible GGX normals and mirrors v about them: Dupuy and Benyoub 2023, "Sampling Visible
+// GGX Normals with Spherical Caps". With the surface squeezed by alpha, the normals are those of a
+// hemisphere, and the mirror directions of the part that v sees fill the cap above -v uniformly. A
+// delta lobe gives the mirror direction. An n.v that rounding makes negative counts as 0, the limit
+// for grazing viewers, here, in the pdf and in the reflection models.
 template <typename Real>
 Imath::Vec3<Real> SampleGgxVisible(const Imath::Vec3<Real>& normal,
                                    const Imath::Vec3<Real>& to_view, Real alpha, Real u0, Real u1) {
@@ -44,12 +44,13 @@ Imath::Vec3<Real> SampleGgxVisible(const Imath::Vec3<Real>& normal,
   const Basis<Real> basis = BasisAbout(normal);
   const Imath::Vec3<Real> v = basis.ToLocal(to_view);
   const Imath::Vec3<Real> scaled(alpha * v.x, alpha * v.y, std::max(v.z, Real(0)));
-  // Above 0, but for v = -n, which has no azimuth: what follows is then even about n.
+  // The length is above 0 except for v = -n, which has no azimuth: samples are then distributed
+  // evenly about n.
   const Real length = std::max(scaled.length(), std::numeric_limits<Real>::min());
   const Imath::Vec3<Real> squeezed = scaled / length;
   const Real phi = 2 * static_cast<Real>(M_PI) * u0;
-  // A point of the cap, z in [-squeezed.z, 1]: 1 - z, and 1 + z and the z of the half vector of
-  // both free of cancellation, for they make the lobe's tail.
+  // A point of the cap has z in [-squeezed.z, 1]. 1 - z, 1 + z and half_z, the z of the half vector
+  // before it is normalised, are computed without cancellation, because they form the lobe's tail.
   const Real half_z = (1 - u1) * (1 + squeezed.z);
   const Real one_minus_z = u1 * (1 + squeezed.z);
   const Real across_squared = scaled.x * scaled.x + scaled.y * scaled.y;
@@ -75,16 +76,16 @@ Real GgxVisiblePdf(const Imath::Vec3<Real>& normal, const Imath::Vec3<Real>& to_
   return GgxVisiblePdf(ComputeAngles(normal, to_light, to_view), alpha);
 }
 
-// The lobe of Kulla and Conty 2017 in the direction of the light, (1 - E(n.l)) n.l. The loss 1 - E
-// is flat up to an n.l of about sqrt(spread), twice the width of the lobe or of Schlick's masking,
-// and then falls as 1 / (n.l)^2: a pdf of n.l / ((n.l)^2 + spread) per solid angle. With this
-// spread lobe over pdf is 1.9 at most and 1.04 rms, relative to their mean, at every roughness.
-// That of kSchlickIbl falls as alpha / n.l only: with a spread of alpha, 3.5 and 1.25 at roughness
-// 0.01, and less above.
-// A smooth surface loses light at its horizon alone, which cosine-weighted directions hardly meet.
+// The lobe of Kulla and Conty 2017, as a function of the direction to light, is proportional to
+// (1 - E(n.l)) n.l. The loss 1 - E is flat up to an n.l of about sqrt(spread), twice the width of
+// the lobe or of Schlick's masking, and then falls as 1 / (n.l)^2, so the pdf per solid angle is
+// proportional to n.l / ((n.l)^2 + spread). With this spread, lobe over pdf is 1.9 at most and 1.04
+// rms, relative to the mean, at every roughness. The loss of kSchlickIbl falls as alpha / n.l only:
+// with a spread of alpha, the figures are 3.5 and 1.25 at roughness 0.01, and less above. A smooth
+// surface loses light at its horizon alone, which cosine-weighted directions hardly ever reach.
 //
-// Over the hemisphere the pdf is pi L, L = log(1 + 1 / spread), and the part of that which lies
-// below n.l is u = log(1 + (n.l)^2 / spread) / L.
+// n.l / ((n.l)^2 + spread) integrates to pi L over the hemisphere, L = log(1 + 1 / spread), and the
+// fraction of this below n.l is u = log(1 + (n.l)^2 / spread) / L.
 inline float KullaContySpread(const AlbedoShape& shape) {
   if (shape.form == AlbedoForm::kLossLinear) return shape.offset / 6;  // alpha
   const float twice_width = shape.form == AlbedoForm::kMasked ? 2 * shape.k : shape.offset / 3;
@@ -106,11 +107,11 @@ Real KullaContyPdf(Real n_dot_l, Real spread) {
   return n_dot_l / ((n_dot_l * n_dot_l + spread) * total);
 }
 
-// Below this exponent Phong's lobe is constant, on the dark side of its axis, too: c^0 is 1
-// everywhere, and in float any exponent below is 0 (kDarkLog2 in phong-inl.h).
+// Below this exponent Phong's lobe is constant over the whole sphere: c^0 is 1 everywhere, and in
+// float any smaller exponent acts as 0 (kDarkLog2 in phong-inl.h).
 inline constexpr double kConstantLobeExponent = 0x1p-88;
 
-// The direction at 1 - cos = x from `axis`.
+// The direction at 1 - cos = x from `axis`, with azimuth 2 pi u1.
 template <typename Real>
 Imath::Vec3<Real> DirectionAround(const Imath::Vec3<Real>& axis, Real x, Real u1) {
   const Real sin = std::sqrt(x * (2 - x));
@@ -118,14 +119,15 @@ Imath::Vec3<Real> DirectionAround(const Imath::Vec3<Real>& axis, Real x, Real u1
   return BasisAbout(axis).ToWorld({sin * std::cos(phi), sin * std::sin(phi), 1 - x});
 }
 
-// 1 - cos of an angle with a pdf of cos^shininess per solid angle: cos^(shininess + 1) is
-// 1 - u0.
+// 1 - cos of an angle whose pdf per solid angle is proportional to cos^shininess:
+// cos^(shininess + 1) is 1 - u0.
 template <typename Real>
 Real OneMinusPowerCosine(Real shininess, Real u0) {
   return -std::expm1(std::log1p(-u0) / (shininess + 1));
 }
 
-// Phong's lobe, around the mirror direction of v; where it is constant, any direction.
+// Samples Phong's lobe around the mirror direction of v, or all directions uniformly where the lobe
+// is constant.
 template <typename Real>
 Imath::Vec3<Real> SamplePhongLobe(const Imath::Vec3<Real>& normal, const Imath::Vec3<Real>& to_view,
                                   Real shininess, Real u0, Real u1) {
@@ -144,8 +146,9 @@ Real PhongLobePdf(const Imath::Vec3<Real>& normal, const Imath::Vec3<Real>& to_v
          PhongLobe(normal, to_light, to_view, shininess);
 }
 
-// Blinn's lobe: half vectors around the normal, and v mirrored about them. A half vector that faces
-// away from v is no sample: its direction has pdf 0, and the pdf integrates to the rest.
+// Samples Blinn's lobe: half vectors around the normal, about which v is mirrored. A half vector
+// that faces away from v makes an invalid sample: its direction has pdf 0, and the pdf integrates
+// to the probability of the valid ones.
 template <typename Real>
 Imath::Vec3<Real> SampleBlinnLobe(const Imath::Vec3<Real>& normal, const Imath::Vec3<Real>& to_view,
                                   Real shininess, Real u0, Real u1) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// brdf/multi_scatter.h: compensation of the energy that a single bounce on microfacets loses, by a
-// second lobe: constants of a material. Turquin's factor 1 + F0 (1 / E - 1) on the lobe itself is
-// in the models' Fresnel terms (shading/scalar_material.h).
+// brdf/multi_scatter.h: constants of the second lobe that compensates for the energy that a single
+// bounce on microfacets loses. Turquin's factor 1 + F0 (1 / E - 1) on the lobe itself is in the
+// models' Fresnel terms (shading/scalar_material.h).
 //
 // E, the albedo for F = 1, comes from brdf/albedo.h, F_avg from brdf/fresnel_average.h.
 #pragma once
@@ -13,15 +13,15 @@
 namespace nacre {
 
 // Kulla and Conty 2017, "Revisiting physically based shading at Imageworks": a second, reciprocal
-// lobe (1 - E(n.v)) (1 - E(n.l)) / (pi (1 - E_avg)), from AlbedoLoss. This is 1 / (pi (1 - E_avg));
-// 0 for a mirror, which loses nothing.
+// lobe (1 - E(n.v)) (1 - E(n.l)) / (pi (1 - E_avg)), from AlbedoLoss. KullaContyScale is
+// 1 / (pi (1 - E_avg)), or 0 for a mirror, which loses nothing.
 inline double KullaContyScale(double e_average) {
   const double loss = 1 - e_average;
   return loss > 0 ? 1 / (M_PI * loss) : 0;
 }
 
-// The colour of that lobe: light that bounced on, F_avg at each bounce,
-// F_avg^2 E_avg / (1 - F_avg (1 - E_avg)). 1 for a white metal.
+// The colour of that lobe, of light that is reflected by F_avg at each further bounce:
+// F_avg^2 E_avg / (1 - F_avg (1 - E_avg)). It is 1 for a white metal.
 template <typename Real>
 Real KullaContyFresnel(Real f_average, Real e_average) {
   return f_average * f_average * e_average / (1 - f_average * (1 - e_average));

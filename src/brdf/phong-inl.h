@@ -16,14 +16,15 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// A lobe's cosine c, and 1 - c free of cancellation.
+// A lobe's cosine c, and 1 - c, computed without cancellation.
 template <class V>
 struct LobeCosineV {
   V one_minus_c, c;
 };
 
 // Replaces log2(0). Its product with any exponent of at least 2^-88 is below the logarithm of every
-// float, that with limits::kExponent is finite, and that with 0 is 0, so that c^0 is 1 there, too.
+// float, its product with limits::kExponent is finite, and its product with 0 is 0, so that c^0 is
+// 1 at c = 0, too.
 inline constexpr float kDarkLog2 = -0x1p96f;
 
 // log2(c), kDarkLog2 where c <= 0.
@@ -31,8 +32,8 @@ template <class D, class V = hn::Vec<D>>
 HWY_INLINE V LobeLog2(D d, const LobeCosineV<V>& cosine) {
   const V log2 = Log2OneMinus(d, cosine.one_minus_c, cosine.c);
   const V dark = hn::Set(d, kDarkLog2);
-  // One operation where the logarithm of what is not above 0 is known: of NaN and a number the
-  // maximum is the second.
+  // If kSplitsFloats, it is known what Log2OneMinus returns where c <= 0, and one operation is
+  // enough: the maximum of NaN and a number is the number, which is the second operand.
   if constexpr (kSplitsFloats<V>) return hn::Max(log2, dark);
   return hn::IfThenElse(hn::Gt(cosine.c, hn::Zero(d)), log2, dark);
 }
@@ -45,7 +46,7 @@ HWY_INLINE V SquaredFromReflection(const Vec3V<V>& normal, const Vec3V<V>& to_li
   return FusedDot(r_minus_v, r_minus_v);
 }
 
-// The same for l = offset inverse_length, in a chain that does not wait for l.
+// |r - v|^2 for l = offset inverse_length, in a dependency chain that does not wait for l.
 template <class V>
 HWY_INLINE V SquaredFromReflection(const Vec3V<V>& normal, const Vec3V<V>& offset, V inverse_length,
                                    const Vec3V<V>& to_view) {
@@ -53,31 +54,31 @@ HWY_INLINE V SquaredFromReflection(const Vec3V<V>& normal, const Vec3V<V>& offse
   return FusedDot(r_minus_v, r_minus_v);
 }
 
-// r.v computed from it: the scalar twin explains why.
+// r.v, computed from |r - v|^2 as the scalar twin explains.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE LobeCosineV<V> PhongCosine(D d, V squared_from_reflection) {
   const V one_minus_c = hn::Mul(squared_from_reflection, hn::Set(d, hn::TFromD<D>(0.5)));
   return {one_minus_c, hn::Sub(hn::Set(d, hn::TFromD<D>(1)), one_minus_c)};
 }
 
-// (n.h)^2, of which Blinn's lobe is the power n/2.
+// (n.h)^2. Blinn's lobe is this to the power of n/2.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE LobeCosineV<V> BlinnSquaredCosine(D d, const HalfAnglesV<V>& a) {
   // |u|^2 is a normal number.
   const V scale = Reciprocal(d, a.u_squared);
   const V cos2 = hn::Mul(hn::Mul(a.n_dot_u, a.n_dot_u), scale);
-  // Lanes below the surface get cos^2 = 0, the lobe's zero.
+  // Lanes whose half vector is below the surface get cos^2 = 0, where the lobe is 0.
   const auto above = hn::Gt(a.n_dot_u, hn::Zero(d));
   return {hn::Mul(a.nxu_squared, scale), hn::IfThenElseZero(above, cos2)};
 }
 
-// c^n by log2(c): 0 where c <= 0, but 1 everywhere for n = 0.
+// c^n from log2(c): 0 where c <= 0, but 1 everywhere for n = 0.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V LobePower(D d, V log2, V n) {
   return HWY_NAMESPACE::Exp2(d, hn::Mul(n, log2));
 }
 
-// (n.h)^n by log2((n.h)^2).
+// (n.h)^n from log2((n.h)^2).
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V LobePowerOfSquare(D d, V log2, V n) {
   return LobePower(d, log2, hn::Mul(n, hn::Set(d, 0.5f)));

@@ -3,7 +3,7 @@
 //
 // With c the lobe's cosine, c^n = exp(n log(c)) loses n roundings of c when written that way:
 // 14 % rms at n = 1e6 in float. Written with x = 1 - c, computed without cancellation,
-// exp(n log1p(-x)) is right to any n.
+// exp(n log1p(-x)) is accurate for any n.
 #pragma once
 
 #include <cmath>
@@ -21,7 +21,7 @@ Real LobePower(Real x, Real c, Real n) {
   return std::exp(n * (2 * x < 1 ? std::log1p(-x) : std::log(c)));
 }
 
-// Phong 1975: max(r.v, 0)^n, r = 2 n (n.l) - l, without the gate on n.l. For unit vectors
+// Phong 1975: max(r.v, 0)^n, r = 2 n (n.l) - l, without the test of n.l > 0. For unit vectors
 // r.v = 1 - |r - v|^2 / 2. At the peak of the lobe, where n times the rounding error of r.v would
 // be visible, r - v is small, and so is the effect of its rounding errors.
 template <typename Real>
@@ -31,8 +31,8 @@ Real PhongLobe(const Imath::Vec3<Real>& normal, const Imath::Vec3<Real>& to_ligh
   return LobePower(one_minus_c, 1 - one_minus_c, shininess);
 }
 
-// Blinn 1977: max(n.h, 0)^n = (1 - sin^2)^(n/2), without the gate on n.l. 0 where h is undefined
-// (l = -v) or below the surface.
+// Blinn 1977: max(n.h, 0)^n = (1 - sin^2)^(n/2), without the test of n.l > 0. The result is 0 where
+// h is undefined (l = -v) or below the surface.
 template <typename Real>
 Real BlinnLobe(const Angles<Real>& a, Real shininess) {
   if (shininess == 0) return 1;
@@ -43,9 +43,9 @@ Real BlinnLobe(const Angles<Real>& a, Real shininess) {
   return LobePower(a.nxu_squared / u_squared, cos2 / u_squared, shininess / 2);
 }
 
-// Scale that makes the reflectance of the lobe c^n n.l, seen along the normal, equal to 1. Of light
-// from along the normal, where n.l is 1, lobes without n.l then reflect all, too.
-// Phong, modified Phong: (n + 2) / 2 pi (Lafortune and Willems 1994).
+// The scale with which the lobe c^n n.l, viewed along the normal, has a reflectance of 1. Lobes
+// without n.l then also reflect all light that arrives along the normal, where n.l is 1.
+// For Phong and modified Phong it is (n + 2) / 2 pi (Lafortune and Willems 1994).
 template <typename Real>
 Real PhongNormalization(Real shininess) {
   return (shininess + 2) / (2 * static_cast<Real>(M_PI));
@@ -58,17 +58,18 @@ Real BlinnNormalization(Real shininess) {
          (8 * static_cast<Real>(M_PI) * (std::exp2(-shininess / 2) + shininess));
 }
 
-// What a viewer along the normal sees of light 1 from everywhere by a lobe of that scale without
-// n.l: the scale times the integral of c^n alone. More than 1 at every exponent, 2 at 0, and the
-// most of all view directions. (The lobe is not reciprocal: of light from along the normal it
-// reflects 1, and of light that grazes the surface, over whose n.l it is to be divided, any
-// multiple.) Phong: (n + 2) / (n + 1).
+// The radiance that a viewer along the normal sees of a lobe with that scale and without n.l under
+// light of radiance 1 from everywhere (the furnace test): the scale times the integral of c^n
+// alone. It is more than 1 at every exponent, 2 at exponent 0, and the maximum over all view
+// directions. (The lobe is not reciprocal: it reflects all of the light that arrives along the
+// normal, and any multiple of light that grazes the surface, because as a BRDF it is divided by
+// n.l.) For Phong it is (n + 2) / (n + 1).
 template <typename Real>
 Real PhongFurnace(Real shininess) {
   return (shininess + 2) / (shininess + 1);
 }
 
-// Blinn-Phong: the integral is 8 pi (1 - 2^(-n/2 - 1)) / (n + 2), of h up to 45 degrees.
+// Blinn-Phong: the integral is 8 pi (1 - 2^(-n/2 - 1)) / (n + 2), over h up to 45 degrees from n.
 template <typename Real>
 Real BlinnFurnace(Real shininess) {
   const Real power = std::exp2(-shininess / 2);

@@ -4,9 +4,9 @@
 namespace nacre {
 namespace {
 
-// Where the numbers are from, and what a channel's number is:
+// Sources of the numbers, and the wavelengths that each channel stands for:
 // - silver, iron, aluminium: refractiveindex.info at 650, 550 and 450 nm, one wavelength a channel.
-// - gold: the measured spectrum that pbrt and Mitsuba ship, averaged over what each channel sees.
+// - gold: the measured spectrum that pbrt and Mitsuba ship, averaged over each channel's response.
 // - copper: Hagemann, Gudat and Kunz 1974 (DESY SR-74/7) at 652.5 and 442.8 nm; green is the value
 //   of the project's Fresnel table, which lies near their 520 nm.
 // - dielectrics: the sodium line, 589 nm; glass is an idealised crown. Dispersion is left out.

@@ -14,7 +14,7 @@ QuadratureRule MakeGaussLegendre(int points) {
   for (int i = 0; i < points; ++i) {
     double x = std::cos(M_PI * (i + 0.75) / (points + 0.5));
     double slope = 0;
-    for (int step = 0; step < 8; ++step) {  // Newton's: quadratic from four digits
+    for (int step = 0; step < 8; ++step) {  // Newton's method, quadratic from four digits on
       double before = 1;
       double value = x;
       for (int n = 2; n <= points; ++n) {

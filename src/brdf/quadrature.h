@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// brdf/quadrature.h: Gauss-Legendre rules, for the integrals that reflection models have no closed
-// form of.
+// brdf/quadrature.h: Gauss-Legendre rules, for integrals of reflection models that have no closed
+// form.
 #pragma once
 
 #include <cstddef>

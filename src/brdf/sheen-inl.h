@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// brdf/sheen-inl.h: the sheen of brdf/sheen.h on SIMD vectors of floats or doubles, all lanes of
-// one roughness or of one each.
+// brdf/sheen-inl.h: the sheen lobe on SIMD vectors of floats or doubles. The lanes share one
+// roughness, or each has its own. Scalar twin: brdf/sheen.h.
 #if defined(NACRE_BRDF_SHEEN_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_BRDF_SHEEN_INL_H_
 #undef NACRE_BRDF_SHEEN_INL_H_
@@ -29,7 +29,7 @@ struct CharlieV {
   V albedo[kCharlieTerms];
 };
 
-// All lanes of one roughness.
+// All lanes have the same roughness.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE CharlieV<V> BroadcastCharlie(D d, const Charlie<double>& charlie) {
   using T = hn::TFromD<D>;
@@ -48,7 +48,7 @@ HWY_INLINE CharlieV<V> BroadcastCharlie(D d, const Charlie<double>& charlie) {
   return lanes;
 }
 
-// Whether there is sheen at all: not of a delta lobe's alpha.
+// There is no sheen where IsDeltaLobe(alpha).
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> HasSheen(D d, const CharlieV<V>& charlie) {
   return hn::Ge(charlie.alpha, hn::Set(d, hn::TFromD<D>(0x1p-40)));
@@ -114,7 +114,7 @@ HWY_INLINE V CharlieLobe(D d, const CharlieV<V>& charlie, const AnglesV<V>& a) {
   return hn::IfThenElseZero(above, hn::Mul(CharlieDistribution(d, a, charlie.alpha), visibility));
 }
 
-// E, of n.v and n.v Lambda(n.v).
+// E, from n.v and n.v Lambda(n.v).
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V CharlieAlbedo(D d, const CharlieV<V>& charlie, V n_dot_v, V cosine_lambda_v) {
   using T = hn::TFromD<D>;
@@ -142,7 +142,7 @@ HWY_INLINE V CharlieAlbedo(D d, const CharlieV<V>& charlie, V n_dot_v) {
   return CharlieAlbedo(d, charlie, n_dot_v, CharlieCosineLambda(d, charlie, n_dot_v));
 }
 
-// Each lane of its own roughness, in [0, 1].
+// Each lane has its own roughness, in [0, 1].
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE CharlieV<V> MakeCharlie(D d, V roughness) {
   using T = hn::TFromD<D>;

@@ -4,10 +4,10 @@
 // masking-shadowing, directional albedo and the scaling of what lies below. There is no Fresnel
 // term: a colour multiplies the lobe. SIMD twin: sheen-inl.h.
 //
-// alpha = roughness^2, as of GGX. The microfacets stand upright, the more so the smaller alpha is:
+// alpha = roughness^2, as for GGX. The microfacets stand upright, the more so the smaller alpha is:
 // light is reflected where light or viewer are within a few times `roughness` (in radians) of the
 // horizon. For any directions above the surface the lobe's limit at roughness 0 is 0, so there is
-// no sheen where IsDeltaLobe(alpha): less than 1e-6 rad above the horizon is all that would show.
+// no sheen where IsDeltaLobe(alpha): it would show only less than 1e-6 rad above the horizon.
 #pragma once
 
 #include <algorithm>
@@ -22,15 +22,15 @@ namespace nacre {
 
 inline constexpr int kCharlieTerms = 8;
 
-// What the lobe's terms need of a roughness.
+// The lobe's constants for one roughness.
 template <typename Real>
 struct Charlie {
   Real roughness, alpha;
   // log(Lambda(x)) = a / (1 + b x^c) + d x + e for x < 1/2 (Estevez and Kulla 2017), and
-  // twice its value at 1/2, by which the rest is mirrored.
+  // twice_middle - log(Lambda(1 - x)) for larger x; twice_middle is twice its value at 1/2.
   Real a, b, c, d, e, twice_middle;
   Real typical_lambda;  // half of Lambda at the n.l that most light of the lobe comes from
-  std::array<Real, kCharlieTerms> albedo;  // a polynomial: see CharlieAlbedo
+  std::array<Real, kCharlieTerms> albedo;  // the polynomial of CharlieAlbedo
 };
 
 // Estevez and Kulla 2017: (2 + 1 / alpha) sin^(1 / alpha) / 2 pi of the half vector's angle,
@@ -42,10 +42,11 @@ Real CharlieDistribution(const Angles<Real>& a, Real alpha) {
   return (2 + 1 / alpha) / (2 * static_cast<Real>(M_PI)) * std::exp(log_sin2 / (2 * alpha));
 }
 
-// Lambda(x) of a surface whose slopes have a mean grows as 1 / x towards grazing angles. That of
-// the paper does so down to about this x and below it stays finite, so that D V n.l, which is
+// Lambda(x) of a surface whose slopes have a mean grows as 1 / x towards grazing angles. The
+// paper's Lambda does so down to about this x and stays finite below it, so that D V n.l, which is
 // divided by n.v (1 + Lambda(n.v) + Lambda(n.l)), would grow as 1 / n.v, and reflect any multiple
-// of the light. x Lambda(x) is largest about here, at every roughness, and keeps that value below.
+// of the light. x Lambda(x) is largest at about this x, at every roughness; for smaller x that
+// value is used.
 inline constexpr double kLeastCharlieCosine = 0x1p-14;
 
 // x Lambda(x), x = n.l or n.v in [0, 1].
@@ -60,14 +61,14 @@ Real CharlieCosineLambda(const Charlie<Real>& charlie, Real n_dot_x) {
 }
 
 // V = G / (4 n.l n.v), G = 1 / (1 + Lambda(n.l) + Lambda(n.v)), from the products
-// x Lambda(x): finite unless light and viewer both graze the surface. Wants n.l > 0 and n.v >= 0.
+// x Lambda(x): finite unless light and viewer both graze the surface. Requires n.l > 0, n.v >= 0.
 // The paper's softer terminator is left out, as in KHR_materials_sheen.
 template <typename Real>
 Real CharlieVisibility(Real n_dot_l, Real n_dot_v, Real cosine_lambda_l, Real cosine_lambda_v) {
   return 1 / (4 * (n_dot_l * n_dot_v + n_dot_v * cosine_lambda_l + n_dot_l * cosine_lambda_v));
 }
 
-// D V, of which n.l and the colour are left out.
+// D V, without n.l and without the colour. 0 unless n.l > 0 and n.v >= 0.
 template <typename Real>
 Real CharlieLobe(const Charlie<Real>& charlie, const Angles<Real>& a) {
   if (!(a.n_dot_l > 0) || !(a.n_dot_v >= 0)) return 0;
@@ -76,8 +77,8 @@ Real CharlieLobe(const Charlie<Real>& charlie, const Angles<Real>& a) {
                            CharlieCosineLambda(charlie, a.n_dot_v));
 }
 
-// The polynomial of CharlieAlbedo: rows are of powers of its variable of n.v, columns of
-// 2 roughness^(1/4) - 1, lowest first. scripts/fit_sheen.py prints them with their error.
+// The polynomial of CharlieAlbedo: row i belongs to x^i, x being the variable made of n.v, column j
+// to (2 roughness^(1/4) - 1)^j. scripts/fit_sheen.py prints them with their error.
 inline constexpr double kCharlieAlbedo[kCharlieTerms][kCharlieTerms] = {
     {0.17253838, 0.104559345, 0.113779475, 0.0273535747, 0.01692275, 0.0366928409, 0.00364515736,
      -0.00500869453},
@@ -98,14 +99,14 @@ inline constexpr double kCharlieAlbedo[kCharlieTerms][kCharlieTerms] = {
 };
 
 // E: the directional albedo of D V, fitted to its integral within 1.6e-3 for roughnesses from 0.001
-// and all n.v, within 2.1e-3 below, relative to E where it is above 1. It is so for roughnesses
-// below 0.26 near the horizon: upright microfacets shadow one another more than this Lambda knows,
-// and at n.v = 0 E grows as 0.18 / roughness. See ScaleSheen.
+// and all n.v, within 2.1e-3 below; the error is relative to E where E is above 1. E is above 1 for
+// roughnesses below 0.26 near the horizon: upright microfacets shadow one another more than this
+// Lambda models, and at n.v = 0 E grows as 0.18 / roughness. See ScaleSheen.
 //
-// The half vector that lies nearest the horizon has a sin^2 of (1 + sin(theta_v)) / 2: its power,
-// by a series that is smooth at n.v = 1, is nearly all of the curve's fall. The mean of V over the
-// light's directions is V at a typical one times a polynomial in sqrt(u), u = n.v (1 + 3 roughness)
-// / (n.v + 3 roughness), which for any roughness is 1 at n.v = 1.
+// The half vector that lies nearest the horizon has a sin^2 of (1 + sin(theta_v)) / 2. Its power of
+// 1 / (2 alpha), by a series that is smooth at n.v = 1, explains nearly all of the curve's fall.
+// The mean of V over the directions of light is V at a typical one times a polynomial in sqrt(u),
+// u = n.v (1 + 3 roughness) / (n.v + 3 roughness), which is 1 at n.v = 1 for any roughness.
 template <typename Real>
 Real CharlieAlbedo(const Charlie<Real>& charlie, Real n_dot_v, Real cosine_lambda_v) {
   if (IsDeltaLobe(charlie.alpha)) return 0;
@@ -128,13 +129,13 @@ Real CharlieAlbedo(const Charlie<Real>& charlie, Real n_dot_v) {
   return CharlieAlbedo(charlie, n_dot_v, CharlieCosineLambda(charlie, n_dot_v));
 }
 
-// roughness in [0, 1].
+// roughness is in [0, 1].
 template <typename Real>
 Charlie<Real> MakeCharlie(Real roughness) {
   Charlie<Real> charlie;
   charlie.roughness = roughness;
   charlie.alpha = AlphaFromRoughness(roughness);
-  // The paper's table: coefficients at alpha 1 and 0, and between them by (1 - alpha)^2.
+  // The paper's table has coefficients for alpha 1 and 0, which are mixed by (1 - alpha)^2.
   const Real smooth = (1 - charlie.alpha) * (1 - charlie.alpha);
   const auto mix = [&](double rough_end, double smooth_end) {
     return static_cast<Real>(rough_end) + static_cast<Real>(smooth_end - rough_end) * smooth;
@@ -163,31 +164,33 @@ Charlie<Real> MakeCharlie(Real roughness) {
   return charlie;
 }
 
-// How a layer of sheen and what lies below it share the light.
+// The factors by which a layer of sheen and what lies below it share the light.
 template <typename Real>
 struct SheenScale {
-  Real lobe;   // of colour D V
-  Real below;  // of the BRDF below
+  Real lobe;   // multiplies colour D V
+  Real below;  // multiplies the BRDF below
 };
 
-// KHR_materials_sheen: what lies below is scaled by min(1 - m E(n.v), 1 - m E(n.l)), m the largest
-// channel of the sheen's colour. It is reciprocal, and a white surface reflects no more than all
-// light: the lobe m E(n.v), and what is below at most 1 - m E(n.v). Where m E exceeds 1, in either
-// direction, the extension leaves open what happens; here nothing is left for below, and the lobe
-// is divided by the larger m E, so that it gives back all light at most and stays reciprocal. With
-// E(n.v) for both albedos (SheenScaling::kConserving) a white surface reflects exactly all light.
+// KHR_materials_sheen: what lies below is scaled by min(1 - m E(n.v), 1 - m E(n.l)), m being the
+// largest channel of the sheen's colour. This is reciprocal, and a white surface reflects no more
+// light than it receives: the lobe m E(n.v), and what is below at most 1 - m E(n.v). The extension
+// does not say what happens where m E exceeds 1 in either direction; here the BRDF below is scaled
+// by 0, and the lobe is divided by the larger m E, so that it reflects at most all light and stays
+// reciprocal. With E(n.v) for both albedos (SheenScaling::kConserving) a white surface reflects
+// exactly all light.
 template <typename Real>
 SheenScale<Real> ScaleSheen(Real largest_channel, Real albedo_v, Real albedo_l) {
   const Real share = largest_channel * std::max(albedo_v, albedo_l);
   return {share > 1 ? 1 / share : Real(1), share < 1 ? 1 - share : Real(0)};
 }
 
-// Directions to light for the lobe: any azimuth, and n.l with the pdf 2 w (1 + w)^2 n.l / (n.l +
-// w)^3, w = roughness: as D V n.l they gather about n.l = w / 2 and thin out above. The square root
-// of u0 is (1 + w) n.l / (n.l + w), so all of them are above the surface. The lobe's half vectors
-// lie near the horizon, about which v is mirrored to below the surface more often than not, and
-// cosine-weighted directions miss the horizon. Standard deviation of one sample over its mean,
-// D V n.l over the pdf, by quadrature, at n.v = 0.1 and 0.6:
+// Samples directions to light for the lobe: the azimuth is uniform, and n.l has the pdf
+// 2 w (1 + w)^2 n.l / (n.l + w)^3, w = roughness, which like D V n.l peaks at n.l = w / 2 and falls
+// off above. The square root of u0 is (1 + w) n.l / (n.l + w), so all directions are above the
+// surface. Sampled half vectors of the lobe would lie near the horizon, and mirror v to below the
+// surface more often than not; cosine-weighted directions miss the horizon. The table gives the
+// standard deviation of one sample, D V n.l over the pdf, relative to its mean, by quadrature, at
+// n.v = 0.1 and 0.6:
 //
 //   roughness   this sampler   cosine-weighted   uniform      half vectors of D
 //   0.1         1.1    2.3     5.7    14         2.1    4.3   1.0    37
@@ -197,14 +200,15 @@ SheenScale<Real> ScaleSheen(Real largest_channel, Real albedo_v, Real albedo_l) 
 template <typename Real>
 Imath::Vec3<Real> SampleCharlie(const Imath::Vec3<Real>& normal, Real roughness, Real u0, Real u1) {
   const Real root = std::sqrt(u0);
-  const Real one_minus_root = (1 - u0) / (1 + root);  // n.l near 1 is made of it
+  const Real one_minus_root = (1 - u0) / (1 + root);  // without cancellation, for n.l near 1
   const Real n_dot_l = roughness * root / (roughness + one_minus_root);
   const Real sin = std::sqrt((1 - n_dot_l) * (1 + n_dot_l));
   const Real phi = 2 * static_cast<Real>(M_PI) * u1;
   return BasisAbout(normal).ToWorld({sin * std::cos(phi), sin * std::sin(phi), n_dot_l});
 }
 
-// Per solid angle; integrates to 1 over the hemisphere. 0 for a roughness of 0, which has no lobe.
+// The pdf per solid angle, which integrates to 1 over the hemisphere. It is 0 for a roughness of 0,
+// which has no lobe.
 template <typename Real>
 Real CharliePdf(Real n_dot_l, Real roughness) {
   if (!(n_dot_l > 0)) return 0;

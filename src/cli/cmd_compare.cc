@@ -17,8 +17,8 @@
 #include "cli/render_options.h"
 #include "compare/perceptual.h"
 #include "compare/verdict.h"
-#include "image_io/image_file.h"
 #include "image_io/output_file.h"
+#include "image_io/read_image.h"
 #include "scene_io/json_text.h"
 
 namespace nacre {
@@ -71,8 +71,8 @@ void PrintPerceptual(const std::vector<PerceptualMetrics>& all) {
   }
 }
 
-// How the data windows of parts of a name differ, which the windows around all of them need not
-// tell; "" if they do not.
+// Describes how the data windows of parts with the same name differ, which the windows around all
+// parts need not show; "" if they do not differ.
 std::string PartWindowsInWords(const ImageFile& image, const ImageFile& reference) {
   if (!image.has_several) return {};
   for (const ImagePart& a : image.parts) {
@@ -206,7 +206,7 @@ void AddCompareCommand(CLI::App* app, int* exit_code) {
     try {
       *exit_code = RunCompare(*a);
     } catch (const Error& error) {
-      // An image that cannot be read cannot be compared.
+      // An image that cannot be read cannot be compared, so the exit code is another one.
       if (error.code() != ExitCode::kBadInput) throw;
       throw Error(ExitCode::kCannotCompare, error.faults());
     }

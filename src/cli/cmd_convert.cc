@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/cmd_convert.cc: nacre convert: a material of one model as the nearest one of another.
+// cli/cmd_convert.cc: nacre convert: converts a material to the nearest one of another model.
 #include <cmath>
 #include <memory>
 #include <set>
@@ -15,6 +15,7 @@
 #include "cli/outputs.h"
 #include "cli/print.h"
 #include "image_io/output_file.h"
+#include "scene_io/load_scene.h"
 #include "scene_io/material_json.h"
 #include "scene_io/sheet_axis.h"
 #include "shading/material_fit.h"
@@ -26,7 +27,7 @@ namespace {
 struct ConvertArguments {
   std::string material;
   std::string to = "metallic_roughness";
-  std::vector<std::string> curves;  // files
+  std::vector<std::string> curves;  // paths
   bool json = false;
   SheetOptions sheet;
   RenderOptions options;
@@ -44,7 +45,7 @@ Json ResidualJson(const MaterialResidual& residual) {
   return {{"rms", residual.rms}, {"views", views}};
 }
 
-// "-" where there is no lobe to be compared with.
+// "-" if there is no lobe to compare with.
 std::string RmsText(double rms) { return std::isinf(rms) ? "-" : fmt::format("{:.3f}", rms); }
 
 std::string Table(const MaterialFit& fit) {
@@ -72,7 +73,7 @@ std::string Table(const MaterialFit& fit) {
   return text;
 }
 
-// Options that say how a picture looks mean nothing where none is drawn.
+// Refuses options that only affect a picture if none is drawn.
 void RefuseWhatCannotApply(const ConvertArguments& arguments, const CLI::App& command) {
   if (!arguments.options.outputs.empty()) {
     RefuseWhatNoDifferencePageTakes(command, "nacre convert");
@@ -94,7 +95,7 @@ void DrawCurves(const ConvertArguments& arguments, const Material& original,
   for (const std::string& path : arguments.curves) WriteFigure(path, figure);
 }
 
-// All files that are to be written; those of curves are looked at here.
+// The paths of all files that are to be written; checks those of curves.
 std::vector<std::string> CheckFiles(const ConvertArguments& arguments) {
   std::vector<std::string> paths = arguments.options.outputs;
   for (const std::string& path : arguments.curves) {
@@ -106,7 +107,8 @@ std::vector<std::string> CheckFiles(const ConvertArguments& arguments) {
   return paths;
 }
 
-// The page with both materials and their difference; null if there is none.
+// Draws the page with both materials and their difference, and returns their measures; null if no
+// page was asked for.
 Json DrawPage(const ConvertArguments& arguments, const Json& given, const Material& original,
               const MaterialFit& fit, const std::vector<std::string>& outputs) {
   if (arguments.options.outputs.empty()) return {};
@@ -131,7 +133,7 @@ void RunConvert(const ConvertArguments& arguments, const CLI::App& command) {
   const Json given = ParseMaterialText("MATERIAL", arguments.material);
   Json source = given;
   source.erase("name");
-  const Material original = MaterialFromJson(source, "MATERIAL");
+  const Material original = LoadMaterialText(JsonText(source), "MATERIAL");
   const MaterialFit fit = FitMaterial(original, arguments.to);
   const Json difference = DrawPage(arguments, given, original, fit, outputs);
   DrawCurves(arguments, original, MaterialLabel(given), fit);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/cmd_docs.cc: nacre docs man|bash: what is installed beside the program. Not in the help.
+// cli/cmd_docs.cc: nacre docs man|bash: prints files to install beside the program. Hidden from the
+// help.
 #include <memory>
 #include <string>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/cmd_explain.cc: nacre explain TOPIC: what a part of nacre is about, with numbers that it
-// measures while it tells.
+// cli/cmd_explain.cc: nacre explain TOPIC: explains a part of nacre, with numbers that it measures
+// at that moment.
 #include <filesystem>
 #include <memory>
 
@@ -28,7 +28,7 @@ struct Sheet {
   Scene (*scene)();
 };
 
-// Breaks the words at the 100th column; the lines that follow are indented.
+// Wraps words at column 100; continuation lines are indented.
 std::string Wrap(std::string_view words, size_t indent) {
   constexpr size_t kColumns = 100;
   std::string text;
@@ -74,8 +74,8 @@ void PrintFaults(const LessonPictures& lesson) {
   for (const std::string& line : ChangeLines(lesson, none)) PrintOut("     " + line + "\n");
 }
 
-// The pictures' paths in `folder`, which is made if need be. Throws Error for any that cannot be
-// written, before anything is rendered.
+// The paths of the pictures in `folder`, which is created if necessary. Throws Error for paths that
+// cannot be written, before anything is rendered.
 std::vector<std::string> PrepareFolder(const std::string& folder,
                                        const std::vector<Sheet>& sheets) {
   std::error_code error;
@@ -94,7 +94,7 @@ std::vector<std::string> PrepareFolder(const std::string& folder,
 void ExplainTextbook(const std::string& folder) {
   const LessonPictures lesson = RenderLesson({});
   const std::vector<Sheet> sheets = {
-      // All of it, and the sphere four times as large.
+      // The whole scene, and its sphere magnified four times.
       {"phong_vs_pbr.png",
        {"Phong (left half) against PBR (right half)",
         {{Window{0, 0, 400, 200}, 1}, {Window{150, 50, 250, 150}, 4}}},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/cmd_grid.cc: nacre grid: a sheet of spheres over two axes of materials, without a file.
+// cli/cmd_grid.cc: nacre grid: a sheet of spheres whose materials vary along two axes, without a
+// scene file.
 #include <algorithm>
 #include <memory>
 #include <string>
@@ -23,7 +24,7 @@ namespace {
 using Kind = SheetAxis::Kind;
 
 struct GridArguments {
-  std::string rows, columns;  // empty: the model's own
+  std::string rows, columns;  // empty: the default axes of the model
   std::string material = R"({"model": "metallic_roughness", "base_color": [0.9, 0.6, 0.2]})";
   SheetOptions sheet;
   RenderOptions options;
@@ -35,9 +36,9 @@ struct Axes {
   std::string material_label;
 };
 
-// Axes that are not given are those of the model (MaterialModel::rows, columns): of the first one
-// where the other axis is of whole models. One that the other axis varies already gives way to the
-// model's second.
+// Fills in axes that are not given with those of the model (MaterialModel::rows, columns), or of
+// the first model if the other axis lists whole models. If the other axis varies the default
+// parameter already, the model's other default axis is taken.
 void CompleteAxes(const GridArguments& arguments, Axes* axes) {
   if (!arguments.rows.empty()) axes->rows = ParseSheetAxis("--rows", arguments.rows);
   if (!arguments.columns.empty()) axes->columns = ParseSheetAxis("--columns", arguments.columns);
@@ -48,7 +49,7 @@ void CompleteAxes(const GridArguments& arguments, Axes* axes) {
   const auto name = base->find("model");
   const MaterialModel* model =
       name != base->end() && name->is_string() ? FindModel(name->get<std::string>()) : nullptr;
-  // The check of the axes says what is wrong with a model that there is not.
+  // For a model that does not exist, the check of the axes reports the error.
   if (model == nullptr) model = FindModel("metallic_roughness");
   const auto own = [&](std::string_view first, std::string_view second, const SheetAxis& other) {
     const SheetAxis axis = ParseSheetAxis("--material", std::string(first));
@@ -82,13 +83,13 @@ Axes ParseAxes(const GridArguments& arguments) {
   return axes;
 }
 
-// The axis as the scene format's grid has it.
+// The axis in the form of the scene format's "grid".
 Json GridAxisJson(const SheetAxis& axis) {
   if (axis.kind == Kind::kParameter) return {{"parameter", axis.name}, {"values", axis.values}};
   return {{"count", 1}};
 }
 
-// The base of the spheres at place i of an axis that a grid of the scene format cannot vary.
+// Sets value i of an axis that a "grid" of the scene format cannot vary in the base material.
 void ApplyPlace(const SheetAxis& axis, size_t i, Json* material) {
   if (axis.kind == Kind::kMaterial) *material = axis.values[i];
   if (axis.kind == Kind::kChoice) (*material)[axis.name] = axis.values[i];
@@ -98,7 +99,8 @@ size_t PlacesOf(const SheetAxis& axis) {
   return axis.kind == Kind::kParameter ? 1 : axis.values.size();
 }
 
-// Parameters vary within a grid; choices and whole materials make grids of their own.
+// A parameter varies within a grid shape; each choice or whole material gets a grid shape of its
+// own.
 Json GridShapes(const Axes& axes) {
   const size_t row_places = PlacesOf(axes.rows);
   const size_t column_places = PlacesOf(axes.columns);
@@ -123,7 +125,7 @@ Json GridShapes(const Axes& axes) {
   return shapes;
 }
 
-// "base_color 0.9 0.6 0.2": what the base material says and no axis varies.
+// Lists the parameters of the base material that no axis varies: "base_color 0.9 0.6 0.2".
 std::string FixedParameters(const Axes& axes) {
   std::vector<std::string> parts;
   for (const auto& [key, value] : axes.material.items()) {
@@ -173,7 +175,7 @@ void RunGrid(const GridArguments& arguments) {
       page.text);
 }
 
-// "roughness=0.1:0.9:5 (metallic_roughness, conductor); ...": the axes that models have.
+// Lists the default axes of the models: "roughness=0.1:0.9:5 (metallic_roughness, conductor); ...".
 std::string ModelAxes(std::string_view MaterialModel::*axis) {
   std::vector<std::pair<std::string_view, std::string>> axes;
   for (const MaterialModel& model : MaterialModels()) {

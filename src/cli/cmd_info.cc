@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/cmd_info.cc: nacre info: what an image file or scene file holds, and what this build is.
+// cli/cmd_info.cc: nacre info: prints the contents of an image or scene file, and describes the
+// build.
 #include <algorithm>
 #include <memory>
 
@@ -15,8 +16,8 @@
 #include "cli/print.h"
 #include "cli/render_options.h"
 #include "color/primaries.h"
-#include "image_io/image_file.h"
 #include "image_io/oiio.h"
+#include "image_io/read_image.h"
 #include "image_io/verify_image.h"
 #include "output/metadata.h"
 #include "scene/hash.h"
@@ -79,7 +80,8 @@ void PrintImage(const std::string& path, const std::string& wanted) {
   }
 }
 
-// "3: gold, silver, copper", as --set names them; of many, some.
+// The number of items and their names for --set, of which long lists are cut: "3: gold, silver,
+// copper".
 template <class Item>
 std::string CountAndNames(const std::vector<Item>& items) {
   constexpr size_t kMost = 8;

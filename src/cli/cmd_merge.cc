@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/cmd_merge.cc: nacre merge: the tiles of a picture to the whole of it.
+// cli/cmd_merge.cc: nacre merge: joins the tiles of a picture.
 #include <algorithm>
 #include <chrono>
 #include <memory>
@@ -30,7 +30,7 @@ struct MergeArguments {
   bool quiet = false;
 };
 
-// The files being made, which tiles go into from the top down.
+// The output files, to which tiles are added from the top down.
 class MergedFiles {
  public:
   MergedFiles(const MergeArguments& arguments, const ExrBandHeader& whole) : whole_(whole) {
@@ -43,7 +43,7 @@ class MergedFiles {
     for (const char* name : {"Software", "nacre:shadowing"}) {
       const auto found = attributes.find(name);
       if (found == attributes.end()) continue;
-      // A foreign file may have an attribute of this name and of another type.
+      // A file not made by nacre may have an attribute of this name, but of another type.
       if (const auto* text = std::get_if<std::string>(&found->second)) png.text[name] = *text;
     }
     png.text["nacre:tonemap"] = arguments.tonemap;
@@ -79,7 +79,7 @@ class MergedFiles {
   uint64_t nan_pixels() const { return nan_pixels_; }
 
  private:
-  // PNG strips are those of the frame; a tile's rows may begin within one.
+  // PNG strips are counted from the top of the frame; a tile may begin within a strip.
   void AddToPng(const Window& rows, ExrBandReader* reader) {
     const auto row_bytes = 3 * static_cast<size_t>(rows.width());
     for (int y = rows.y0; y < rows.y1;) {
@@ -110,7 +110,7 @@ class MergedFiles {
   std::vector<std::unique_ptr<ExrBandWriter>> exr_;
   std::vector<std::unique_ptr<PngWriter>> png_;
   std::vector<std::vector<float>> planes_;
-  std::vector<uint8_t> rgb8_;  // of a strip, as far as it has come
+  std::vector<uint8_t> rgb8_;  // the current strip, as far as it is complete
   int png_row_ = 0;            // its first row
   uint64_t nan_pixels_ = 0;
 };

@@ -11,6 +11,7 @@
 #include "cli/difference_page.h"
 #include "cli/print.h"
 #include "cli/render_job.h"
+#include "scene_io/load_scene.h"
 #include "scene_io/material_json.h"
 #include "scene_io/sheet_axis.h"
 
@@ -18,7 +19,7 @@ namespace nacre {
 namespace {
 
 struct PairArguments {
-  // The same red plastic twice: shininess 2 / alpha^2 - 2 for roughness 0.4, ks = F0.
+  // Both are the same red plastic: shininess 2 / alpha^2 - 2 for roughness 0.4, ks = F0.
   std::string a = R"({"model": "phong", "color": [0.8, 0.2, 0.2], "kd": 0.96, "ks": 0.04, )"
                   R"("ka": 0.96, "shininess": 19})";
   std::string b = R"({"model": "metallic_roughness", "base_color": [0.8, 0.2, 0.2], )"
@@ -31,7 +32,7 @@ struct PairArguments {
 
 struct Side {
   Json json;      // as given
-  Json complete;  // with every number
+  Json complete;  // with all parameters
   std::string label;
 };
 
@@ -40,7 +41,7 @@ Side ReadSide(const std::string& option, const std::string& text) {
   side.json = ParseMaterialText(option, text);
   side.label = MaterialLabel(side.json);
   side.json.erase("name");
-  const Material material = MaterialFromJson(side.json, option);
+  const Material material = LoadMaterialText(JsonText(side.json), option);
   if (std::holds_alternative<SplitMaterial>(material.model)) {
     throw Error(ExitCode::kBadInput, option, "a split is not one material", "give --a and --b");
   }
@@ -59,7 +60,7 @@ std::vector<std::string> Footer(const PairArguments& arguments, const Side& a, c
           "light: " + MakeLighting(arguments.sheet.lighting, 0.5).label};
 }
 
-// Both on one page, by the job behind all renders.
+// Renders both materials on one page through the job that all rendering commands share.
 void RenderBoth(const PairArguments& arguments, const Side& a, const Side& b) {
   const RenderOptions& options = arguments.options;
   const bool split = arguments.layout == "split";

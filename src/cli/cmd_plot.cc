@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/cmd_plot.cc: nacre plot: reflection models, lights and tone operators as curves.
+// cli/cmd_plot.cc: nacre plot: plots reflection models, lights and tone operators as curves.
 #include <algorithm>
 #include <memory>
 #include <set>
@@ -28,11 +28,11 @@ namespace {
 
 struct PlotArguments {
   std::string kind;
-  PlotInputs inputs;  // its outputs are the plot's
+  PlotInputs inputs;  // inputs.outputs are the plot's files
   CurveOptions curves;
   std::string channel = "luminance";
   std::string title;
-  std::string size;  // empty: 1280x800, or what slices need
+  std::string size;  // empty: 1280x800, or as large as slices need
   double exposure = 0;
   bool one_light = false;
 };
@@ -44,7 +44,7 @@ ColorChannel ParseChannel(const std::string& name) {
   return ColorChannel::kLuminance;
 }
 
-// Throws Error (bad input) unless `has` holds of every material.
+// Throws Error (kBadInput) unless `has` is true for every material.
 void Require(const std::vector<NamedMaterial>& materials, bool (*has)(const ShadingMaterial&),
              const char* what, const char* hint) {
   for (const NamedMaterial& named : materials) {
@@ -54,7 +54,7 @@ void Require(const std::vector<NamedMaterial>& materials, bool (*has)(const Shad
   }
 }
 
-// What the numbers are of.
+// The options with defaults filled in.
 CurveOptions Complete(const PlotArguments& arguments) {
   CurveOptions options = arguments.curves;
   options.channel = ParseChannel(arguments.channel);
@@ -113,7 +113,8 @@ Plots DrawFalloff(const PlotArguments& a) {
       without.push_back(light.name);
     }
   }
-  // Of the lights of a scene those without are left out; one that was asked for is an error.
+  // Lights of a scene that have no such curve are left out; for lights named explicitly it is an
+  // error.
   const bool asked = !a.inputs.lights.empty();
   if (!without.empty() && (asked || lights.empty())) {
     throw Error(ExitCode::kBadInput, without[0],
@@ -133,7 +134,7 @@ struct PlotKind {
   const char* name;
   const char* help;
   Plots (*draw)(const PlotArguments&);
-  std::set<std::string> options;  // that it takes, besides those of all kinds
+  std::set<std::string> options;  // options of this kind, besides those common to all kinds
 };
 const std::vector<PlotKind> kPlotKinds = {
     {"brdf",
@@ -162,7 +163,7 @@ const std::vector<PlotKind> kPlotKinds = {
     {"falloff", "a light's irradiance over its distance", DrawFalloff, {"--light"}},
 };
 
-// Materials and lights may come from a scene.
+// Whether the kind can take its materials or lights from a scene.
 bool TakesScene(const PlotKind& kind) {
   return kind.options.contains("--material") || kind.options.contains("--light");
 }
@@ -193,7 +194,7 @@ const PlotKind& FindKind(const std::string& name) {
                               : fmt::format("did you mean \"{}\"?", nearest));
 }
 
-// Panels in rows of three at most, with their title above.
+// Arranges panels in rows of at most three, with a title above.
 Figure Arrange(Plots plots, const std::string& title) {
   if (plots.size() == 1) {
     if (!title.empty()) plots[0].title = title;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/cmd_report.cc: nacre report: pictures, comparisons, validations and benchmarks as one HTML
-// file.
+// cli/cmd_report.cc: nacre report: writes pictures, comparisons, validations and benchmarks to one
+// HTML file.
 #include <algorithm>
 #include <memory>
 
@@ -31,7 +31,8 @@ struct ReportArguments {
   PerceptualArguments perceptual;
 };
 
-// The pictures of the inputs, each with its stats, and which of them the others are compared with.
+// The pictures of the inputs, each with its stats, and the index of the one that the others are
+// compared with.
 struct Pictures {
   std::vector<ReportPicture> all;
   size_t reference = 0;
@@ -58,7 +59,7 @@ Pictures ReadPictures(const ReportArguments& arguments) {
     }
     paths.push_back(path);
   }
-  // As in `nacre compare IMAGE REFERENCE`.
+  // As in `nacre compare IMAGE REFERENCE`, the second one is the reference.
   pictures.reference = pictures.all.size() > 1 ? 1 : 0;
   if (!arguments.reference.empty()) {
     const auto found = std::find(paths.begin(), paths.end(), arguments.reference);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/cmd_schema.cc: nacre schema
+// cli/cmd_schema.cc: nacre schema: prints the JSON Schema of scene files.
 #include "cli/commands.h"
 #include "cli/print.h"
-#include "scene_io/load_scene.h"
+#include "scene_io/schema.h"
 
 namespace nacre {
 

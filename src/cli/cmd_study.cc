@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/cmd_study.cc: nacre study: the lesson's exercises, answered in a folder of pictures,
-// diagrams, numbers and words.
+// cli/cmd_study.cc: nacre study: answers the lesson's exercises with a folder of pictures,
+// diagrams, numbers and explanations.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -58,7 +58,7 @@ std::string AnswerText(const StudyEntry& study, const StudyResult& result) {
                     study.name, kVersion);
 }
 
-// Makes the folder, and sees that a file can be written there, before anything is computed.
+// Creates the folder, and checks that files can be written there, before anything is computed.
 void PrepareFolder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);

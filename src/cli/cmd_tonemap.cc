@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/cmd_tonemap.cc: nacre tonemap: a linear image to a PNG for a display.
+// cli/cmd_tonemap.cc: nacre tonemap: converts a linear image to a PNG for a display.
 #include <array>
 #include <atomic>
 #include <cstdlib>
@@ -14,9 +14,9 @@
 #include "cli/print.h"
 #include "cli/render_options.h"
 #include "image_io/color_channels.h"
-#include "image_io/image_file.h"
 #include "image_io/output_file.h"
 #include "image_io/png_writer.h"
+#include "image_io/read_image.h"
 #include "scene/limits.h"
 
 namespace nacre {
@@ -31,8 +31,8 @@ struct TonemapArguments {
   bool small = false;
 };
 
-// The channels of the layer that is asked for; of the beauty of a file of several parts, those of
-// the first part that has colours.
+// The channels of the requested layer. For the beauty of a multi-part file, those of the first part
+// with colours.
 ColorChannels RequireColors(const ImageFile& image, const TonemapArguments& arguments) {
   const std::string layer = arguments.layer == "beauty" ? "" : arguments.layer;
   const std::vector<Channel>& channels = image.header.channels;
@@ -63,7 +63,7 @@ ColorChannels RequireColors(const ImageFile& image, const TonemapArguments& argu
 // The samples of the display window, black where the file has none.
 struct ShownPixels {
   Window window;
-  std::array<std::vector<float>, 3> rgb;  // of a grey image the first one alone
+  std::array<std::vector<float>, 3> rgb;  // only the first for a grey image
 
   const float* From(size_t c, size_t first) const {
     return rgb[rgb[c].empty() ? 0 : c].data() + first;
@@ -107,7 +107,7 @@ ShownPixels ReadShown(const ImageFile& image, const ColorChannels& colors) {
 }
 
 void RunTonemap(const TonemapArguments& arguments) {
-  // The size is known only after reading, but a path that cannot be written is told before.
+  // The size is known only after reading, but an unwritable path is reported before that.
   CheckPngPath(arguments.output);
   CheckPathsDiffer({arguments.input, arguments.output});
   const ImageFile image = OpenImage(arguments.input, arguments.part);

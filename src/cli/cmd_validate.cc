@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/cmd_validate.cc: nacre validate: renders scenes that have a reference image and compares.
+// cli/cmd_validate.cc: nacre validate: renders scenes and compares them with their reference
+// images.
 #include <memory>
 
 #include <fmt/format.h>
@@ -24,7 +25,7 @@ struct ValidateArguments {
   ReferenceOptions references;
 };
 
-// A line of the table.
+// Prints a row of the table.
 void PrintOutcome(const ReferenceOutcome& outcome) {
   if (!outcome.run) {
     PrintOut("{:<24} ERROR  {}\n", outcome.name, outcome.failure);
@@ -41,7 +42,7 @@ void PrintOutcome(const ReferenceOutcome& outcome) {
 ExitCode Validate(const ValidateArguments& arguments) {
   ApplyTarget(arguments.target);
   if (!arguments.report.empty()) CheckReportPath(arguments.report);
-  constexpr size_t kLimit = size_t{64} << 20;  // bytes of samples, as nacre report has it
+  constexpr size_t kLimit = size_t{64} << 20;  // bytes of samples, as in nacre report
   PerceptualArguments shown;
   shown.metrics = {"all"};
   Page page;

@@ -57,11 +57,11 @@ struct ViewArguments {
   RenderOptions options;
 };
 
-// How long the program may take to end once a signal has come.
+// How long the program may take to end after a signal.
 constexpr std::chrono::milliseconds kEndsWithin(800);
 
-// A page in a file of the user's own that sends the browser on to the address. Arguments of
-// programs are shown to every user of the machine, and the address has the token in it.
+// A page, in a file that only the user can read, that redirects the browser to the address. The
+// address contains the token, and all users of the machine can see the arguments of programs.
 class RedirectFile {
  public:
   explicit RedirectFile(const std::string& url) {
@@ -83,7 +83,7 @@ class RedirectFile {
   RedirectFile(const RedirectFile&) = delete;
   RedirectFile& operator=(const RedirectFile&) = delete;
 
-  // The file's own address (RFC 8089); empty where there is no folder for it.
+  // The URL of the file (RFC 8089); empty if there was no folder to create it in.
   std::string url() const {
     std::string text = path_.empty() ? "" : "file://";
     for (const char c : path_) {
@@ -98,8 +98,8 @@ class RedirectFile {
   std::string path_;
 };
 
-// The user's browser, if there is a display to show it on. Whether it comes is its own affair: the
-// address has been printed.
+// Opens the user's browser if there is a display. Failures are ignored, as the address has been
+// printed.
 void OpenBrowser(const std::string& file_url) {
   std::optional<std::string> program = FindProgram("xdg-open");
   if (!program) {
@@ -114,7 +114,8 @@ void OpenBrowser(const std::string& file_url) {
   }
   std::string argument = file_url;
   char* const arguments[] = {program->data(), argument.data(), nullptr};
-  // In a session of its own, which Ctrl-C does not reach, and silent: stdout has the address.
+  // Starts it silently, since stdout has the address, and in a session of its own, which Ctrl-C
+  // does not reach.
   posix_spawnattr_t attributes;
   posix_spawn_file_actions_t actions;
   posix_spawnattr_init(&attributes);
@@ -140,7 +141,7 @@ bool IsLoopback(const std::string& address) {
 }
 
 LoadOptions MakeViewLoadOptions(const RenderOptions& options) {
-  // The samples are of the resting picture, and the worker's own.
+  // options.spp is for the resting picture and goes to the worker instead of into the scene.
   RenderOptions of_scene = options;
   of_scene.spp.reset();
   LoadOptions load = MakeLoadOptions(of_scene);
@@ -148,7 +149,7 @@ LoadOptions MakeViewLoadOptions(const RenderOptions& options) {
   return load;
 }
 
-// How pictures open in a page that is made of them. HDR-FLIP takes seconds.
+// How pictures open in a page that is made of them. HDR-FLIP takes seconds, so it is left out.
 PerceptualArguments ShownAs(const DisplaySettings& display) {
   PerceptualArguments shown;
   shown.metrics = {"ssim", "flip"};
@@ -157,7 +158,7 @@ PerceptualArguments ShownAs(const DisplaySettings& display) {
   return shown;
 }
 
-// The report's page of pictures, the first against the second.
+// The report's page for pictures; the first is compared with the second.
 std::string PicturesPage(const std::vector<ReportPicture>& pictures,
                          const PerceptualArguments& shown) {
   constexpr size_t kMaxSampleBytes = size_t{256} << 20;
@@ -169,8 +170,8 @@ std::string PicturesPage(const std::vector<ReportPicture>& pictures,
   return ReportHtml(title, Json::array({section}), shown, page);
 }
 
-// Says where the server is, and opens it in the browser. What is returned is to live as long as the
-// server.
+// Prints where the server is, and opens it in the browser. The returned file must live as long as
+// the server.
 std::unique_ptr<RedirectFile> Announce(const ViewArguments& arguments, const Server& server) {
   const std::string& address = arguments.server.address;
   if (!IsLoopback(address)) {
@@ -194,7 +195,7 @@ std::unique_ptr<RedirectFile> Announce(const ViewArguments& arguments, const Ser
   return redirect;
 }
 
-// Serves until a signal, which is how it ends.
+// Serves until a stop signal, which is the regular end.
 void RunServer(Server* server, int* exit_code) {
   server->Run([] { return StopExitCode() != 0; });
   *exit_code = StopExitCode();
@@ -210,13 +211,12 @@ void NoteOtherName(const std::string& origin) {
 ServerOptions MakeServerOptions(const ViewArguments& arguments) {
   ServerOptions options = arguments.server;
   while (options.origin.ends_with('/')) options.origin.pop_back();
-  // A port that was asked for is asked for again.
+  // A port that the user chose keeps its token, so that open pages can reconnect.
   options.token = options.port != 0 ? KeptToken(options.port) : MakeToken();
   return options;
 }
 
-// Images are shown by the report's page, with no scene behind it. When files have changed it is
-// loaded again.
+// Shows images in the report's page, without a scene. When files change, the page is made again.
 void RunImages(const ViewArguments& arguments, const CLI::App& command, int* exit_code) {
   const RenderOptions& options = arguments.options;
   const std::set<std::string> of_scenes = {"--size", "--spp",     "--max-error",
@@ -251,7 +251,7 @@ void RunImages(const ViewArguments& arguments, const CLI::App& command, int* exi
       running->Serve(make());
       banner.clear();
       running->Say(0, Json{{"reload", true}}.dump());
-    } catch (const std::exception& error) {  // the pictures before stay
+    } catch (const std::exception& error) {  // the previous pictures stay
       banner = PrintableLines(error.what());
       running->Say(0, Json{{"banner", banner}}.dump());
     }
@@ -275,7 +275,7 @@ bool IsScene(const std::string& path) {
   return IsModelFile(path) || HasExtension(path, ".json");
 }
 
-// Where the edits go that are to outlive the server, with a line about those that are there.
+// The file for edits that outlive the server. Prints a line about edits that it already holds.
 std::unique_ptr<EditsFile> OpenEdits(const std::string& scene, bool quiet) {
   std::string why_not;
   std::unique_ptr<EditsFile> edits = EditsFile::Open(scene, &why_not);
@@ -340,7 +340,7 @@ void RunView(const ViewArguments& arguments, const CLI::App& command, int* exit_
                 [&](ClientId id, SharedBytes bytes) { server.Send(id, std::move(bytes)); }},
                std::move(edits));
   RunServer(&server, exit_code);
-  worker.Stop();  // before the server, which it sends to
+  worker.Stop();  // before the server is destroyed, which the worker sends to
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/commands.h: the program's commands. Each adds itself to the command line; its work runs as
-// the subcommand's callback and its exit code is left in *exit_code.
+// cli/commands.h: the program's commands. Each function adds a command to the command line. The
+// work is done in the subcommand's callback, which stores the exit code in *exit_code.
 #pragma once
 
 #include <CLI/App.hpp>

@@ -19,11 +19,11 @@
 namespace nacre {
 namespace {
 
-// Below the cells, in sizes of the text: the measures and the scale, side by side, or the scale
-// below the measures where the cells are too narrow for both.
+// Heights of the strip below the cells, in multiples of the text size. The measures and the scale
+// are side by side, or, where the cells are too narrow for both, the scale is below the measures.
 constexpr double kStrip = 4.6, kTallStrip = 8.2;
-constexpr double kMeasureLine = 1.35;  // from line to line, in sizes of the text
-constexpr double kScaleText = 0.8;     // of the text's size
+constexpr double kMeasureLine = 1.35;  // line spacing, in multiples of the text size
+constexpr double kScaleText = 0.8;     // in multiples of the text size
 constexpr const char* kScaleCaption = "largest of the channels, linear";
 
 struct Panel {
@@ -37,7 +37,7 @@ RenderSettings MakeSettings(const RenderOptions& options) {
   return settings;
 }
 
-// One sphere in a square of `side` pixels.
+// Renders one sphere into a square of `side` pixels.
 Panel RenderPanel(const Json& material, int side, const SheetOptions& sheet,
                   const RenderOptions& options, const Lighting& lighting,
                   const std::string& command, const std::vector<std::string>& outputs) {
@@ -84,7 +84,7 @@ DifferenceMeasures Measure(const Panel& a, const Panel& b) {
   return measures;
 }
 
-// Four decades below the power of ten that holds the largest difference.
+// A scale of four decades up to the power of ten above the largest difference.
 HeatScale ScaleFor(double max) {
   HeatScale scale;
   scale.high = max > 0 ? std::pow(10, std::ceil(std::log10(max))) : 1;
@@ -97,7 +97,7 @@ Rgb8Picture Show(const Panel& panel, const RenderOptions& options) {
                    {.tone = ParseToneOperator(options.tonemap), .exposure_ev = options.exposure});
 }
 
-// The largest difference of each pixel's channels, on `ground` as far as the sphere covers it.
+// Colours each pixel by the largest difference of its channels, blended with `ground` by coverage.
 Rgb8Picture ShowDifference(const Panel& a, const Panel& b, const HeatScale& scale,
                            const Rgb8& ground, int side) {
   Rgb8Picture picture{side, side, {}};
@@ -118,10 +118,10 @@ Rgb8Picture ShowDifference(const Panel& a, const Panel& b, const HeatScale& scal
   return picture;
 }
 
-// How far measures and scale are from the sides of the cells.
+// The distance of measures and scale from the sides of the cells.
 double StripInset(const SheetPage& page) { return (0.5 - kSheetSphereRadius) * page.cell; }
 
-// Whether the caption below the third cell would reach into the measures, or off the page.
+// Whether the caption below the third cell would overlap the measures, or leave the page.
 bool IsTooNarrow(const SheetPage& page) {
   const double em = page.text_px;
   const double measures = page.left + StripInset(page) + DrawnWidth("mean of A - B -8.888e-88", em);
@@ -130,7 +130,8 @@ bool IsTooNarrow(const SheetPage& page) {
   return center - caption / 2 < measures + em / 2 || center + caption / 2 > page.width;
 }
 
-// How many powers of ten lie between labels of a bar, 1, 2 or 4, so that these do not touch.
+// The number of powers of ten from one label of a bar to the next, 1, 2 or 4, so that labels do
+// not touch.
 int LabelStep(int low, double width, double size) {
   for (const int step : {1, 2}) {
     bool apart = true;
@@ -189,7 +190,8 @@ void WriteMeasures(const SheetPage& page, const DifferenceMeasures& m, bool ligh
 }  // namespace
 
 void RefuseWhatNoDifferencePageTakes(const CLI::App& command, const std::string& what) {
-  // The page is a PNG of two whole pictures: those have no file, plan or header of their own.
+  // The page is a PNG composed of two whole pictures, which have no file, plan or header of their
+  // own.
   static const std::set<std::string> kRefused = {"--region",  "--tile",        "--layers",
                                                  "--depth",   "--compression", "--dry-run",
                                                  "--explain", "--stats",       "--progress"};

@@ -16,7 +16,7 @@ constexpr int kTextPx = 13;
 constexpr int kBarHeight = 12;
 constexpr int kLegendHeight = 60;
 constexpr int kMargin = 24;
-constexpr int kMinWidth = 320;  // of the legend, so that its text fits
+constexpr int kMinWidth = 320;  // so that the text of the legend fits
 
 constexpr Rgb8 kGround = {24, 24, 24};
 

@@ -15,9 +15,9 @@ namespace nacre {
 namespace {
 
 constexpr size_t kHelpColumns = 80;
-constexpr size_t kLongestHead = 32;  // longer choices are told by the option's text
+constexpr size_t kLongestHead = 32;  // longer lists of choices are in the option's text
 
-// Words in lines from column `indent` on; the first line is under way, at column `at`.
+// Wraps words into lines that begin at column `indent`; the first line continues at column `at`.
 std::string WrapHelp(const std::string& text, size_t indent, size_t at) {
   std::string out;
   std::istringstream words(text);
@@ -39,7 +39,7 @@ std::string WrapHelp(const std::string& text, size_t indent, size_t at) {
   return out;
 }
 
-// `head` at the left, `text` from column `indent` on, beside it where there is room.
+// `head` at the left, and `text` from column `indent` on, on the same line if there is room.
 std::string HelpEntry(const std::string& head, const std::string& text, size_t indent) {
   std::string out = "  " + head;
   if (out.size() + 2 > indent) {
@@ -50,7 +50,7 @@ std::string HelpEntry(const std::string& head, const std::string& text, size_t i
   return out + WrapHelp(text, indent, indent) + "\n";
 }
 
-// Options are in groups; of those behind --help-all the name ends in this.
+// The suffix of the groups whose options are shown only by --help-all.
 constexpr std::string_view kBehind = " (--help-all)";
 
 bool IsBehindHelpAll(const CLI::Option& option) { return option.get_group().ends_with(kBehind); }
@@ -60,7 +60,8 @@ std::string TitleOf(std::string group) {
   return group;
 }
 
-// Up to the first semicolon, or full stop before a capital or an option, that is in no brackets.
+// The text up to the first semicolon, or full stop before a capital or an option, outside of
+// brackets.
 std::string FirstSentence(const std::string& text) {
   int depth = 0;
   for (size_t i = 0; i + 2 < text.size(); ++i) {
@@ -77,7 +78,7 @@ std::string FirstSentence(const std::string& text) {
 std::string OptionEntry(const CLI::Option& option, bool whole) {
   std::string head = fmt::format("{}", fmt::join(NamesOf(option), ","));
   const std::string& about = option.get_description();
-  std::string text = OptionText(option);  // begins with what the option does
+  std::string text = OptionText(option);  // the first sentence says what the option does
   if (!whole) text.replace(0, about.size(), FirstSentence(about));
   if (head.empty()) {
     head = option.get_name(true);
@@ -89,7 +90,7 @@ std::string OptionEntry(const CLI::Option& option, bool whole) {
   return HelpEntry(head, text, 24);
 }
 
-// The options that are in groups, by the title of their group.
+// The grouped options, by the title of their group.
 using Groups = std::vector<std::pair<std::string, std::vector<const CLI::Option*>>>;
 Groups GroupsOf(const CLI::App& app) {
   Groups groups = {{"Positionals", {}}};
@@ -123,7 +124,7 @@ std::string GroupsText(const CLI::App& app, bool whole) {
   return text;
 }
 
-// Of the command `name`: how to learn more than --help says, if there is more.
+// A hint how to learn more about the command `name` than --help says, if there is more.
 std::string MoreText(const CLI::App& app, const std::string& name) {
   std::vector<std::string> names;
   bool is_cut = false;
@@ -149,7 +150,7 @@ void MoveBehindHelpAll(CLI::App* command, const std::vector<std::string>& names)
 
 std::string HelpFormatter::make_help(const CLI::App* app, std::string name,
                                      CLI::AppFormatMode mode) const {
-  if (mode == CLI::AppFormatMode::Sub) {  // of all commands one below the other
+  if (mode == CLI::AppFormatMode::Sub) {  // all commands, one below the other
     return fmt::format("\nnacre {}: ", app->get_name()) + make_description(app) +
            GroupsText(*app, true);
   }

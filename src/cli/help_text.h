@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/help_text.h: how --help and --help-all look: within 80 columns, what an option does beside or
-// below it.
+// cli/help_text.h: the layout of --help and --help-all: within 80 columns, with an option's
+// explanation beside or below it.
 //
-// --help fits a screen: the options that are used most, each by the first of its sentences, and the
-// names of the others. --help-all has all of it.
+// --help fits a screen: it shows the first sentence of the most used options, and only the names of
+// the others. --help-all shows everything.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace nacre {
 
-// --help gives these options of the command by their names alone.
+// In --help, only the names of these options of the command are shown.
 void MoveBehindHelpAll(CLI::App* command, const std::vector<std::string>& names);
 
 class HelpFormatter final : public CLI::Formatter {

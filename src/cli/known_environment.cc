@@ -12,16 +12,18 @@ namespace {
 constexpr std::string_view kKnownVariables[] = {
     "PATH", "LD_LIBRARY_PATH", "HOME", "USER", "LOGNAME", "TMPDIR", "TERM", "COLUMNS", "LANG",
     "FONTCONFIG_FILE", "FONTCONFIG_PATH",
-    // Of the desktop, for the browser.
+    // The desktop, for the browser:
     "DISPLAY", "WAYLAND_DISPLAY", "XAUTHORITY", "DBUS_SESSION_BUS_ADDRESS", "DESKTOP_SESSION",
     "KDE_FULL_SESSION", "KDE_SESSION_VERSION", "GNOME_DESKTOP_SESSION_ID", "BROWSER",
     "SSH_CONNECTION"};
 constexpr std::string_view kKnownVariableBeginnings[] = {"LC_", "XDG_", "NACRE_"};
 
-// Of the C library, which reads a file for some values: only what names none but its own.
+// For variables of the C library, some of whose values name files to read. Accepts only values that
+// name the library's own files.
 bool NamesNoFile(std::string_view name, std::string_view value) {
   if (name == "LANGUAGE") return value.find('/') == std::string_view::npos;
-  // "Europe/Berlin" is a file of the time zones, as is one that begins so; TZDIR is not kept.
+  // "Europe/Berlin" is a file of the time zone database, and so are values that begin like it;
+  // TZDIR is not kept.
   return name == "TZ" && !value.starts_with('/') && !value.starts_with(":/") &&
          value.find("..") == std::string_view::npos;
 }

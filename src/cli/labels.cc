@@ -11,10 +11,11 @@ namespace nacre {
 
 namespace {
 
-// Legible at half size where there is room for that; small enough that labels of neighbouring
-// columns do not touch.
+// The text size: legible at half resolution if there is room for that, but so small that labels of
+// neighbouring columns do not touch.
 int LabelSize(const Scene& scene, const Imath::M44d& ndc_from_world) {
-  constexpr double kGlyphWidth = 0.52;  // of DejaVu Sans per size, mean over letters and digits
+  constexpr double kGlyphWidth = 0.52;  // mean width over letters and digits of DejaVu Sans, per
+                                        // size
   double size = std::clamp(scene.image.height / 40.0, 10.0, 48.0);
   const Label* left = nullptr;
   for (const Label& label : scene.labels) {
@@ -33,7 +34,7 @@ int LabelSize(const Scene& scene, const Imath::M44d& ndc_from_world) {
   return static_cast<int>(std::max(size, kSmallest));
 }
 
-// Whether two lines of one size would touch.
+// Whether two lines of the same size would touch.
 bool Touch(const TextItem& a, const TextItem& b) {
   const auto begin = [](const TextItem& item, double width) {
     return item.x - (item.align_x == AlignX::kRight ? width : width / 2);
@@ -55,14 +56,15 @@ void DrawLabels(const Scene& scene, const Window& window, std::span<uint8_t> rgb
   const int gap = size_px / 2;
   std::vector<TextItem> items;
   for (const Label& label : scene.labels) {
-    // What lies behind the camera has no place in the picture.
+    // Anchors behind the camera are not in the picture.
     if (scene.camera.projection == Projection::kPerspective &&
         ((label.anchor - scene.camera.position) ^ forward) <= 0) {
       continue;
     }
     Vec3d ndc;
     ndc_from_world.multVecMatrix(label.anchor, ndc);
-    constexpr double kFarOutside = 4;  // of [-1, 1]: no text reaches the picture from there
+    constexpr double kFarOutside = 4;  // compared to [-1, 1]: no text reaches the picture from
+                                       // there
     if (!(std::abs(ndc.x) < kFarOutside && std::abs(ndc.y) < kFarOutside)) continue;
     TextItem item;
     item.text = label.text;

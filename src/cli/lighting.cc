@@ -14,18 +14,18 @@
 namespace nacre {
 namespace {
 
-// A light whose irradiance is the same on every sphere of a sheet.
+// A light with the same irradiance on every sphere of a sheet.
 Json Directional(const Json& direction_of_travel, double irradiance) {
   return {{"type", "directional"},
           {"direction_of_travel", direction_of_travel},
           {"irradiance", irradiance}};
 }
 
-// From the upper right before the sheet, as far as makes shadows and highlights of all spheres
-// much alike.
+// The key light is in front of the sheet at the upper right, so far away that shadows and
+// highlights of all spheres look similar.
 constexpr std::array<double, 3> kKeyDirection = {0.71, 0.79, 0.97};
 constexpr double kKeyIrradiance = 2.9;
-constexpr double kKeyDistance = 5.7;  // in reaches, along each component
+constexpr double kKeyDistance = 5.7;  // in multiples of `reach`, per component
 
 Json KeyPosition(double reach) {
   Json position = Json::array();
@@ -41,7 +41,8 @@ double KeyDistanceSquared(double reach) {
   return sum * kKeyDistance * kKeyDistance * reach * reach;
 }
 
-// `centred`: from straight above, so that the middle of a sphere's picture parts the highlight.
+// `centred`: the light is straight above, so that the middle line of the picture divides the
+// highlight.
 Json PointLights(double reach, bool centred) {
   const double height = std::hypot(kKeyDirection[0], kKeyDirection[1]) * kKeyDistance * reach;
   Json position = KeyPosition(reach);
@@ -70,7 +71,8 @@ Json SkyLights() {
             {"background", false}}}};
 }
 
-// A soft box at the key light's place that is seen as large from a sheet of any size.
+// A soft box at the position of the key light, whose solid angle is the same for sheets of any
+// size.
 Json RectangleLights(double reach) {
   const double side = 4.6 * reach;
   const double radiance = kKeyIrradiance * KeyDistanceSquared(reach) / (side * side);
@@ -90,7 +92,7 @@ Json FurnaceLights() {
   return {{"furnace", {{"type", "environment"}, {"radiance", 1}, {"background", false}}}};
 }
 
-// Whether --lights holds the lights themselves, and not a file's path.
+// Whether --lights contains the lights themselves instead of a file's path.
 bool IsJsonText(const std::string& text) { return text.find('{') != std::string::npos; }
 
 Json ReadLightsText(const std::string& text) {
@@ -104,7 +106,8 @@ Json ReadLightsText(const std::string& text) {
     lights = ParseJson(ReadTextFile(text, kMaxBytes), text, &faults);
     ThrowFaults(faults, text);
   }
-  if (lights.is_object() && lights.contains("lights")) lights = lights["lights"];  // of a scene
+  // A whole scene file may be given.
+  if (lights.is_object() && lights.contains("lights")) lights = lights["lights"];
   if (lights.is_object()) return lights;
   throw Error(is_json ? ExitCode::kUsage : ExitCode::kBadInput, "--lights",
               is_json ? "this is not JSON of lights" : text + " holds no JSON of lights",
@@ -112,7 +115,7 @@ Json ReadLightsText(const std::string& text) {
               R"("irradiance": 3}}')");
 }
 
-// All but those that reach a point from one direction, or from everywhere alike.
+// True except for lights that reach a point from one direction, or uniformly from everywhere.
 bool HasExtent(const Json& light) {
   const auto type = light.find("type");
   if (type == light.end()) return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/main.cc: the program: commands, and the one place where errors are printed.
+// cli/main.cc: the program: its commands, and the only place where errors are printed.
 #include <algorithm>
 #include <array>
 #include <initializer_list>
@@ -29,7 +29,7 @@
 
 namespace {
 
-// CLI11 takes an unknown command for a missing one; this names it and the one likely meant.
+// CLI11 reports an unknown command as a missing one; this names it and suggests the likely one.
 void CheckCommandName(const CLI::App& app, const std::vector<std::string>& reversed) {
   if (reversed.empty()) {
     throw nacre::Error(nacre::ExitCode::kUsage, "", "the command is missing",
@@ -48,8 +48,8 @@ void CheckCommandName(const CLI::App& app, const std::vector<std::string>& rever
                                      : fmt::format("did you mean \"{}\"?", nearest));
 }
 
-// "nacre help" is "nacre --help", "nacre help render" is "nacre render --help". CLI11 reads
-// arguments from the last to the first.
+// Turns "nacre help" into "nacre --help" and "nacre help render" into "nacre render --help". The
+// result is reversed, as CLI11 reads arguments from the last to the first.
 std::vector<std::string> ReversedArguments(int argc, char** argv) {
   std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   if (!words.empty() && words[0] == "help") {
@@ -60,7 +60,7 @@ std::vector<std::string> ReversedArguments(int argc, char** argv) {
   return words;
 }
 
-// Runs the command, or prints what --help and --version ask for.
+// Runs the command, or prints what --help or --version ask for.
 void Parse(CLI::App* app, std::vector<std::string> reversed) {
   try {
     app->parse(reversed);
@@ -77,7 +77,7 @@ struct Command {
   void (*add)(CLI::App* app, int* exit_code);
 };
 
-// In the order of the help.
+// The order is that of the help.
 constexpr auto kCommands = std::to_array<Command>({
     {"render", nacre::AddRenderCommand},
 #ifdef NACRE_VIEW
@@ -98,7 +98,7 @@ constexpr auto kCommands = std::to_array<Command>({
     {"study", nacre::AddStudyCommand},
 });
 
-// `word`: the first of the command line.
+// `word` is the first word of the command line.
 void AddCommands(CLI::App* app, std::string_view word, int* exit_code) {
   app->formatter(std::make_shared<nacre::HelpFormatter>());
   app->set_help_flag("-h,--help", "Print the options that are used most");
@@ -110,8 +110,8 @@ void AddCommands(CLI::App* app, std::string_view word, int* exit_code) {
       "Start with:  nacre render scenes/material_grid.json -o grid.png --labels\n"
       "Exit codes: 0 done, 1 images differ, 2 cannot compare, 64 usage, 65 bad input,\n"
       "            70 internal error, 74 cannot write, 130 and 143 stopped by a signal");
-  // One command alone, where one is named: to build the options of all would be felt in the time of
-  // a small picture. `nacre docs` tells of all.
+  // If a command is named, adds only that one: building the options of all would noticeably delay a
+  // small picture. `nacre docs` needs all commands.
   const auto named = std::find_if(kCommands.begin(), kCommands.end(),
                                   [&](const Command& command) { return command.name == word; });
   if (named != kCommands.end()) {
@@ -122,7 +122,7 @@ void AddCommands(CLI::App* app, std::string_view word, int* exit_code) {
   }
   app->get_formatter()->label("SUBCOMMAND", "COMMAND");
   for (CLI::App* command : app->get_subcommands({})) {
-    if (!command->get_group().empty()) command->group("Commands");  // empty: not shown
+    if (!command->get_group().empty()) command->group("Commands");  // empty: hidden
   }
 }
 
@@ -158,9 +158,9 @@ int Run(int argc, char** argv) {
   return static_cast<int>(ExitCode::kInternal);
 }
 
-// What strips free the next ones take again. Left alone, glibc gives larger pieces back to the
-// kernel until it has seen some go: a thousand page faults a frame, 3 % of a small one's time.
-// These are the largest limits that it would come to itself.
+// Keeps freed memory in the process, as the next strips will need it again. By default, glibc
+// returns larger blocks to the kernel until it has adapted its thresholds: a thousand page faults
+// per frame, 3 % of the time of a small one. These limits are the largest that it would adapt to.
 void KeepFreedMemory() {
 #ifdef M_MMAP_THRESHOLD
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
@@ -168,12 +168,12 @@ void KeepFreedMemory() {
 #endif
 }
 
-// Called before the constructors of the libraries, where oneTBB loads the code that a variable
-// names (since 2021.12).
+// Runs before the constructors of libraries, in which oneTBB (since 2021.12) loads the code that an
+// environment variable names.
 void Start(int, char**, char** environment) { nacre::KeepKnownEnvironment(environment); }
 [[gnu::section(".preinit_array"), gnu::used]] void (*const g_start)(int, char**, char**) = Start;
 
-// Without formatting or allocating: that may be what failed.
+// Does not format or allocate, since that may be what failed.
 int FailPlainly(std::initializer_list<std::string_view> message) {
   for (const std::string_view part : message) {
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, part.data(), part.size());
@@ -183,8 +183,7 @@ int FailPlainly(std::initializer_list<std::string_view> message) {
 
 }  // namespace
 
-// What Run lets through: exceptions before its own reports, while it makes one, and of no known
-// type.
+// Handles what Run does not: exceptions before or during its own reports, and of unknown type.
 int main(int argc, char** argv) {
   nacre::KeepKnownEnvironment(environ);  // again, for C libraries that do not call Start
   KeepFreedMemory();

@@ -18,7 +18,7 @@ std::vector<const CLI::Option*> Options(const CLI::App& app) {
 
 // ---- Manual page --------------------------------------------------------------------------------
 
-// Text that roff prints as it is.
+// Escapes text so that roff prints it literally.
 std::string Roff(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -56,7 +56,7 @@ std::string CommandSection(const CLI::App& command) {
       if (NamesOf(*option).empty() == positional) text += OptionEntry(*option);
     }
   }
-  // A command without a footer of its own has the program's.
+  // A command without a footer of its own inherits the program's.
   if (command.get_footer() != command.get_parent()->get_footer()) {
     text += ".PP\n.nf\n" + Roff(command.get_footer()) + "\n.fi\n";
   }
@@ -65,7 +65,7 @@ std::string CommandSection(const CLI::App& command) {
 
 // ---- Bash ---------------------------------------------------------------------------------------
 
-// Words that the shell takes as they are: names, and choices made of letters, digits and signs.
+// Words that the shell takes literally: names, and choices of letters, digits and signs.
 std::string Words(const std::vector<std::string>& words) {
   return fmt::format("'{}'", fmt::join(words, " "));
 }

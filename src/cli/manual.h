@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/manual.h: the command line as others read it, written from its own definitions.
+// cli/manual.h: documents derived from the definitions of the command line.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace nacre {
 
-// What help shows: not what is in the nameless group.
+// The commands that the help shows: all except those in the nameless group.
 std::vector<const CLI::App*> ShownCommands(const CLI::App& app);
 
 // A manual page (man 7 man) of the program and all of its commands.

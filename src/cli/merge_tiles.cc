@@ -28,8 +28,9 @@ struct HeaderOfTile {
   const ExrHeader& header() const { return band.header; }
 };
 
-// What is compared first, the rest after it by name: the scene's hash counts the settings too, and
-// would hide which of them differs. Then how to mend a difference.
+// Attributes that are compared first, with a hint how to fix a difference; the others are compared
+// after them by name. The scene's hash comes after the settings, which it covers, too: otherwise it
+// would hide which setting differs.
 struct KnownAttribute {
   const char* name;
   const char* hint;
@@ -62,7 +63,7 @@ void CheckAttribute(const HeaderOfTile& a, const HeaderOfTile& b, const std::str
                     const std::string& hint) {
   const std::string of_a = TextOf(a.header(), name);
   const std::string of_b = TextOf(b.header(), name);
-  // Every tile takes its own time, but either all have it or none.
+  // The render time of each tile differs, but either all tiles have one or none.
   const bool same =
       name == kRenderTimeAttribute ? (of_a == "none") == (of_b == "none") : of_a == of_b;
   if (!same) ThrowDifference(a, b, name, of_a, of_b, hint);
@@ -78,7 +79,7 @@ std::string ChannelNames(const ExrHeader& header) {
   return names;
 }
 
-// That b is a tile of the picture that a is a tile of.
+// Throws unless a and b are tiles of the same picture.
 void CheckSamePicture(const HeaderOfTile& a, const HeaderOfTile& b) {
   const auto compare = [&](const std::string& what, const auto& text_of, const std::string& hint) {
     const std::string of_a = text_of(a);
@@ -108,7 +109,7 @@ void CheckSamePicture(const HeaderOfTile& a, const HeaderOfTile& b) {
       "render all tiles with the same --compression");
 }
 
-// That the tile can be part of any picture.
+// Throws unless the tile can be part of any picture.
 void CheckShape(const HeaderOfTile& tile) {
   const Window& frame = tile.header().display;
   const Window& data = tile.header().data;
@@ -140,8 +141,8 @@ struct TileNumber {
   int index, count;
 };
 
-// The tile that a header says it is, "i/N"; nothing if it says anything that --tile does not. A
-// tile has at least a row of the picture.
+// The tile "i/N" that the header names; nullopt if it names none that --tile could make. A tile has
+// at least one row of the picture.
 std::optional<TileNumber> NumberOf(const HeaderOfTile& tile) {
   const std::string text = TextOf(tile.header(), kTileAttribute);
   const char* const end = text.data() + text.size();
@@ -155,7 +156,8 @@ std::optional<TileNumber> NumberOf(const HeaderOfTile& tile) {
   return is_tile ? std::optional(number) : std::nullopt;
 }
 
-// How to get the rows that no tile has: by the tiles i/N that are not there, if all have one N.
+// Hints how to render the rows that no tile has: by naming the missing tiles i/N, if all tiles have
+// the same N.
 std::string HintForGap(const std::vector<HeaderOfTile>& tiles) {
   constexpr size_t kMostNamed = 20;
   const std::string general = "render what is missing with --tile";
@@ -178,7 +180,7 @@ std::string HintForGap(const std::vector<HeaderOfTile>& tiles) {
                      others == 0 ? "" : fmt::format(" and {} more", others));
 }
 
-// That the tiles, sorted, hold every row once. Reports all that is wrong.
+// Throws unless the tiles, which are sorted, hold every row exactly once. Reports all errors.
 void CheckCover(const std::vector<HeaderOfTile>& tiles) {
   const Window& frame = tiles[0].header().display;
   std::vector<Fault> faults;
@@ -190,7 +192,7 @@ void CheckCover(const std::vector<HeaderOfTile>& tiles) {
   const int top = tiles.front().header().data.y0;
   if (top > frame.y0) gap(tiles.front().path, frame.y0, top, "above it are");
   int end = tiles[0].header().data.y1;
-  size_t lowest = 0;  // of those so far, which reaches down to `end`
+  size_t lowest = 0;  // the tile whose rows end at `end`
   for (size_t i = 1; i < tiles.size(); ++i) {
     const Window& data = tiles[i].header().data;
     const std::string pair = tiles[lowest].path + ", " + tiles[i].path;
@@ -208,8 +210,8 @@ void CheckCover(const std::vector<HeaderOfTile>& tiles) {
   if (!faults.empty()) throw Error(ExitCode::kBadInput, std::move(faults));
 }
 
-// The header of a file that is what was written: by its checksum, or, if it has none, as far as
-// decoding all of it tells; then it is added to `unproven`.
+// Reads the header of a file and checks that the file is intact: by its checksum, or, if it has
+// none, by decoding all of it; then it is added to `unproven`.
 ExrBandHeader ReadProvenHeader(const std::string& path, std::vector<std::string>* unproven) {
   const ExrChecksum checksum = CheckExrChecksum(path);
   if (checksum == ExrChecksum::kWrong) {
@@ -232,7 +234,8 @@ TilesOfPicture FindTiles(const std::vector<std::string>& paths) {
   TilesOfPicture picture;
   std::vector<HeaderOfTile> tiles;
   tiles.reserve(paths.size());
-  std::vector<Fault> faults;  // of all damaged tiles: whoever renders them again does so at once
+  std::vector<Fault> faults;  // collected from all damaged tiles, so that the user can render them
+                              // again at once
   for (const std::string& path : paths) {
     ThrowIfStopped();
     try {

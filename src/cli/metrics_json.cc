@@ -38,7 +38,7 @@ Json MetricsJson(const std::vector<LayerMetrics>& layers,
                  {"samples", m.samples},
                  {"rmse", m.rmse},
                  {"rel_mse", m.rel_mse},
-                 // JSON has no infinity: equal images have no PSNR.
+                 // Equal images have an infinite PSNR, which JSON cannot express: it becomes null.
                  {"psnr_db", std::isfinite(m.psnr_db) ? Json(m.psnr_db) : Json()},
                  {"max_abs", m.max_abs},
                  {"max_abs_at", {m.max_abs_at.x, m.max_abs_at.y}},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/metrics_json.h: the figures of a comparison for programs.
+// cli/metrics_json.h: the results of a comparison as JSON.
 #pragma once
 
 #include <string>
@@ -12,11 +12,12 @@
 
 namespace nacre {
 
-// "beauty" for the layer "", which has no name of its own, and back.
+// Converts the layer "", which has no name of its own, to "beauty" and back.
 std::string LayerName(const std::string& layer);
 std::string LayerOfName(const std::string& name);
 
-// `perceptual`: of the layers that have any; their figures join those of their layer.
+// `perceptual` has the metrics of those layers that have any; they are merged with the layer's
+// others.
 nlohmann::ordered_json MetricsJson(const std::vector<LayerMetrics>& layers,
                                    const std::vector<PerceptualMetrics>& perceptual);
 nlohmann::ordered_json VerdictJson(const Verdict& verdict,

@@ -17,7 +17,7 @@ std::vector<std::string> NamesOf(const CLI::Option& option) {
 
 bool TakesValue(const CLI::Option& option) { return option.get_expected_max() > 0; }
 
-// A check lists its choices in braces behind the type.
+// The choices, which a check lists in braces after the type.
 std::vector<std::string> ChoicesOf(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const size_t open = type.rfind('{');
@@ -46,8 +46,8 @@ std::string OptionText(const CLI::Option& option) {
     text += fmt::format(" ({} to {})", type.substr(bounds + 5, dash - bounds - 5),
                         type.substr(dash + 3, type.rfind(']') - dash - 3));
   }
-  // Flags and empty texts have no value worth telling. CLI11 writes lists in brackets, which is not
-  // how they are given.
+  // Flags and empty texts have no default worth showing. CLI11 writes lists in brackets, which are
+  // not typed on the command line.
   std::string value = option.get_default_str();
   if (value.starts_with('[') && value.ends_with(']')) value = value.substr(1, value.size() - 2);
   if (TakesValue(option) && !value.empty()) text += " (default: " + value + ")";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/option_text.h: options in words, from their own definitions: for help, manual and shell.
+// cli/option_text.h: texts about options, derived from their definitions: for help, manual and
+// shell.
 #pragma once
 
 #include <string>
@@ -9,18 +10,18 @@
 
 namespace nacre {
 
-// "-o", "--output": as they are typed. None of what has a place instead.
+// The names as typed: "-o", "--output". Empty for positional arguments.
 std::vector<std::string> NamesOf(const CLI::Option& option);
 
 bool TakesValue(const CLI::Option& option);
 
-// The names that an option may be given. Empty: anything.
+// The values among which an option chooses. Empty: any value is allowed.
 std::vector<std::string> ChoicesOf(const CLI::Option& option);
 
-// What stands for the value: "FILE", "N", "half|float".
+// The placeholder for the value: "FILE", "N", "half|float".
 std::string ValueName(const CLI::Option& option);
 
-// What it does, with its bounds and its value where none is given.
+// What the option does, with its bounds and its default.
 std::string OptionText(const CLI::Option& option);
 
 }  // namespace nacre

@@ -11,8 +11,9 @@ namespace {
 
 constexpr char kNoValue[] = "its value is missing";
 
-// The option that a word names, without a value behind "="; null if it names none. A lone "-" is
-// standard input or output, and without a dash CLI11 would look among the positionals.
+// The option that a word names, without "=" and a value; null if it names none. A lone "-" is
+// standard input or output, and for a word without a dash CLI11 would search the positional
+// arguments.
 const CLI::Option* OptionNamed(const CLI::App& command, const std::string& word) {
   if (word.size() < 2 || word[0] != '-') return nullptr;
   return command.get_option_no_throw(word);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/option_values.h: options without their values, which CLI11 gives the next word as a value.
+// cli/option_values.h: finds options without a value, for which CLI11 would take the next word.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace nacre {
 
-// `words`: a command's name and its arguments, in the order of the command line. Throws Error
-// (usage) for an option whose value is missing ("--size=", "--layers --size") and for a list with
-// an empty element (",", "a,,b", "a,"): CLI11 drops empty elements, and takes the next word,
-// whatever it is, where nothing is left.
+// `words` are a command's name and its arguments, in the order of the command line. Throws Error
+// (kUsage) for an option whose value is missing ("--size=", "--layers --size"), and for a list with
+// an empty element (",", "a,,b", "a,"): CLI11 drops empty elements, and if nothing is left, takes
+// the next word as the value, whatever it is.
 void CheckOptionValues(const CLI::App& app, const std::vector<std::string>& words);
 
 }  // namespace nacre

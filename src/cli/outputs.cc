@@ -101,7 +101,7 @@ Outputs::Outputs(const RenderOptions& options, const FramePlan& plan, PreparedSc
     : options_(options), plan_(plan), captions_(captions) {
   display_.tone = ParseToneOperator(options.tonemap);
   display_.exposure_ev = options.exposure;
-  std::optional<ExrHeader> header;  // with the scene's hash, which only EXR files hold
+  std::optional<ExrHeader> header;  // of EXR files, which alone hold the scene's hash
   const ExrOptions exr_options{.compression = ParseCompression(options.compression),
                                .small = options.small,
                                .reproducible = options.reproducible};

@@ -82,7 +82,7 @@ void AddPerceptualOptions(CLI::App* command, PerceptualArguments* a) {
 
 std::optional<PerceptualOptions> MakePerceptualOptions(const PerceptualArguments& arguments) {
   PerceptualOptions options;
-  // Also where it is not used: a wrong range is told.
+  // Checked even if it is not used, so that an invalid range is reported.
   if (!arguments.exposures.empty()) ParseExposures(arguments.exposures, &options);
   if (options.exposures.value_or(1) > kMaxExposures) FailExposures(arguments.exposures);
   const auto asked = [&](const std::string& name) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/perceptual_options.h: the options that ask for SSIM, FLIP and HDR-FLIP.
+// cli/perceptual_options.h: the options for the metrics SSIM, FLIP and HDR-FLIP.
 #pragma once
 
 #include <optional>
@@ -17,12 +17,12 @@ struct PerceptualArguments {
   std::string tonemap = "neutral";
   double exposure = 0;
   double pixels_per_degree = kDefaultPixelsPerDegree;
-  std::string exposures;  // "START,STOP" or "START,STOP,COUNT"; empty: from the reference
+  std::string exposures;  // "START,STOP" or "START,STOP,COUNT"; empty: found from the reference
 };
 
 void AddPerceptualOptions(CLI::App* command, PerceptualArguments* arguments);
 
-// Nothing if no such metric is asked for. Throws Error (usage).
+// nullopt if no such metric is requested. Throws Error (kUsage).
 std::optional<PerceptualOptions> MakePerceptualOptions(const PerceptualArguments& arguments);
 
 }  // namespace nacre

@@ -32,7 +32,7 @@ std::vector<PlotItem> DefaultDistributions() {
   for (const double roughness : {0.1, 0.2, 0.4, 0.7, 1.0}) {
     items.push_back(Metal(roughness, "", fmt::format("GGX, roughness {}", roughness)));
   }
-  // 2 / alpha^2 - 2 for roughness 0.4, which has the same peak.
+  // The exponent 2 / alpha^2 - 2 gives the same peak as roughness 0.4.
   items.push_back({"Blinn-Phong, n = 76", R"({"model": "blinn_phong", "shininess": 76})"});
   return items;
 }
@@ -74,7 +74,7 @@ std::vector<PlotItem> DefaultInterfaces() {
   };
 }
 
-// All have the intensity 1 from afar.
+// All have intensity 1 at a large distance.
 std::vector<PlotItem> DefaultLights() {
   return {
       {"point, 1 / d²", R"({"type": "point", "position": [0, 0, 0], "intensity": 1})"},

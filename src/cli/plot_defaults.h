@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/plot_defaults.h: what `nacre plot` draws unless it is told what: materials and lights that
-// show what each kind of plot is for.
+// cli/plot_defaults.h: what `nacre plot` draws by default: materials and lights that show the
+// purpose of each kind of plot.
 #pragma once
 
 #include <vector>

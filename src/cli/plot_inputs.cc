@@ -18,7 +18,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// {"model": "phong", "shininess": 64} as "phong, shininess 64". `kind` is "model" or "type".
+// Describes {"model": "phong", "shininess": 64} as "phong, shininess 64". `kind` is "model" or
+// "type".
 std::string LabelOf(const Json& object, const char* kind) {
   const auto text = [](const Json& value) {
     return value.is_string() ? value.get<std::string>() : JsonText(value);
@@ -41,7 +42,7 @@ Json ParseLight(const std::string& option, const std::string& text) {
   return light;
 }
 
-// What is given on the command line, read as a scene file's would be.
+// Reads an object of the command line as an item of a scene file; `key` names the part.
 Scene SceneOf(const char* key, const Json& object) {
   const Json scene = {{"nacre", 1}, {key, {{"given", object}}}};
   return LoadSceneText(JsonText(scene), "nacre plot", ".", {});
@@ -76,7 +77,7 @@ std::vector<std::string> ItemNames(const std::vector<Item>& items) {
   return names;
 }
 
-// Curves are of one set of numbers: those that maps multiply.
+// Curves show a single set of numbers: the constant factors, without maps.
 NamedMaterial Prepare(const std::string& label, const Material& material) {
   NamedMaterial named{label, PrepareMaterial(material)};
   DropMaps(&named.material);
@@ -87,7 +88,8 @@ NamedMaterial Prepare(const std::string& label, const Material& material) {
   return named;
 }
 
-// Those named by `texts` in a scene or by themselves. `parse` makes JSON of an option's text.
+// The items that `wanted` names in the scene, or defines itself. `parse` converts an option's text
+// to JSON.
 template <class Item, class Parse>
 std::vector<std::pair<std::string, Item>> Collect(const PlotInputs& inputs, const char* key,
                                                   const char* what, const char* kind,
@@ -136,7 +138,7 @@ std::vector<NamedMaterial> ReadPlotMaterials(const PlotInputs& inputs,
        Collect(inputs, "materials", "material", "model", Wanted(inputs, inputs.materials, defaults),
                &Scene::materials,
                [](const std::string& text) { return ParseMaterialText("--material", text); })) {
-    // Of all, those that have a model.
+    // When all are drawn, splits, which have no model, are skipped.
     if (all && std::holds_alternative<SplitMaterial>(material.model)) continue;
     materials.push_back(Prepare(label, material));
   }

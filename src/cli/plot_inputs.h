@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/plot_inputs.h: the materials and lights that `nacre plot` is told to draw.
+// cli/plot_inputs.h: the materials and lights that `nacre plot` draws.
 #pragma once
 
 #include <string>
@@ -13,24 +13,24 @@ namespace nacre {
 struct PlotInputs {
   std::string scene;  // a scene file or model; empty: none
   bool allow_paths = false;
-  std::vector<std::string> outputs;    // what is to be written: none of the scene's files may be
+  std::vector<std::string> outputs;    // files to be written, which must not be files of the scene
   std::vector<std::string> materials;  // names in the scene, models' names, or JSON
   std::vector<std::string> lights;     // names in the scene, or JSON
 };
 
-// A material or light, and what a plot's key calls it.
+// A material or light, with its label in a plot's legend.
 struct PlotItem {
   std::string label;
-  std::string text;  // as an option gives it
+  std::string text;  // as given in an option
 };
 
-// The materials that the options name; all of the scene's if they name none but a scene; without
-// one, `defaults`. Throws Error: kUsage for what is no material, kBadInput for what is not in the
-// scene or malformed.
+// The materials that the options name; without names, all of the scene, or, if there is no scene,
+// `defaults`. Throws Error: kUsage for what is not a material, kBadInput for names that are not in
+// the scene and for malformed ones.
 std::vector<NamedMaterial> ReadPlotMaterials(const PlotInputs& inputs,
                                              const std::vector<PlotItem>& defaults);
 
-// The same for lights.
+// The lights that the options name, chosen as in ReadPlotMaterials.
 std::vector<Light> ReadPlotLights(const PlotInputs& inputs, const std::vector<PlotItem>& defaults);
 
 }  // namespace nacre

@@ -14,8 +14,7 @@
 namespace nacre {
 namespace {
 
-// Whether nobody could have read what was printed: standard output was closed, and leads to
-// /dev/null now.
+// Whether standard output was closed, and now is /dev/null, so that printed text is lost.
 bool g_output_was_closed = false;
 bool g_printed = false;
 

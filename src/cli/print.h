@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/print.h: text to standard output and standard error: all that the program says.
+// cli/print.h: prints text to standard output and standard error; all output of the program does.
 //
-// Whatever is printed passes through base/printable.h. The text of a single argument cannot even
-// break the line: names out of files are given as arguments, layout stands in the format.
+// All printed text passes through base/printable.h. Arguments cannot even break a line: they may be
+// names from files, whereas line breaks of the layout are in the format string.
 #pragma once
 
 #include <string>
@@ -15,14 +15,13 @@
 
 namespace nacre {
 
-// Results: whole lines. Whether they arrived is checked once, by FinishOutput.
+// Prints results, in whole lines. FinishOutput checks once whether they were written.
 void PrintOut(std::string_view text);
 
-// Everything else, to standard error. Failures to write there are ignored: there is nowhere left
-// to report them.
+// Prints everything else, to standard error. Failures are ignored, as they could not be reported.
 void PrintError(std::string_view text);
 
-// An argument as it is printed: texts on one line, everything else as it is.
+// Converts an argument for printing: texts are made a single line, other types are unchanged.
 template <class T>
 decltype(auto) PrintedArgument(const T& value) {
   if constexpr (std::is_convertible_v<const T&, std::string_view>) {
@@ -34,7 +33,7 @@ decltype(auto) PrintedArgument(const T& value) {
 template <class T>
 using PrintedAs = decltype(PrintedArgument(std::declval<const T&>()));
 
-// PrintOut("{} of {} tiles\n", path, count): fmt's format, with at least one argument.
+// PrintOut("{} of {} tiles\n", path, count): a format string of fmt with at least one argument.
 template <class First, class... Rest>
 void PrintOut(fmt::format_string<PrintedAs<First>, PrintedAs<Rest>...> format, const First& first,
               const Rest&... rest) {
@@ -47,12 +46,12 @@ void PrintError(fmt::format_string<PrintedAs<First>, PrintedAs<Rest>...> format,
       std::string_view(fmt::format(format, PrintedArgument(first), PrintedArgument(rest)...)));
 }
 
-// Throws Error (kCannotWrite) if standard output did not take all of what was printed, or was
-// closed when the program began.
+// Throws Error (kCannotWrite) if not all of the printed text was written to standard output, or if
+// that was closed when the program began.
 void FinishOutput();
 
-// Opens standard input, output and error on /dev/null where they are closed, so that no file of
-// ours gets their numbers and then what is printed.
+// Opens standard input, output and error on /dev/null if they are closed. Otherwise an output file
+// could get their descriptor, and printed text with it.
 void OpenStandardStreams();
 
 }  // namespace nacre

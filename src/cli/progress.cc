@@ -21,7 +21,7 @@ namespace {
 std::atomic<int> g_stop_signal{0};
 std::atomic<bool> g_cancel{false};
 
-// The command's files that are whole already.
+// The files of the command that are complete.
 struct WrittenFiles {
   size_t count = 0;
   std::string last;
@@ -57,7 +57,7 @@ std::string FormatSeconds(double seconds) {
 }
 
 ProgressForm DefaultProgressForm() {
-  // A terminal that cannot move its cursor back would show every state of the bar on a line.
+  // A terminal that cannot move its cursor back would show each state of the bar on a new line.
   const char* const terminal = std::getenv("TERM");
   const bool moves = terminal != nullptr && std::string_view(terminal) != "dumb";
   return moves && isatty(STDERR_FILENO) != 0 ? ProgressForm::kBar : ProgressForm::kNone;
@@ -93,7 +93,7 @@ void Progress::Print(double done, double elapsed_seconds) const {
     constexpr int kBarWidth = 30;
     const int filled = static_cast<int>(done * kBarWidth);
     const std::string told = unit_count_ > 0 ? FormatRate(rate, unit_) + "  " : "";
-    // The one text that moves the cursor itself: it does not pass through PrintError.
+    // This is the only text that moves the cursor, so it bypasses PrintError.
     std::fputs(fmt::format("\r{} [{:=<{}}{: <{}}] {:3.0f} %  {}{} left\033[K", Printable(what_), "",
                            filled, "", kBarWidth - filled, 100 * done, told, FormatSeconds(left))
                    .c_str(),
@@ -106,12 +106,13 @@ std::atomic<bool>& CancelFlag() { return g_cancel; }
 
 void CatchStopSignals() {
   struct sigaction action = {};
-  action.sa_handler = NoteStopSignal;  // without SA_RESTART: waiting for a pipe ends, too
+  action.sa_handler = NoteStopSignal;  // without SA_RESTART, so that it interrupts waiting for a
+                                       // pipe
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-  // A file size limit then is an error of the write, with its message and exit code.
+  // Makes exceeding the file size limit an error of write(), with a message and exit code.
   std::signal(SIGXFSZ, SIG_IGN);
-  // Nor does a reader who goes away end a render: FinishOutput tells.
+  // A reader that closes the pipe must not end a render either: FinishOutput reports it.
   std::signal(SIGPIPE, SIG_IGN);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/progress.h: tells the user how far long work is, and notices when it is to stop.
+// cli/progress.h: shows the progress of long work, and notices when it is to stop.
 #pragma once
 
 #include <atomic>
@@ -13,22 +13,22 @@ namespace nacre {
 
 enum class ProgressForm { kNone, kBar, kJson };
 
-// What fits where standard error goes: a bar on a terminal, nothing in a pipe.
+// The form that suits standard error: a bar on a terminal, nothing in a pipe.
 ProgressForm DefaultProgressForm();
 
-// "5.2 s", "1:02:03".
+// Formats a duration: "5.2 s", "1:02:03".
 std::string FormatSeconds(double seconds);
 
-// Progress of one job on standard error. Calls from one thread at a time.
+// Shows the progress of one job on standard error. To be used by one thread at a time.
 class Progress {
  public:
-  // `unit_count` of `unit` ("pixel samples") make the job; the rate is told in them, if it is
-  // above 0.
+  // The job consists of `unit_count` times `unit` ("pixel samples"); if that is above 0, the rate
+  // is shown in these units.
   Progress(ProgressForm form, std::string what, double unit_count, std::string unit);
   ~Progress();
 
-  // `done` in [0, 1]. Prints at most ten times a second, and at the end for programs. Throws Error
-  // (kInterrupted, kTerminated) once a signal has come, so that whoever works stops and leaves
+  // `done` is in [0, 1]. Prints at most ten times a second, and in JSON form also at the end.
+  // Throws Error (kInterrupted, kTerminated) after a stop signal, so that the work ends and leaves
   // nothing behind.
   void Update(double done);
 
@@ -44,22 +44,22 @@ class Progress {
   bool printed_ = false;
 };
 
-// From here on SIGINT and SIGTERM are noted instead of ending the process at once; a second one
-// ends it. Output that is not finished has no name yet, so nothing is left either way.
+// From now on, SIGINT and SIGTERM are recorded instead of ending the process at once; a second
+// signal ends it. Unfinished output has no name yet, so nothing is left behind either way.
 void CatchStopSignals();
 
-// What ends a render at once, as RenderSettings::cancel: set by stop signals, and by who else wants
-// it to end.
+// The flag that ends a render at once, for RenderSettings::cancel. It is set by stop signals, and
+// by other code that wants to end the render.
 std::atomic<bool>& CancelFlag();
 
-// Throws Error if a stop signal has come, with what NoteWritten was told.
+// Throws Error if a stop signal has come. The error names the files reported to NoteWritten.
 void ThrowIfStopped();
 
-// What the program exits with because of a stop signal; 0: none has come.
+// The exit code due to a stop signal; 0 if none has come.
 int StopExitCode();
 
-// While this lives, the process ends no later than `limit` after a stop signal, whatever its
-// threads do then. For programs that serve until a signal, and leave nothing half-written.
+// While an object of this class exists, the process ends at most `limit` after a stop signal,
+// whatever its threads do. For servers, which run until a signal and leave nothing half-written.
 class StopsInTime {
  public:
   explicit StopsInTime(std::chrono::milliseconds limit);
@@ -74,8 +74,8 @@ class StopsInTime {
   std::thread thread_;
 };
 
-// For commands that write several files, one after the other, and may be stopped in between: tells
-// that this one is whole and stays. From the thread that calls ThrowIfStopped.
+// For commands that write several files and may be stopped in between: records that this file is
+// complete and stays. To be called from the thread that calls ThrowIfStopped.
 void NoteWritten(const std::string& path);
 
 }  // namespace nacre

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "cli/progress.h"
-#include "image_io/image_file.h"
+#include "image_io/read_image.h"
 #include "render/render.h"
 #include "scene_io/json_reader.h"
 #include "scene_io/load_scene.h"
@@ -25,13 +25,14 @@ void RequireText(JsonObject* object, std::string_view name, std::string* text) {
   if (object->Require(name, kReferenceHint) != nullptr) object->Text(name, text);
 }
 
-// The member's text as a path beside the reference. Faults unless scenes there could refer to it.
+// Reads a member that names a file beside the reference. Adds a fault for paths that scenes in that
+// folder may not refer to.
 fs::path FindFile(const fs::path& folder, std::string_view name, const ReferenceOptions& options,
                   JsonObject* object) {
   std::string text;
   RequireText(object, name, &text);
   const Json* const json = object->Find(name);
-  if (json == nullptr || !json->is_string()) return {};  // told
+  if (json == nullptr || !json->is_string()) return {};  // reported already
   try {
     ResolveReference(folder, text, {.allow_paths = options.allow_paths});
   } catch (const Error& error) {
@@ -125,7 +126,7 @@ CompareOptions OptionsOf(const Reference& reference) {
 
 namespace {
 
-// Throws Error for a scene or image that cannot be read or that do not belong together.
+// Throws Error for a scene or image that cannot be read, or if they do not fit each other.
 ReferenceRun RunReference(const Reference& reference, const ReferenceOptions& options,
                           std::vector<std::string>* read) {
   ReferenceRun run;
@@ -156,7 +157,7 @@ void RunReferences(const std::string& folder, const ReferenceOptions& options,
       outcome.read.push_back(outcome.reference.image.string());
       outcome.run = RunReference(outcome.reference, options, &outcome.read);
     } catch (const Error& error) {
-      // Reported; the remaining references still run.
+      // The error is reported, and the remaining references are still run.
       if (error.code() != ExitCode::kBadInput && error.code() != ExitCode::kCannotCompare) throw;
       outcome.failure = error.faults().front().what;
       outcome.message = error.what();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/references.h: scenes that have a reference image.
+// cli/references.h: validates scenes that have a reference image.
 //
-// A folder of references holds, for each, NAME.reference.json:
+// A folder of references holds, for each, a file NAME.reference.json:
 //   {"scene": "x.json", "image": "x.exr", "layers": [""],
 //    "tolerances": {"max_abs": 0, "max_rel": 1e-5, "exceeding_fraction": 0}, "reason": "..."}
 #pragma once
@@ -21,25 +21,25 @@ struct Reference {
   std::filesystem::path scene, image;
   std::vector<std::string> layers;
   Tolerances tolerances;
-  std::string reason;  // why these tolerances
+  std::string reason;  // why these tolerances were chosen
 };
 
-// The *.reference.json files of the folder, by name. Throws Error (kCannotCompare) if there is
-// none.
+// The *.reference.json files of the folder, sorted by name. Throws Error (kCannotCompare) if there
+// are none.
 std::vector<std::filesystem::path> FindReferences(const std::string& folder);
 
-// How references are validated.
+// How to validate references.
 struct ReferenceOptions {
   int threads = 0;           // 0: as many as the machine has
-  bool allow_paths = false;  // scenes, images and what scenes name outside the folder, too
+  bool allow_paths = false;  // files outside the folder are allowed, too
 };
 
-// Throws Error (kCannotCompare) with all faults, as scene files have theirs told, for a file that
-// is not what is described above, and for scenes and images outside its folder unless they are
-// allowed: a folder of references from elsewhere should not read other files of its user.
+// Throws Error (kCannotCompare) with all faults, reported like those of scene files, if the file is
+// not as described above, and for scenes and images outside its folder unless they are allowed: a
+// folder of references from someone else should not read other files of its user.
 Reference ReadReference(const std::filesystem::path& path, const ReferenceOptions& options);
 
-// What a reference's scene renders to, beside its image.
+// The rendered scene of a reference, and the reference image.
 struct ReferenceRun {
   Image got, expected;
   Verdict verdict;
@@ -47,18 +47,18 @@ struct ReferenceRun {
 
 CompareOptions OptionsOf(const Reference& reference);
 
-// What came of a reference: its run, or, if its scene or image cannot be read or they do not belong
-// together, why there is none.
+// The result of a reference: its run, or, if its scene or image cannot be read or they do not fit
+// each other, the reason.
 struct ReferenceOutcome {
   std::string name;
   Reference reference;
   std::optional<ReferenceRun> run;
-  std::vector<std::string> read;  // the files that it is made of, as far as they were found
+  std::vector<std::string> read;  // the files that were read, as far as they were found
   std::string failure;            // in a few words
   std::string message;            // where, what and hint
 };
 
-// All references of the folder, one after another; `done` is called with each. Throws Error.
+// Runs all references of the folder, one after another, and calls `done` with each. Throws Error.
 void RunReferences(const std::string& folder, const ReferenceOptions& options,
                    const std::function<void(const ReferenceOutcome&)>& done);
 

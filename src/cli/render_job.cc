@@ -26,13 +26,13 @@ ProgressForm ChooseProgressForm(const RenderOptions& options) {
   return DefaultProgressForm();
 }
 
-// Of what comes before the rendering, for people: programs are told how far the rendering is.
+// The progress form of work before the rendering. Programs are only told of the rendering.
 ProgressForm EarlyProgressForm(const RenderOptions& options) {
   const ProgressForm form = ChooseProgressForm(options);
   return form == ProgressForm::kJson ? ProgressForm::kNone : form;
 }
 
-// What the user must know of samples that are not as computed.
+// Warns the user of samples that are not stored as computed.
 void WarnAboutSamples(const OutputCounts& counts, const RenderStats& stats) {
   if (stats.directions_not_finite > 0) {
     PrintError("warning: {} sampled directions to light are not numbers and brought none\n",
@@ -51,7 +51,7 @@ void WarnAboutSamples(const OutputCounts& counts, const RenderStats& stats) {
   }
 }
 
-// Of a picture to a wanted error that takes long, or of which much will not settle.
+// Warns before an adaptive render that will take long, or in which many pixels will not converge.
 void TellForecast(const RenderOptions& options, const FramePlan& plan, const Forecast& forecast) {
   if (options.progress == "json") {
     return PrintError(
@@ -129,7 +129,7 @@ void RenderJob::Load(const std::function<void()>& load) {
       error = std::current_exception();
     }
   }
-  // Before an error, too: it may be what they warn of.
+  // Printed even before an error, which they may explain.
   for (const std::string& text : warnings_) PrintError("warning: {}\n", text);
   if (error) std::rethrow_exception(error);
   CheckOutputsAreNoInputs(paths_, {read_.begin(), read_.end()});
@@ -147,7 +147,7 @@ void RenderJob::Render(const Scene& scene, PreparedScene* prepared,
     return prepared != nullptr ? MakePlan(scene, settings_, prepared) : MakePlan(scene, settings_);
   }();
   const double plan_seconds = SecondsSince(plan_start);
-  // Only now: an option that is wrong in itself has been refused, once.
+  // Only now, because options that are invalid in themselves have been refused.
   for (const IdleOption& idle : options.idle_options) {
     if (options.quiet) break;
     PrintError("warning: {} changes nothing: it is for {} files, and none is written\n", idle.name,

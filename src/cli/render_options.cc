@@ -24,7 +24,7 @@ namespace {
 
 constexpr int kMaxSide = 65536;  // pixels, as for ImageSettings
 
-// Whole numbers separated by `separator`; false unless `text` is exactly `count` of them.
+// Parses `count` whole numbers separated by `separator`; false if `text` is anything else.
 bool ParseIntegers(std::string_view text, char separator, size_t count, std::vector<int>* out) {
   out->clear();
   while (true) {
@@ -318,7 +318,7 @@ RenderSettings MakeRenderSettings(const RenderOptions& options) {
     throw Error(ExitCode::kUsage, "--tile", "cannot be used with --region",
                 "a tile spans the frame's width; leave one of them out");
   }
-  // So that a tile's chunks are those of the whole picture's file.
+  // The chunks of a tile must be those of the whole picture's file.
   settings.band_rows = std::max(kStripRows, RowsPerChunk(ParseCompression(options.compression)));
   settings.layers = options.layers;
   settings.tile_size = options.tile_size;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/render_options.h: the options that every command that renders shares.
+// cli/render_options.h: the options that all rendering commands share.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace nacre {
 
-// An option that was given for files of a kind that is not written.
+// An option that only affects files of a kind that the command does not write.
 struct IdleOption {
   std::string name, extension;
 };
@@ -27,12 +27,12 @@ struct RenderOptions {
   std::vector<std::string> outputs;
   std::string size;  // "WxH"; empty: the scene's
   std::optional<int> spp;
-  double max_error = 0;  // 0: not adaptive
+  double max_error = 0;  // 0: no adaptive sampling
   std::optional<uint32_t> seed;
   int threads = 0;
   std::string target = "auto";
-  std::string region;  // "x0,y0,x1,y1"; empty: all
-  std::string tile;    // "i/N"; empty: all
+  std::string region;  // "x0,y0,x1,y1"; empty: everything
+  std::string tile;    // "i/N"; empty: everything
   std::vector<std::string> layers;
   std::string depth = "half";
   std::string compression = "zip";
@@ -50,52 +50,53 @@ struct RenderOptions {
   bool quiet = false;
   std::string progress = "auto";
   std::string intersector = "auto";
-  int tile_size = 0;  // 0: chosen by the plan
+  int tile_size = 0;  // 0: the plan chooses it
   std::vector<IdleOption> idle_options;
 };
 
-// Adds all of them to `command`.
+// Adds all of these options to `command`.
 void AddRenderOptions(CLI::App* command, RenderOptions* options);
 
-// The option that names the SIMD target of kernels.
+// Adds the option for the SIMD target.
 CLI::Option* AddTargetOption(CLI::App* command, std::string* target);
 
-// The options that say how a PNG looks, for `tonemap` as well.
+// Adds the options for the look of a PNG, which `tonemap` has, too.
 void AddDisplayOptions(CLI::App* command, std::string* tonemap, double* exposure);
 
-// Those of the scene's picture, and of how the machine renders it.
+// Add the options for the scene's picture, and for how the machine renders it.
 void AddPictureOptions(CLI::App* command, RenderOptions* options);
 void AddMachineOptions(CLI::App* command, RenderOptions* options);
 
-// The option that lifts the bound of what a file may be made into.
+// Adds the option that raises the limit on what a file expands to.
 CLI::Option* AddMaxPrimitivesOption(CLI::App* command, std::optional<uint64_t>* max_primitives);
 
-// What the options ask of scene_io; --size, --spp and --seed are settings of the scene's image
-// like any that --set makes. Throws Error (usage).
+// The options for scene_io. --size, --spp and --seed become overrides of the scene's image, like
+// those of --set. Throws Error (kUsage).
 LoadOptions MakeLoadOptions(const RenderOptions& options);
 
-// "x0,y0,x1,y1" as a window; empty text gives an empty one. Throws Error (usage).
+// Parses "x0,y0,x1,y1"; an empty text gives an empty window. Throws Error (kUsage).
 Window ParseRegion(const std::string& text);
 
-// "i/N" with 0 <= i < N as a band; empty text gives none. Throws Error (usage).
+// Parses "i/N" with 0 <= i < N to a band; an empty text gives none. Throws Error (kUsage).
 FrameBand ParseTile(const std::string& text);
 
-// A check for numbers in [low, high]; CLI11's own lets NaN pass.
+// A check for numbers in [low, high]; unlike CLI11's own, it refuses NaN.
 std::function<std::string(const std::string&)> InRange(double low, double high);
-// The same for whole numbers; CLI11's own says of 1.5 that it is not in the range from 1 to 2.
+// A check for whole numbers in [low, high]; CLI11's own says that 1.5 is not in the range from 1 to
+// 2.
 CLI::Validator WholeInRange(uint64_t low, uint64_t high);
 
-// "WxH". Throws Error (usage).
+// Parses "WxH". Throws Error (kUsage).
 void ParseSize(const std::string& text, int* width, int* height);
 
-// What the options ask of the renderer. Throws Error (usage).
+// The options for the renderer. Throws Error (kUsage).
 RenderSettings MakeRenderSettings(const RenderOptions& options);
 
-// Pins the SIMD target. Throws Error (usage) for one that this machine lacks.
+// Sets the SIMD target. Throws Error (kUsage) for one that this machine lacks.
 void ApplyTarget(const std::string& name);
 
-// The same for the pictures of a file that nacre rendered on the target `of_file`: "auto" is that
-// one, if this machine has it, so that they are shown with the bits of a render.
+// ApplyTarget for showing the pictures of a file that was rendered on the target `of_file`: "auto"
+// means that target, if this machine has it, so that pictures have the same bits as in a render.
 void ApplyTargetOf(const std::string& name, const std::string& of_file);
 
 }  // namespace nacre

@@ -14,7 +14,7 @@
 #include "cli/progress.h"
 #include "cli/stats_json.h"
 #include "image_io/color_channels.h"
-#include "image_io/image_file.h"
+#include "image_io/read_image.h"
 #include "output/metadata.h"
 #include "render/render.h"
 #include "scene_io/json_text.h"
@@ -29,10 +29,10 @@ using Clock = std::chrono::steady_clock;
 
 constexpr uint64_t kMaxJsonBytes = uint64_t{1} << 30;  // as for scenes
 
-// The path without its folder: what a page that is passed on should show.
+// The path without its folder, which a page that is passed on should not reveal.
 std::string NameOf(const std::string& path) { return fs::path(path).filename().string(); }
 
-// Halves, as files of renders hold colours unless they are told otherwise.
+// Sets the channel types of the image to halves where files of renders have them by default.
 void TakeFileTypes(const FramePlan& plan, Image* image) {
   for (const ChannelSpec& spec : StripChannels(plan.film.layers, PixelType::kHalf)) {
     for (Channel& channel : image->channels) {
@@ -67,7 +67,7 @@ ReportInput KindOfInput(const std::string& path) {
 
 ReportPicture ReadPicture(const std::string& path, const std::string& part) {
   Image image = ReadImage(path, part);
-  const std::string note = ConvertImage(&image);  // what is shown is shown in sRGB
+  const std::string note = ConvertImage(&image);  // pages show pictures in sRGB
   if (!note.empty()) PrintError("warning: {}: {}\n", path, note);
   return {NameOf(path), std::move(image), std::nullopt};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/report_inputs.h: what nacre report is given, read or rendered, and told apart by what it is.
+// cli/report_inputs.h: the inputs of nacre report, which are told apart by their contents.
 #pragma once
 
 #include <optional>
@@ -14,16 +14,16 @@ namespace nacre {
 
 enum class ReportInput {
   kImage,       // EXR, PNG, ...
-  kScene,       // rendered
-  kReferences,  // a folder, validated
+  kScene,       // to be rendered
+  kReferences,  // a folder to validate
   kBench,       // bench.json
-  kStats,       // JSON of render --stats: belongs to the image before it
+  kStats,       // JSON of render --stats, for the image before it
 };
 
-// From the name and, of .json, from what it holds. Throws Error (kBadInput).
+// Decides by the name and, for .json, by the contents. Throws Error (kBadInput).
 ReportInput KindOfInput(const std::string& path);
 
-// A picture with what is known of how it was made.
+// A picture with what is known about its making.
 struct ReportPicture {
   std::string name;
   Image image;
@@ -31,11 +31,11 @@ struct ReportPicture {
 };
 
 ReportPicture ReadPicture(const std::string& path, const std::string& part);
-// `output` is the report's file, which the scene must not be made of.
+// Renders a scene. `output` is the report's file, which must not be an input of the scene.
 ReportPicture RenderPicture(const std::string& path, const RenderOptions& options,
                             const std::string& output);
 
-// Throws Error (kBadInput) if it is not JSON.
+// Throws Error (kBadInput) for text that is not JSON.
 nlohmann::ordered_json ReadJson(const std::string& path);
 
 }  // namespace nacre

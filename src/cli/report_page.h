@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/report_page.h: the file that a report is, put together of its sections.
+// cli/report_page.h: assembles a report's file from its sections.
 #pragma once
 
 #include <string>
@@ -11,14 +11,15 @@
 
 namespace nacre {
 
-// Throws Error: kUsage unless `path` is a .html file, kCannotWrite.
+// Throws Error: kUsage unless `path` is a .html file, kCannotWrite if it cannot be written.
 void CheckReportPath(const std::string& path);
 
-// The page: `page` holds the sections' samples; pictures open as `shown` says.
+// The HTML of a report. `page` holds the samples of the sections' pictures, which open as `shown`
+// says.
 std::string ReportHtml(const std::string& title, const nlohmann::ordered_json& sections,
                        const PerceptualArguments& shown, const Page& page);
 
-// The same into a file. Tells its size on stderr.
+// Writes such a page to a file, and prints the file's size on stderr.
 void WriteReport(const std::string& path, const std::string& title,
                  const nlohmann::ordered_json& sections, const PerceptualArguments& shown,
                  const Page& page);

@@ -18,7 +18,7 @@ Json FrameOf(const Image& image) {
   return {{"width", image.display.width()}, {"height", image.display.height()}};
 }
 
-// The window in coordinates that begin at the frame's corner.
+// Moves the window to coordinates with the frame's corner at the origin.
 Window FromCorner(const Window& window, const Window& display) {
   return {window.x0 - display.x0, window.y0 - display.y0, window.x1 - display.x0,
           window.y1 - display.y0};
@@ -32,7 +32,7 @@ void AddNote(const Packing& packing, const std::vector<const Image*>& images, Js
                   images.size() == 1 ? "the picture would" : "the pictures would", words));
 }
 
-// The figures of a picture against its reference, and FLIP's maps.
+// The metrics of a picture against its reference, with the maps of FLIP.
 Json Compare(const Image& got, const Image& reference, const CompareOptions& options,
              const Verdict& verdict, const std::optional<PerceptualOptions>& perceptual,
              const Packing& packing, size_t index, Page* page) {
@@ -52,7 +52,7 @@ Json Compare(const Image& got, const Image& reference, const CompareOptions& opt
   return {{"image", index}, {"verdict", VerdictJson(verdict, seen)}, {"maps", maps}};
 }
 
-// The layers that both have: pictures of other renderers have fewer.
+// The layers that both images have: pictures of other renderers have fewer.
 std::vector<std::string> CommonLayers(const Image& a, const Image& b) {
   std::vector<std::string> common;
   const auto has_all = [](const Image& image, const Image& other, const std::string& layer) {
@@ -137,7 +137,7 @@ void ValidationSection::Add(const ReferenceOutcome& outcome) {
       {{"name", outcome.name}, {"outcome", "error"}, {"reason", outcome.failure}});
 }
 
-// Its row, and its two pictures as a set of the viewer.
+// Adds a row to the table, and the two pictures as a set of the viewer.
 void ValidationSection::AddRun(const ReferenceOutcome& outcome) {
   const Reference& reference = outcome.reference;
   const ReferenceRun& run = *outcome.run;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/report_sections.h: the parts of a report as the page wants them (src/report/html).
+// cli/report_sections.h: the sections of a report as JSON for the page (src/report/html).
 #pragma once
 
 #include <optional>
@@ -13,17 +13,17 @@
 
 namespace nacre {
 
-// The pictures side by side; if there are several, each against number `reference`. Throws Error
-// (kCannotCompare) if they do not belong together.
+// Pictures side by side; several are each compared with number `reference`. Throws Error
+// (kCannotCompare) if they do not fit each other.
 nlohmann::ordered_json PictureSection(const std::vector<ReportPicture>& pictures, size_t reference,
                                       const std::optional<PerceptualOptions>& perceptual,
                                       size_t limit, Page* page);
 
-// References as they are rendered and compared, one after another. Those that could not be are told
-// in the table.
+// References, added one after another as they are rendered and compared. Those that could not be
+// are listed in the table with the reason.
 class ValidationSection {
  public:
-  // `limit`: bytes of samples that the pictures of one reference may have.
+  // `limit`: the maximum size in bytes of the samples of one reference's pictures.
   ValidationSection(const std::optional<PerceptualOptions>& perceptual, size_t limit, Page* page);
 
   void Add(const ReferenceOutcome& outcome);

@@ -11,11 +11,12 @@ namespace nacre {
 
 std::string SheetScene(const Json& shapes, const Json& materials, const SheetRequest& request,
                        const SheetPage& page, const Lighting& lighting) {
-  // The origin is the block's middle; the camera looks at what is the picture's.
+  // The origin is in the middle of the block of cells; the camera looks at the middle of the
+  // picture.
   const double x = (page.width / 2.0 - page.left) / page.cell - request.columns / 2.0;
   const double y = request.rows / 2.0 - (page.height / 2.0 - page.top) / page.cell;
   constexpr double kDistance = 100;
-  // No shadows: each sphere is lit as if it were alone.
+  // No shadows: spheres do not affect each other's light.
   const Json scene = {
       {"nacre", 1},
       {"camera",
@@ -79,7 +80,7 @@ bool IsLightGround(const Lighting& lighting, const RenderOptions& render) {
   display.tone = ParseToneOperator(render.tonemap);
   display.exposure_ev = render.exposure;
   const auto light = DisplayLight(display, rgb);
-  // Contrast with black and with white is equal at luminance 0.18 (WCAG 2.1).
+  // At luminance 0.18, the contrasts with black and with white are equal (WCAG 2.1).
   return Luminance(light) > 0.18;
 }
 
@@ -91,7 +92,7 @@ Scene LoadSheet(const std::string& text, const std::string& command, const Sheet
                 "give smaller spheres");
   }
   Scene scene = LoadSceneText(text, command, ".", load);
-  scene.labels.clear();  // the page has them
+  scene.labels.clear();  // the page draws the labels
   return scene;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/sheet.h: scenes that the commands grid and pair build from their arguments: spheres in the
-// cells of a page, before a plain ground.
+// cli/sheet.h: the scenes that grid and pair build from their arguments: spheres in the cells of a
+// page, in front of a plain ground.
 #pragma once
 
 #include <string>
@@ -11,30 +11,30 @@
 
 namespace nacre {
 
-inline constexpr double kSheetSphereRadius = 0.44;  // of a cell
+inline constexpr double kSheetSphereRadius = 0.44;  // in multiples of a cell's side
 
-// A scene file's text. World units are cells; the block of rows by columns has its centre at the
-// origin and is seen in parallel projection along -z, so that every sphere is seen alike.
+// The text of a scene file. World units are cells; the block of rows by columns is centred at the
+// origin. The projection is parallel, along -z, so that all spheres look alike.
 std::string SheetScene(const Json& shapes, const Json& materials, const SheetRequest& request,
                        const SheetPage& page, const Lighting& lighting);
 
-// The options of size that sheets share: --sphere-size, --title.
+// The options for the size and title of sheets: --sphere-size, --title.
 struct SheetOptions {
-  double sphere_size = 0;  // pixels; 0: what fits
+  double sphere_size = 0;  // pixels; 0: as large as fits
   std::string title;
   LightingOptions lighting;
 };
 void AddSheetOptions(CLI::App* command, SheetOptions* options, RenderOptions* render);
 
-// What they and --size ask for. Throws Error (usage).
+// Combines them with --size. Throws Error (kUsage).
 SheetRequest MakeSheetRequest(const SheetOptions& options, const RenderOptions& render, int rows,
                               int columns);
 
-// Whether the ground looks light in a PNG.
+// Whether the ground is light in a PNG, so that text should be dark.
 bool IsLightGround(const Lighting& lighting, const RenderOptions& render);
 
-// Loads a sheet's scene. The image of --environment may be anywhere, those that --lights names only
-// below the working folder, unless the options allow more.
+// Loads the scene of a sheet. The image of --environment may be anywhere; files that --lights names
+// must be below the working folder unless the options allow more.
 Scene LoadSheet(const std::string& text, const std::string& command, const SheetOptions& options,
                 const SheetPage& page, LoadOptions load);
 

@@ -10,14 +10,14 @@
 namespace nacre {
 namespace {
 
-// Sizes in units of the text's size.
-constexpr double kPad = 1.1;  // around everything
+// Sizes in multiples of the text size.
+constexpr double kPad = 1.1;  // padding around everything
 constexpr double kTitleSize = 1.25;
 constexpr double kFooterSize = 0.82;
-constexpr double kLine = 1.3;           // from line to line, of the line's own size
-constexpr double kRowLine = 1.15;       // from row to row, at least
-constexpr double kGap = 0.55;           // between text and what it belongs to
-constexpr double kWidestRowLabel = 20;  // what is wider is cut
+constexpr double kLine = 1.3;           // line spacing, in multiples of the line's own size
+constexpr double kRowLine = 1.15;       // minimum distance of row labels
+constexpr double kGap = 0.55;           // between text and what it labels
+constexpr double kWidestRowLabel = 20;  // longer labels are cut
 
 struct Margins {
   double left = 0, right = 0, top = 0, bottom = 0;
@@ -29,7 +29,7 @@ struct Margins {
 
 double LineHeight(double size) { return kLine * size; }
 
-// What the text needs when its size is `em`, cells are `cell` wide and the page `width`.
+// The margins that the text needs if its size is `em`, cells are `cell` wide, and the page `width`.
 Margins MeasureMargins(const SheetText& text, double em, double cell, double width) {
   Margins m;
   m.left = m.right = m.top = m.bottom = kPad * em;
@@ -51,10 +51,10 @@ Margins MeasureMargins(const SheetText& text, double em, double cell, double wid
     widest = std::max(widest, DrawnWidth(m.row_labels.back(), m.row_label_size));
   }
   if (widest > 0) m.left += widest + kGap * em;
-  // The block of cells is in the middle of what the margins leave; half of the padding stays free.
+  // The block of cells is centred between the margins; half of the padding stays free.
   const double columns = static_cast<double>(text.column_labels.size());
   const double spare = std::max(width - m.left - m.right - columns * cell, 0.0) / 2;
-  // The name of the rows is in line with the labels of columns.
+  // The name of the rows is on the line of the column labels.
   const double left = text.row_name.empty() ? m.left + spare - kPad * em / 2 : kGap * em / 2;
   m.columns = FitLabels(text.column_labels, em, cell, {left, m.right + spare - kPad * em / 2});
   m.top += m.columns.lines * LineHeight(m.columns.size);
@@ -73,7 +73,7 @@ void Write(const std::string& text, double x, double y, double size, AlignX alig
 void WriteColumns(const SheetText& text, const Margins& m, bool light, SheetPage* page) {
   const double em = page->text_px;
   const double size = m.columns.size;
-  const double bottom = page->top - kGap * em / 2;  // of the last line's box
+  const double bottom = page->top - kGap * em / 2;  // bottom of the last line
   const double columns = static_cast<double>(text.column_labels.size());
   if (!text.column_name.empty()) {
     const double y = bottom - m.columns.lines * LineHeight(size) - LineHeight(em);
@@ -100,7 +100,7 @@ void WriteRows(const SheetText& text, const Margins& m, bool light, SheetPage* p
   }
   const size_t count = text.row_labels.size();
   if (count == 0) return;
-  // Where lines would touch, not every value is written.
+  // Labels are skipped where lines would touch.
   const double line = kRowLine * m.row_label_size;
   const auto apart = static_cast<size_t>(std::ceil(line / page->cell));  // places
   const size_t written = std::max((count - 1) / apart + 1, size_t{2});
@@ -113,7 +113,7 @@ void WriteRows(const SheetText& text, const Margins& m, bool light, SheetPage* p
   }
 }
 
-// The size of cells that leave the margins their room.
+// The largest cell size that leaves room for the margins.
 double CellThatFits(const SheetRequest& r, const Margins& m) {
   const double x = (r.width - m.left - m.right) / r.columns;
   const double y = (r.height - m.top - m.bottom) / r.rows;
@@ -126,10 +126,10 @@ bool HasText(const SheetText& text) {
          !text.footer.empty();
 }
 
-// Fills in the page's sizes from what the request leaves open.
+// Chooses the sizes of the page that the request leaves open.
 Margins ChooseSizes(const SheetText& text, const SheetRequest& r, SheetPage* page) {
   constexpr double kSmallestText = 6;
-  if (r.width == 0) {  // the cells say how large the page is
+  if (r.width == 0) {  // the cells determine the page's width
     const double extent = (r.columns + r.rows) * page->cell / 2;
     page->text_px = std::round(std::clamp(extent / 36, 18.0, 48.0));
     const double narrowest = 26 * page->text_px;
@@ -148,7 +148,7 @@ Margins ChooseSizes(const SheetText& text, const SheetRequest& r, SheetPage* pag
     Margins m = MeasureMargins(
         text, em, std::min(r.width * 0.8 / r.columns, r.height * 0.8 / r.rows), r.width);
     m.bottom += r.strip * em;
-    m = [&] {  // again, now that the cells are known
+    m = [&] {  // again, now that the cell size is known
       Margins again = MeasureMargins(text, em, std::max(CellThatFits(r, m), 1.0), r.width);
       again.bottom += r.strip * em;
       return again;
@@ -195,7 +195,7 @@ SheetPage LayOutSheet(const SheetText& text, const SheetRequest& request) {
     page.width = static_cast<int>(std::ceil(request.columns * page.cell));
     page.height = static_cast<int>(std::ceil(request.rows * page.cell));
   }
-  // What is left over goes to both sides.
+  // Distributes the remaining space to both sides.
   const double spare_x = page.width - m.left - m.right - request.columns * page.cell;
   const double spare_y = page.height - m.top - m.bottom - request.rows * page.cell;
   page.left = std::floor(m.left + spare_x / 2);

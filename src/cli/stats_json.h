@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/stats_json.h: times and counts of a render for programs (--stats, --dry-run).
+// cli/stats_json.h: times and counts of a render as JSON (--stats, --dry-run).
 #pragma once
 
 #include <optional>
@@ -12,9 +12,9 @@
 
 namespace nacre {
 
-// Wall times of a job's parts around the render itself.
+// Wall-clock times of the parts of a job besides the render itself.
 struct JobTimes {
-  double load_seconds = 0;    // reading and checking the scene
+  double load_seconds = 0;    // reading and validating the scene
   double finish_seconds = 0;  // completing the files after the last strip
   double total_seconds = 0;
   std::optional<Forecast> forecast;  // of the render
@@ -23,7 +23,7 @@ struct JobTimes {
 std::string StatsJson(const FramePlan& plan, const RenderStats& stats, const JobTimes& times,
                       const OutputCounts& counts);
 
-// What --dry-run prints: all that decides the picture's bits, as its header has it.
+// The output of --dry-run: everything that affects the picture's bits, as in its header.
 std::string DryRunJson(const ExrHeader& header, const RenderOptions& options, int most_tiles);
 
 }  // namespace nacre

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/text_output.h: text files that appear whole or not at all.
+// cli/text_output.h: writes text files, which appear completely or not at all.
 #pragma once
 
 #include <string>

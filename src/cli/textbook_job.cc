@@ -16,8 +16,8 @@
 namespace nacre {
 namespace {
 
-// Options that mean the same with the preset. All others speak of the renderer's samples, kernels,
-// layers or tone operators, none of which the lesson has.
+// Options that have the same meaning with the preset. The others are about the renderer's samples,
+// kernels, layers or tone operators, which the lesson does not have.
 const std::set<std::string> kApplying = {"SCENE",   "--preset",      "--output", "--size",
                                          "--depth", "--compression", "--small",  "--reproducible",
                                          "--quiet", "--allow-paths"};
@@ -31,8 +31,8 @@ void RefuseOptionsThatCannotApply(const CLI::App& command) {
       "without the preset");
 }
 
-// Sides that are 0 without a size. Unlike the renderer, the lesson holds all of its picture at
-// once.
+// Sets both sides to 0 if no size is given. Unlike the renderer, the lesson keeps the whole picture
+// in memory.
 void ChooseSize(const std::string& size, int* width, int* height) {
   if (size.empty()) return;
   ParseSize(size, width, height);
@@ -61,7 +61,8 @@ void RunTextbookJob(const RenderOptions& options, const std::string& path,
   ChooseSize(options.size, &width, &height);
   const TextbookPicture picture = RenderTextbookSubject(subject, width, height);
   ThrowIfStopped();
-  // Half would be off by more than the lesson's float image allows; only who asks for it gets it.
+  // Half precision would exceed the error of the lesson's float image, so it is used only on
+  // request.
   const bool half = command.count("--depth") > 0 && options.depth == "half";
   WriteTextbookFiles(picture, options.outputs, half ? PixelType::kHalf : PixelType::kFloat,
                      {.compression = ParseCompression(options.compression),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/textbook_job.h: nacre render --preset textbook: the founding lesson's pictures, faults and
-// all, made by its own program (lesson/preset.h).
+// cli/textbook_job.h: nacre render --preset textbook: the pictures of the founding lesson,
+// including its faults, made by the lesson's own program (lesson/preset.h).
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace nacre {
 
-// Renders the picture that the scene at `path` chooses to options.outputs. `command` knows which
-// options were given: those that cannot apply are refused. Throws Error.
+// Renders the picture that the scene at `path` selects to options.outputs. `command` tells which
+// options were given, and those that cannot apply are refused. Throws Error.
 void RunTextbookJob(const RenderOptions& options, const std::string& path, const CLI::App& command);
 
 }  // namespace nacre

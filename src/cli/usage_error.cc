@@ -17,8 +17,8 @@
 namespace nacre {
 namespace {
 
-// Names that other renderers, viewers and comparing tools have for options of ours. Where a command
-// does not have the option, the pair is passed over.
+// Names that other renderers, viewers and comparison tools have for options of nacre. A pair is
+// ignored if the command does not have the option.
 constexpr auto kOtherNames = std::to_array<std::pair<std::string_view, std::string_view>>({
     {"--samples", "--spp"},
     {"--sample-count", "--spp"},
@@ -83,7 +83,7 @@ constexpr auto kOtherNames = std::to_array<std::pair<std::string_view, std::stri
     {"--threshold", "--max-rel"},
 });
 
-// Other programs' options for what nacre does otherwise, and how.
+// Options of other programs for what nacre does differently, with an explanation.
 constexpr auto kOtherWays = std::to_array<std::pair<std::string_view, std::string_view>>({
     {"--frame", "a scene is one picture: change it by --set, and call once for each frame"},
     {"--frames", "a scene is one picture: change it by --set, and call once for each frame"},
@@ -107,14 +107,14 @@ constexpr auto kOtherWays = std::to_array<std::pair<std::string_view, std::strin
     {"--fast", "the fast mode is gone: leave it out, samples reach its error sooner"},
 });
 
-// The command that was being read: the innermost that was named.
+// The innermost command that was named.
 const CLI::App* NamedCommand(const CLI::App& app) {
   const CLI::App* command = &app;
   while (!command->get_subcommands().empty()) command = command->get_subcommands().back();
   return command;
 }
 
-// The nearest of the command's names and of the other names for its options, or "".
+// The nearest name among the command's options and their other names, or "".
 std::string OptionMeant(const std::string& word, const std::vector<std::string>& names) {
   std::vector<std::string> candidates = names;
   for (const auto& [other, ours] : kOtherNames) {
@@ -138,15 +138,15 @@ bool LooksLikeOption(const std::string& word) {
          (word[0] == '-' || (word[0] == '+' && word[1] >= 'A' && word[1] <= 'Z'));
 }
 
-// The first argument that the command has no use for. Nothing if the parse failed of something
-// else.
+// The error for the first argument that the command cannot use; nullopt if the parse failed for
+// another reason.
 std::optional<Error> UnknownArgument(const CLI::App& app, const CLI::ParseError& failure) {
   const auto code = static_cast<CLI::ExitCodes>(failure.get_exit_code());
   const CLI::App& command = *NamedCommand(app);
   std::vector<std::string> rest = app.remaining(/*recurse=*/true);
   const bool options_end = std::erase(rest, "--") > 0;
-  // CLI11 gives the values of unknown options as well, and in an order of its own: an option is
-  // reported before a value.
+  // CLI11 also lists the values of unknown options, in an order of its own; options are reported
+  // first.
   const auto option = std::find_if(rest.begin(), rest.end(), LooksLikeOption);
   const bool may_be = code == CLI::ExitCodes::ExtrasError ||
                       (code == CLI::ExitCodes::RequiredError && option != rest.end());
@@ -157,7 +157,7 @@ std::optional<Error> UnknownArgument(const CLI::App& app, const CLI::ParseError&
     return Error(ExitCode::kUsage, "", fmt::format("unexpected argument \"{}\"", word),
                  fmt::format("{} tells what it takes", help));
   }
-  // POV-Ray's have their values behind one letter.
+  // In POV-Ray's options, the value follows a single letter directly.
   const std::string word = option->substr(0, (*option)[0] == '+' ? 2 : option->find('='));
   std::vector<std::string> names;
   for (const CLI::Option* known : command.get_options()) {
@@ -179,7 +179,7 @@ std::optional<Error> UnknownArgument(const CLI::App& app, const CLI::ParseError&
                              : fmt::format("did you mean {}? {} tells every option", meant, help));
 }
 
-// What is wrong with a value that an option has been given, of those in a list the first.
+// The error for an option's invalid value; for a list, its first one.
 Error ValueError(const CLI::Option& option, const std::string& where, const std::string& told,
                  const std::string& help) {
   const std::vector<std::string> choices = ChoicesOf(option);
@@ -202,7 +202,7 @@ Error UsageError(const CLI::App& app, const CLI::ParseError& failure) {
   if (std::optional<Error> unknown = UnknownArgument(app, failure)) return *std::move(unknown);
   const CLI::App& command = *NamedCommand(app);
   const std::string help = HelpOf(app, command), message = failure.what();
-  // CLI11 names the option in its text alone: "--spp: At Most 1 required ...", "--output is
+  // CLI11 names the option only in its message: "--spp: At Most 1 required ...", "--output is
   // required", "Could not convert: --seed = x".
   constexpr std::string_view kConversion = "Could not convert: ";
   const std::string text =

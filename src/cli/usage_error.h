@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/usage_error.h: what is said of a command line that CLI11 refuses.
+// cli/usage_error.h: the error messages for command lines that CLI11 refuses.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -8,9 +8,9 @@
 
 namespace nacre {
 
-// In nacre's own words. Of an argument that the command has no use for, the first is named, with
-// the option that was likely meant, by its spelling or by the name that other programs have for it.
-// A required option that is missing may be one that was misspelt.
+// Words the error as nacre does. The first argument that the command cannot use is named, with the
+// option that was likely meant, judged by its spelling or by the name in other programs. A required
+// option that is missing may have been misspelt.
 Error UsageError(const CLI::App& app, const CLI::ParseError& failure);
 
 }  // namespace nacre

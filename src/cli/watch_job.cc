@@ -24,14 +24,14 @@
 namespace nacre {
 namespace {
 
-// Between two looks at the files and at the signals.
+// The interval of polling files and signals.
 constexpr std::chrono::milliseconds kLook(30);
 
 bool IsStop(const Error& error) {
   return error.code() == ExitCode::kInterrupted || error.code() == ExitCode::kTerminated;
 }
 
-// All of an error in one line: whoever saves a file again and again does not want a page each time.
+// Prints an error on one line: a user who saves a file repeatedly does not want a page each time.
 void PrintInOneLine(const Error& error) {
   const std::vector<Fault>& faults = error.faults();
   if (faults.empty()) return;
@@ -44,7 +44,8 @@ void PrintInOneLine(const Error& error) {
   PrintError(line + "\n");
 }
 
-// Ends a render whose files have changed. While this lives, nobody else may ask the scene.
+// Ends the render when files of the scene change. Nothing else may use `live` while this object
+// exists.
 class ChangeGuard {
  public:
   explicit ChangeGuard(LiveScene* live)
@@ -61,7 +62,7 @@ class ChangeGuard {
   ChangeGuard(const ChangeGuard&) = delete;
   ChangeGuard& operator=(const ChangeGuard&) = delete;
 
-  // Whether files have changed since this was made.
+  // Stops watching. Returns whether files have changed since construction.
   bool Stop() {
     done_ = true;
     if (thread_.joinable()) thread_.join();
@@ -74,7 +75,7 @@ class ChangeGuard {
   std::thread thread_;
 };
 
-// Returns whether files have changed meanwhile, which ends the render. Throws Error.
+// Renders the scene. Returns true if files changed meanwhile, which ends the render. Throws Error.
 bool RenderUnlessChanged(RenderJob* job, LiveScene* live, PreparedScene* prepared) {
   ChangeGuard guard(live);
   try {
@@ -115,14 +116,14 @@ int RunWatchJob(const RenderOptions& options, const std::filesystem::path& path,
   bool changed = RenderUnlessChanged(&job, &*live, &prepared);
   if (!options.quiet) PrintError("watching the files of {}; Ctrl-C ends it\n", path.string());
   while (true) {
-    FinishOutput();  // what --explain and --stats - have printed
+    FinishOutput();  // the output of --explain and --stats -
     try {
       if (!changed) WaitForChange(&*live);
       changed = false;
       job.Load([&] { prepared.versions.Change(live->ReadChangedFiles()); });
       changed = RenderUnlessChanged(&job, &*live, &prepared);
     } catch (const Error& error) {
-      // A signal is how this ends, and no fault.
+      // A stop signal is the regular end, not an error.
       if (IsStop(error)) return static_cast<int>(error.code());
       PrintInOneLine(error);
     } catch (const std::bad_alloc&) {

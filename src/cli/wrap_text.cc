@@ -10,7 +10,7 @@
 namespace nacre {
 namespace {
 
-// Words with the space or underscore that ends them.
+// Splits the text into words, each with the space or underscore that ends it.
 std::vector<std::string> Words(const std::string& text) {
   std::vector<std::string> words;
   size_t begin = 0;
@@ -27,7 +27,7 @@ std::string WithoutEndSpace(std::string text) {
   return text;
 }
 
-// How many bytes of the text, whole characters, are at most `width` wide.
+// The number of bytes of the longest prefix of whole characters that is at most `width` wide.
 size_t LengthThatFits(const std::string& text, double size_px, double width) {
   double used = 0;
   size_t length = 0;
@@ -41,8 +41,8 @@ size_t LengthThatFits(const std::string& text, double size_px, double width) {
   return length;
 }
 
-// Lines of whole words; one that is too wide has a line to itself. Control characters are spelled
-// out first, as drawing does, since that makes text wider.
+// Wraps whole words; a word that is too wide gets a line of its own. Control characters are first
+// spelled out as in drawing, since that widens the text.
 std::vector<std::string> WrapWords(const std::string& text, double size_px, double width) {
   std::vector<std::string> lines;
   std::string line;
@@ -57,7 +57,7 @@ std::vector<std::string> WrapWords(const std::string& text, double size_px, doub
   return lines;
 }
 
-// Room between neighbouring labels, in sizes of the text.
+// The minimum gap between neighbouring labels, in multiples of the text size.
 constexpr double kBetween = 0.6;
 constexpr size_t kMostLines = 3;
 
@@ -67,7 +67,7 @@ struct LabelRow {
   RoomBeside beside;
 };
 
-// What of `room` around place i lies on the page.
+// The part of `room`, centred at place i, that lies on the page.
 double RoomAt(const LabelRow& row, size_t i, double room) {
   const double left = row.beside.left + (static_cast<double>(i) + 0.5) * row.width;
   const double right =
@@ -105,7 +105,7 @@ FittedLabels Fit(const LabelRow& row, const std::vector<size_t>& places, double 
   return fitted;
 }
 
-// Label i in tier i modulo `tiers`.
+// Puts label i into tier i modulo `tiers`.
 void StackTiers(size_t tiers, FittedLabels* fitted) {
   fitted->lines = 0;
   for (size_t tier = 0; tier < tiers; ++tier) {
@@ -118,7 +118,7 @@ void StackTiers(size_t tiers, FittedLabels* fitted) {
   }
 }
 
-// Every label: neighbours in a tier are `tiers` places apart.
+// Fits every label: neighbours within a tier are `tiers` places apart.
 FittedLabels FitTiers(const LabelRow& row, const std::vector<size_t>& places, size_t tiers,
                       double size_px) {
   FittedLabels fitted = Fit(row, places, size_px, static_cast<double>(tiers) * row.width);
@@ -126,14 +126,14 @@ FittedLabels FitTiers(const LabelRow& row, const std::vector<size_t>& places, si
   return fitted;
 }
 
-// What fits nowhere: words are broken, and what needs too many lines ends in an ellipsis.
+// For labels that do not fit: breaks words, and ends labels with too many lines in an ellipsis.
 void CutToFit(const LabelRow& row, size_t tiers, double room, FittedLabels* fitted) {
   for (FittedLabels::Label& label : fitted->labels) {
     const double width = RoomAt(row, label.place, room) - kBetween * fitted->size;
     label.lines = WrapText(row.labels[label.place], fitted->size, width);
     if (label.lines.size() <= kMostLines) continue;
     label.lines.resize(kMostLines);
-    // Longer than it was, so that it is cut and ends in an ellipsis.
+    // Makes the line too long, so that it is cut and ends in an ellipsis.
     label.lines.back() = CutText(label.lines.back() + "……", fitted->size, width);
   }
   StackTiers(tiers, fitted);
@@ -166,7 +166,7 @@ std::vector<size_t> SpreadPlaces(size_t last, size_t count) {
   std::vector<size_t> places;
   places.reserve(count);
   for (size_t i = 0; i < count; ++i) {
-    places.push_back((2 * i * last + count - 1) / (2 * (count - 1)));  // rounded
+    places.push_back((2 * i * last + count - 1) / (2 * (count - 1)));  // rounds to nearest
   }
   return places;
 }

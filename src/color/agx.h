@@ -25,7 +25,7 @@ inline constexpr Matrix kPublishedInset = {{
     {0.0423282422610123, 0.878468636469772, 0.0791661274605434},
     {0.0423756549057051, 0.0784336, 0.879142973793104},
 }};
-// Its inverse.
+// The inverse of kPublishedInset.
 inline constexpr Matrix kPublishedOutset = {{
     {1.19687900512017, -0.0980208811401368, -0.0990297440797205},
     {-0.0528968517574562, 1.15190312990417, -0.0989611768448433},
@@ -62,10 +62,10 @@ inline constexpr double kBrightest = kMiddleGrey * 90.509667991878083;  // 2^6.5
 inline constexpr double kPivot = kStopsBelow / kStops;
 inline constexpr double kToe = 59.507875;              // 4^3 - (33/20)^3
 inline constexpr double kShoulder = 69.8627891354554;  // 4^3.25 - (33/13)^3.25
-// What the curve is made for: a display of power 2.2.
+// The curve is made for a display whose light is the encoded value to the power of 2.2.
 inline constexpr double kDisplayPower = 2.2;
 
-// t in [0, 1] to [0, 1].
+// Maps t in [0, 1] to [0, 1].
 template <typename Real>
 Real Sigmoid(Real t) {
   const Real s = t - Real(kPivot);
@@ -87,7 +87,8 @@ Imath::Color3<Real> Transform(const Matrix& matrix, const Imath::Color3<Real>& r
 
 template <typename Real>
 Imath::Color3<Real> ToneAgx(Imath::Color3<Real> rgb) {
-  // Brighter than this, every channel is white after the inset; and no product overflows.
+  // A channel beyond this limit makes every channel white after the inset. The limit keeps products
+  // finite.
   const Real limit = Real(1e6);
   for (int c = 0; c < 3; ++c) rgb[c] = std::min(rgb[c], limit);
   rgb = agx::Transform(agx::kInset, rgb);

@@ -63,7 +63,8 @@ size_t EncodeDisplay(const DisplaySettings& settings, const float* r, const floa
                      const float* b, size_t count, uint8_t* rgb8);
 
 // Turns `count` pixels, given as three planes of any alignment and without padding, into linear
-// display light in place, with the errors that EncodeDisplay states. NaN becomes anything.
+// display light in place, with the errors that EncodeDisplay states. The result of a pixel with a
+// NaN is unspecified.
 void ShowLight(const DisplaySettings& settings, size_t count, float* r, float* g, float* b);
 
 // Turns sRGB values, clamped to [0, 1], into linear light in place, within 6e-7.

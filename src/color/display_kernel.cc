@@ -35,8 +35,8 @@ struct Planes {
   Planes operator+(size_t i) const { return {r + i, g + i, b + i}; }
 };
 
-// Display light of a vector of pixels, of any alignment, into `light`, which may be where they are;
-// r is NaN where the pixel has any NaN.
+// Stores the display light of a vector of pixels in `light`, which may alias the input. The planes
+// may have any alignment. light.r becomes NaN where any channel of the pixel is NaN.
 template <class D, class Tone>
 HWY_INLINE void ToneVector(D d, const Tone& tone, float scale, const float* r, const float* g,
                            const float* b, const Planes& light) {
@@ -56,7 +56,7 @@ HWY_INLINE void ToneVector(D d, const Tone& tone, float scale, const float* r, c
   hn::StoreU(blue, d, light.b);
 }
 
-// Display light of a chunk's pixels into `light`, likewise.
+// Stores the display light of a chunk's pixels in `light`, as ToneVector does.
 template <class D, class Tone>
 HWY_INLINE void ToneChunk(D d, const Tone& tone, float scale, const float* r, const float* g,
                           const float* b, Chunk* light) {
@@ -66,7 +66,7 @@ HWY_INLINE void ToneChunk(D d, const Tone& tone, float scale, const float* r, co
   }
 }
 
-// The codes of a chunk; returns how many pixels are NaN.
+// Encodes a chunk. Returns the number of pixels whose light.r is NaN.
 template <class D>
 HWY_INLINE size_t EncodeChunk(D d, const int32_t* HWY_RESTRICT srgb8_entries, const Chunk& light,
                               uint8_t* HWY_RESTRICT rgb8) {
@@ -127,7 +127,7 @@ HWY_INLINE size_t EncodePixels(const Tone& tone, float scale, const float* r, co
   return nan_count;
 }
 
-// Calls work(tone, scale) with the operator and the factor of the radiance.
+// Calls work(tone, scale) with the tone operator and the factor that exposes the radiance.
 template <class Work>
 HWY_INLINE auto WithTone(const DisplaySettings& settings, const Work& work) {
   const float scale = static_cast<float>(std::exp2(settings.exposure_ev));

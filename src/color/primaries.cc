@@ -10,22 +10,22 @@ namespace {
 
 Vec3d XyzOf(const Vec2d& at) { return {at.x, at.y, 1 - at.x - at.y}; }
 
-// A row for each primary, of any length.
+// The XYZ of each primary as a row, up to a factor.
 Imath::M33d Directions(const Primaries& p) {
   const Vec3d red = XyzOf(p.red), green = XyzOf(p.green), blue = XyzOf(p.blue);
   return {red.x, red.y, red.z, green.x, green.y, green.z, blue.x, blue.y, blue.z};
 }
 
-// XYZ of white, whose Y is 1.
+// The XYZ of white, with Y = 1.
 Vec3d WhiteOf(const Primaries& p) { return XyzOf(p.white) / p.white.y; }
 
-// How much of each primary makes white.
+// The amounts of the rows of Directions that add up to white.
 Vec3d Shares(const Primaries& p) { return WhiteOf(p) * Directions(p).inverse(); }
 
-// XYZ to the responses of sharpened cones, transposed as all matrices here.
+// Maps XYZ to the responses of sharpened cones; transposed, as all matrices here are.
 const Imath::M33d kBradford(.8951, -.7502, .0389, .2664, 1.7135, -.0685, -.1614, .0367, 1.0296);
 
-// xyz * it: the colour that is to the white `to` as xyz is to `from`.
+// xyz * the matrix is the colour that looks under the white `to` as xyz looks under `from`.
 Imath::M33d Adapt(const Vec3d& from, const Vec3d& to) {
   const Vec3d ratio = (to * kBradford) / (from * kBradford);
   return kBradford * Imath::M33d(ratio.x, 0, 0, 0, ratio.y, 0, 0, 0, ratio.z) * kBradford.inverse();
@@ -43,7 +43,8 @@ std::optional<Primaries> ParsePrimaries(std::string_view text) {
   }
   const auto at = [&](size_t i) { return Vec2d((*numbers)[2 * i], (*numbers)[2 * i + 1]); };
   const Primaries primaries{at(0), at(1), at(2), at(3)};
-  // Twice the area of their triangle: below the error of its corners there is none.
+  // The determinant is twice the area of the primaries' triangle. Below the error of the corners,
+  // the primaries count as collinear.
   if (!(std::abs(Directions(primaries).determinant()) > kPrimariesError)) return {};
   if (!(primaries.white.y > kPrimariesError)) return {};
   const Vec3d shares = Shares(primaries), cones = WhiteOf(primaries) * kBradford;

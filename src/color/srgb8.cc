@@ -26,7 +26,7 @@ uint32_t ThresholdOffset(uint32_t code) {
 Srgb8Table MakeSrgb8Table() {
   Srgb8Table table;
   uint32_t code = 0;
-  uint32_t next = ThresholdOffset(1);  // of code + 1; that of 256 lies beyond the last bucket
+  uint32_t next = ThresholdOffset(1);  // for code + 1; for 256 it lies beyond the last bucket
   for (uint32_t bucket = 0; bucket < Srgb8Table::kBuckets; ++bucket) {
     const uint32_t end = (bucket + 1) << 16;
     uint32_t entry = code << 16;

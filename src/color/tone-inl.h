@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // color/tone-inl.h: tone operators on SIMD vectors. Scalar twins: color/tone.h and color/agx.h.
 //
-// Each is a functor that changes r, g and b in place, from [0, inf] to [0, 1]. For kernels and
-// their tests; lanes of type float.
+// Each is a functor that maps r, g and b, vectors of floats, in place from [0, inf] to [0, 1]. For
+// kernels and their tests.
 #if defined(NACRE_COLOR_TONE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_COLOR_TONE_INL_H_
 #undef NACRE_COLOR_TONE_INL_H_
@@ -93,7 +93,7 @@ struct AcesTone {
   static HWY_INLINE V Curve(D d, V x) {
     const V u = RatioNumerator(d, x);
     const V v = RatioDenominator(d, x);
-    // Times 100, so that the coefficients are exact.
+    // Numerator and denominator are multiplied by 100, so that the coefficients are exact.
     const auto set = [&](float value) HWY_ATTR { return hn::Set(d, value); };
     const V numerator = hn::Mul(u, hn::MulAdd(set(251), u, hn::Mul(set(3), v)));
     const V linear = hn::MulAdd(set(243), u, hn::Mul(set(59), v));
@@ -102,7 +102,7 @@ struct AcesTone {
   }
 };
 
-// The twin's formulas over one common denominator: with q = peak + headroom - start,
+// The scalar twin's formulas over one common denominator: with q = peak + headroom - start,
 // a = q - headroom^2 = q new_peak, e = 0.15 q (peak - new_peak), the result is
 // a (x q + e peak) / (q peak (q + e)).
 struct NeutralTone {
@@ -178,7 +178,8 @@ struct AgxTone {
     const auto set = [&](double value) HWY_ATTR { return hn::Set(d, static_cast<float>(value)); };
     constexpr double kStopsPerLog = 1.4426950408889634 / agx::kStops;  // log2(e)
     const V clamped = hn::Min(hn::Max(x, set(agx::kDarkest)), set(agx::kBrightest));
-    // Relative to middle grey, so that s is the difference from the pivot without cancellation.
+    // The logarithm is relative to middle grey, so that s is the difference from the pivot without
+    // cancellation.
     const V s = hn::Mul(hn::Log(d, hn::Mul(clamped, set(1 / agx::kMiddleGrey))), set(kStopsPerLog));
     const V a = hn::Abs(s);
     const V cube = hn::Mul(hn::Mul(a, a), a);
@@ -191,7 +192,8 @@ struct AgxTone {
     return hn::MulAdd(hn::Add(s, s), power, set(0.5));
   }
 
-  // The light of a display of power 2.2. x is clamped to at least 1e-9 (3e-20 of white, code 0).
+  // The light of a display of power kDisplayPower. x is clamped to at least 1e-9, whose light is
+  // 3e-20 of white's, code 0; there the code is 0 anyway.
   template <class D, class V>
   static HWY_NOINLINE V Linearise(D d, V x) {
     const V encoded = hn::Min(hn::Max(x, hn::Set(d, 1e-9f)), hn::Set(d, 1.0f));

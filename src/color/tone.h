@@ -30,7 +30,7 @@ std::vector<std::string> ToneOperatorNames();
 // Throws Error(kUsage) for an unknown name.
 ToneOperator ParseToneOperator(const std::string& name);
 
-// Reinhard et al. 2002, eq. 3: x / (1 + x). The second form is the same without inf / inf.
+// Reinhard et al. 2002, eq. 3: x / (1 + x). The form for x > 1 is equivalent, and avoids inf / inf.
 template <typename Real>
 Real ToneReinhard(Real x) {
   return x <= 1 ? x / (1 + x) : 1 / (1 + 1 / x);
@@ -45,8 +45,8 @@ Real ToneReinhardExtended(Real x, Real white) {
 }
 
 // Narkowicz 2015, "ACES Filmic Tone Mapping Curve": a fit, per channel, of the ACES 1.0 reference
-// and sRGB output transforms; 1 from x = 7.2417 on. Divided by x^2 above 1, where x^2 could
-// overflow.
+// and sRGB output transforms. It is 1 from x = 7.2417 on. Above x = 1, numerator and denominator
+// are divided by x^2, which could overflow.
 template <typename Real>
 Real ToneAces(Real x) {
   const Real u = std::min(x, Real(1));
@@ -62,7 +62,7 @@ template <typename Real>
 Imath::Color3<Real> ToneNeutral(Imath::Color3<Real> rgb) {
   constexpr Real kStart = Real(0.8 - 0.04), kDesaturation = Real(0.15), kFresnel90 = Real(0.08);
   constexpr Real kHeadroom = 1 - kStart;
-  // Finite, so that the ratios below are not NaN.
+  // The channels are made finite, so that the ratios below are not NaN.
   for (int c = 0; c < 3; ++c) rgb[c] = std::min(rgb[c], std::numeric_limits<Real>::max());
   const Real lowest = std::min({rgb.x, rgb.y, rgb.z});
   // rgb - (lowest - 6.25 lowest^2) where dark; in this order the small difference is exact.

@@ -15,10 +15,11 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Qualified below: hwy/contrib/math has functions of the same names, which arguments would find.
+// Calls of Log2 and Exp2 are qualified: hwy/contrib/math has functions of the same names, which
+// argument-dependent look-up would find, too.
 
-// Linear light in [0, 1] to the encoded value, within 5e-7: Log2 and Exp2 of base/math-inl.h leave
-// a relative error of 3e-7 in the power.
+// Maps linear light in [0, 1] to the encoded value, within 5e-7: Log2 and Exp2 of base/math-inl.h
+// leave a relative error of 3e-7 in the power.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V SrgbOetf(D d, V linear) {
   const V power =
@@ -28,7 +29,7 @@ HWY_INLINE V SrgbOetf(D d, V linear) {
                         hn::MulSub(power, hn::Set(d, 1.055f), hn::Set(d, 0.055f)));
 }
 
-// The encoded value in [0, 1] to linear light, within 6e-7, likewise.
+// Maps the encoded value in [0, 1] to linear light, within 6e-7.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V SrgbEotf(D d, V encoded) {
   const V base =

@@ -14,16 +14,16 @@ namespace {
 
 constexpr int kColumns = static_cast<int>(kFlipColumns);
 constexpr int kBlockRows = static_cast<int>(kFlipBlockRows);
-// Rows of a tile: its samples stay in L2 for all exposures, and the filters look at a sixth as many
-// rows beside it.
+// Rows of a tile. Its samples stay in L2 for all exposures, and the filters read only a sixth as
+// many rows beyond it.
 constexpr int kTileRows = 128;
 
 struct Tile {
   int x0, y0, y1;
 };
 
-// The tiles of a picture are worked out each by itself, from the top down. Filtered rows of both
-// pictures are kept for as long as blocks below look at them, in a ring.
+// Computes FLIP of one tile, from the top down. Filtered rows of both pictures are kept in a ring
+// for as long as later blocks need them.
 class TileWork {
  public:
   TileWork(const PictureView& reference, const PictureView& test, const FlipWeights& weights,
@@ -42,7 +42,7 @@ class TileWork {
     CountUnequalRows();
   }
 
-  // Raises the map's pixels of the tile to FLIP where that is more.
+  // Raises the tile's pixels in the map to FLIP where that is larger.
   void Raise(const ShowPair& show, Plane* map) {
     next_ = 0;
     for (int y = tile_.y0; y < tile_.y1; y += kBlockRows) {
@@ -68,8 +68,8 @@ class TileWork {
   }
 
  private:
-  // Rows [first, end) whose samples, of all columns that the filters look at, are not the same bits
-  // in both pictures.
+  // The number of rows in [first, end) whose samples, in all columns that the filters read, differ
+  // in any bit between the pictures.
   int UnequalRows(int first, int end) const {
     return unequal_[static_cast<size_t>(end - unequal_first_)] -
            unequal_[static_cast<size_t>(first - unequal_first_)];
@@ -116,7 +116,7 @@ class TileWork {
   size_t line_, slots_;
   AlignedArray<float> light_, ring_, block_;
   std::vector<const float*> rows_[2];
-  int next_ = 0;  // the first row that has not been filtered
+  int next_ = 0;  // the first row that is not filtered yet
   std::vector<int> unequal_;
   int unequal_first_ = 0;
 };

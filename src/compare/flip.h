@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// compare/flip.h: FLIP, what a viewer who flips between two pictures sees change: Andersson,
-// Nilsson, Akenine-Moeller, Oskarsson, Astroem and Fairchild 2020, "FLIP: A Difference Evaluator
-// for Alternating Images".
+// compare/flip.h: FLIP, the difference that a viewer perceives when flipping between two pictures:
+// Andersson, Nilsson, Akenine-Moeller, Oskarsson, Astroem and Fairchild 2020, "FLIP: A Difference
+// Evaluator for Alternating Images".
 #pragma once
 
 #include <span>
@@ -11,19 +11,19 @@
 
 namespace nacre {
 
-// Pixels per degree of vision of a display of 3840 pixels on 0.7 m, seen from 0.7 m. As theirs, of
-// the degree straight ahead: distance pixels / width pi / 180.
+// Pixels per degree of vision for a display with 3840 pixels on 0.7 m, seen from 0.7 m. As in the
+// paper, this is for the degree straight ahead: distance * pixels / width * pi / 180.
 inline constexpr double kDefaultPixelsPerDegree = 67.020643276582255;
 
-// FLIP in [0, 1] of each pixel, the largest over all ways in which the pictures are shown; 0: no
-// difference. Equal if the pictures change places. Both must have one size, of any number of
+// FLIP in [0, 1] for each pixel, as the maximum over all ways of showing the pictures; 0: no
+// difference. It is symmetric in the pictures, which must have the same size, of any number of
 // pixels.
 //
-// In float; tests/compare/flip_twin.h is the same in double. The mean is within 1e-6 of that. A
-// pixel is within 1e-4, but for those with a strong feature and hardly any difference of colour:
-// float rounds colours by 3e-5 of the 100 of L*, which makes a colour's error of 4e-5 out of 0, and
-// the feature takes a root of it. They are within 1e-3. Pixels are exactly 0 where all that the
-// filters look at is equal.
+// Computed in float; tests/compare/flip_twin.h does the same in double. The mean is within 1e-6 of
+// that. Pixels are within 1e-4, except those with a strong feature and hardly any colour
+// difference, which are within 1e-3: float rounds colours by 3e-5 of L*'s 100, which turns a colour
+// error of 0 into 4e-5, and the feature takes a root of it. Pixels are exactly 0 where everything
+// that the filters read is equal.
 Plane FlipMap(const PictureView& reference, const PictureView& test,
               std::span<const ShowPair> shows, double pixels_per_degree);
 

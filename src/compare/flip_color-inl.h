@@ -2,9 +2,9 @@
 // compare/flip_color-inl.h: the colour spaces and differences of FLIP on SIMD vectors of floats.
 // Scalar twin: flip_color.h.
 //
-// The opponent colours are here without the twin's scales and offsets: luminance Y / Yn in [0, 1],
-// red_green X / Xn - Y / Yn, blue_yellow Y / Yn - Z / Zn. Filters are linear and have the sum of 1,
-// and need none.
+// The opponent colours lack the twin's scales and offsets: luminance Y / Yn in [0, 1], red_green X
+// / Xn - Y / Yn, blue_yellow Y / Yn - Z / Zn. The filters do not need these, as they are linear and
+// their weights sum to 1.
 #if defined(NACRE_COMPARE_FLIP_COLOR_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_COMPARE_FLIP_COLOR_INL_H_
 #undef NACRE_COMPARE_FLIP_COLOR_INL_H_
@@ -30,7 +30,7 @@ struct FlipLab {
   V lightness, a, b;
 };
 
-// Below any difference that is not 0, and normal: logarithms and reciprocal roots want such.
+// Smaller than any nonzero difference, but normal, as logarithms and reciprocal roots require.
 inline constexpr float kFlipTiny = 1e-36f;
 
 template <class D, class V = hn::Vec<D>>
@@ -39,7 +39,7 @@ HWY_INLINE V FlipDot(D d, const flip::Triple& k, V x, V y, V z) {
   return hn::MulAdd(set(k[2]), z, hn::MulAdd(set(k[1]), y, hn::Mul(set(k[0]), x)));
 }
 
-// The rows of the matrices are combined in double, so that differences do not cancel in float.
+// Combines rows of the matrices in double, to avoid cancellation in float.
 constexpr flip::Triple WhiteRow(size_t i) {
   flip::Triple row = flip::kXyzFromRgb[i];
   for (double& value : row) value /= flip::kWhite[i];
@@ -58,9 +58,9 @@ HWY_INLINE FlipOpponent<V> OpponentFromRgb(D d, V r, V g, V b) {
           FlipDot(d, kBlueYellow, r, g, b)};
 }
 
-// The cube root of x in [0.001, 2], within 1 ulp: two steps of third order for x^(-1/3), the first
-// guess of which, off by 4 % at most, is a third of the exponent and so of the bits; and one of
-// Newton's for the root itself.
+// The cube root of x in [0.001, 2], within 1 ulp. The initial guess for x^(-1/3), within 4 %,
+// divides the exponent, and thus the bits, by -3. Two third-order steps refine it, and a Newton
+// step gives the root itself.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V CubeRoot(D d, V x) {
   const hn::RebindToSigned<D> di;
@@ -97,7 +97,7 @@ HWY_INLINE FlipLab<V> SeenColor(D d, const FlipOpponent<V>& opponent) {
   const V blue = FlipDot(d, kRgbFromWhite[2], x, y, z);
   const auto clip = [&](V value) HWY_ATTR { return hn::Min(hn::Max(value, hn::Zero(d)), set(1)); };
   const V r = clip(red), g = clip(green), b = clip(blue);
-  // Where nothing is clipped, there and back would only round.
+  // Where nothing is clipped, converting forth and back would only add rounding errors.
   const auto is_shown = hn::And(hn::And(hn::Eq(r, red), hn::Eq(g, green)), hn::Eq(b, blue));
   const auto f = [&](const flip::Triple& row, V unclipped) HWY_ATTR {
     constexpr double kDelta = 6.0 / 29;
@@ -112,20 +112,20 @@ HWY_INLINE FlipLab<V> SeenColor(D d, const FlipOpponent<V>& opponent) {
           hn::Mul(hn::Mul(lightness, set(2)), hn::Sub(fy, fz))};
 }
 
-// sqrt(a^2 + b^2), 1e-18 in place of 0.
+// sqrt(a^2 + b^2), but 1e-18 instead of 0.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V FlipNorm(D d, V a, V b) {
   return SquareRoot(d, hn::Max(hn::MulAdd(a, a, hn::Mul(b, b)), hn::Set(d, kFlipTiny)));
 }
 
-// x^exponent for x >= 0, 0 for 0.
+// x^exponent for x >= 0; 0 for x = 0.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V FlipPower(D d, V x, V exponent) {
   const V power = Exp2(d, hn::Mul(Log2(d, hn::Max(x, hn::Set(d, kFlipTiny))), exponent));
   return hn::IfThenElseZero(hn::Gt(x, hn::Zero(d)), power);
 }
 
-// Numbers that all pixels share.
+// Constants that are the same for all pixels.
 struct FlipScale {
   explicit FlipScale(double largest)
       : knee(static_cast<float>(flip::kShareOfMax * largest)),

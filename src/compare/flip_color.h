@@ -13,8 +13,8 @@ namespace nacre::flip {
 using Triple = std::array<double, 3>;
 using Matrix = std::array<Triple, 3>;
 
-// Linear sRGB to XYZ under D65, in the fractions that the primaries' and the white's chromaticities
-// of IEC 61966-2-1 give; the authors' own program has the same.
+// Linear sRGB to XYZ under D65, as fractions that follow from the chromaticities of the primaries
+// and the white in IEC 61966-2-1; the authors' own program uses the same.
 inline constexpr Matrix kXyzFromRgb = {{
     {10135552.0 / 24577794, 8788810.0 / 24577794, 4435075.0 / 24577794},
     {2613072.0 / 12288897, 8788810.0 / 12288897, 887015.0 / 12288897},
@@ -30,7 +30,7 @@ constexpr Triple Multiply(const Matrix& m, const Triple& v) {
 // XYZ of white, (1, 1, 1).
 inline constexpr Triple kWhite = Multiply(kXyzFromRgb, {1, 1, 1});
 
-// By cofactors.
+// Computed by cofactors.
 constexpr Matrix Inverse(const Matrix& m) {
   Matrix out{};
   for (size_t i = 0; i < 3; ++i) {
@@ -47,8 +47,8 @@ constexpr Matrix Inverse(const Matrix& m) {
 }
 inline constexpr Matrix kRgbFromXyz = Inverse(kXyzFromRgb);
 
-// The opponent space YyCxCz that is filtered in: CIELAB's form without its cube root, so that it is
-// linear. Y is -16 for black and 100 for white.
+// The opponent space YyCxCz, in which pictures are filtered: CIELAB without its cube root, so that
+// it is linear. Y is -16 for black and 100 for white.
 inline Triple YccFromRgb(const Triple& rgb) {
   Triple xyz = Multiply(kXyzFromRgb, rgb);
   for (size_t i = 0; i < 3; ++i) xyz[i] /= kWhite[i];
@@ -62,7 +62,7 @@ inline Triple RgbFromYcc(const Triple& ycc) {
   return Multiply(kRgbFromXyz, xyz);
 }
 
-// CIELAB with the Hunt effect: chroma times L* / 100, as colours fade in the dark.
+// CIELAB with the Hunt effect: chroma is multiplied by L* / 100, because colours fade in the dark.
 inline Triple HuntLabFromRgb(const Triple& rgb) {
   constexpr double kDelta = 6.0 / 29;
   Triple f = Multiply(kXyzFromRgb, rgb);
@@ -75,31 +75,31 @@ inline Triple HuntLabFromRgb(const Triple& rgb) {
           0.01 * lightness * 200 * (f[1] - f[2])};
 }
 
-// What is seen of filtered colours: what no display shows is clipped.
+// The visible colour of filtered values: colours that no display shows are clipped.
 inline Triple SeenColor(const Triple& ycc) {
   Triple rgb = RgbFromYcc(ycc);
   for (double& value : rgb) value = std::clamp(value, 0.0, 1.0);
   return HuntLabFromRgb(rgb);
 }
 
-// Abasi et al. 2020, for large differences: |dL| + sqrt(da^2 + db^2).
+// Abasi et al. 2020, a distance for large differences: |dL| + sqrt(da^2 + db^2).
 inline double HyabDistance(const Triple& a, const Triple& b) {
   return std::abs(a[0] - b[0]) + std::hypot(a[1] - b[1], a[2] - b[2]);
 }
 
-// The exponent of colour differences, and the share of the largest one, kShareOfMax,
-// that the lower kShareOfRange of the scale is for.
+// The exponent of colour differences, and the fraction kShareOfMax of the largest difference to
+// which the lower part kShareOfRange of the scale is assigned.
 inline constexpr double kColorExponent = 0.7;
 inline constexpr double kShareOfMax = 0.4;
 inline constexpr double kShareOfRange = 0.95;
 
-// The largest HyAB^0.7, that of green and blue.
+// The largest HyAB^0.7, which is that between green and blue.
 inline double LargestDifference() {
   return std::pow(HyabDistance(HuntLabFromRgb({0, 1, 0}), HuntLabFromRgb({0, 0, 1})),
                   kColorExponent);
 }
 
-// Two pieces of a line over HyAB^0.7, to [0, 1]. `largest`: LargestDifference().
+// Maps HyAB^0.7 to [0, 1] by two linear pieces. `largest`: LargestDifference().
 inline double ColorError(double distance, double largest) {
   const double error = std::pow(distance, kColorExponent);
   const double knee = kShareOfMax * largest;
@@ -107,8 +107,8 @@ inline double ColorError(double distance, double largest) {
   return kShareOfRange + (error - knee) / (largest - knee) * (1 - kShareOfRange);
 }
 
-// Of the differences of edges and of points, both of the size of gradients in [0, 1]: the larger
-// one over sqrt 2, to the power of 0.5.
+// Combines the differences of edges and of points, given as magnitudes of gradients in [0, 1]: the
+// larger one over sqrt 2, to the power of 0.5.
 inline double FeatureError(double edges, double points) {
   return std::sqrt(std::max(std::abs(edges), std::abs(points)) / std::numbers::sqrt2);
 }

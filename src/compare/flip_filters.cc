@@ -10,9 +10,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// Contrast sensitivity in space, with the constants of table 1: sums of a sqrt(pi / b) exp(-pi^2
-// z^2 / b) at z degrees. Those of Y and of red against green have one term, blue against yellow
-// two.
+// Spatial contrast sensitivity with the constants of table 1: sums of a sqrt(pi / b) exp(-pi^2 z^2
+// / b) at z degrees. Luminance and red-green have one term, blue-yellow has two.
 struct SensitivityTerm {
   double a, b;
 };
@@ -20,15 +19,16 @@ constexpr SensitivityTerm kLuminanceTerm = {1, 0.0047}, kRedGreenTerm = {1, 0.00
 constexpr SensitivityTerm kBlueYellowTerms[] = {{34.1, 0.04}, {13.5, 0.025}};
 constexpr double kWidestB = 0.04;
 
-// The width of the features that are seen, in degrees.
+// The width of perceived features, in degrees.
 constexpr double kFeatureWidth = 0.082;
 
-// One dimension of exp(-pi^2 z^2 / b): a Gaussian of sigma^2 = b / (2 pi^2).
+// The standard deviation in pixels of exp(-pi^2 z^2 / b), a Gaussian with sigma^2 = b / (2 pi^2).
 double SensitivitySigma(double b, double pixels_per_degree) {
   return std::sqrt(b / (2 * kPi * kPi)) * pixels_per_degree;
 }
 
-// The filters are scaled to the sum of 1 over the square window, of which each term has a share.
+// The share of the first term in the blue-yellow filter, which is normalised to a sum of 1 over the
+// square window.
 double ShareOfFirst(double pixels_per_degree, int radius) {
   const auto volume = [&](const SensitivityTerm& term) {
     double sum = 0;
@@ -44,7 +44,7 @@ double ShareOfFirst(double pixels_per_degree, int radius) {
 
 int ThreeSigmas(double sigma) { return static_cast<int>(std::ceil(3 * sigma)); }
 
-// Scales positive weights to the sum of 1, negative ones to -1.
+// Scales positive weights to a sum of 1, and negative ones to -1.
 void Balance(Kernel* kernel) {
   double positive = 0, negative = 0;
   for (const double weight : *kernel) (weight > 0 ? positive : negative) += std::abs(weight);
@@ -55,7 +55,7 @@ void Balance(Kernel* kernel) {
 
 FlipFilters MakeFlipFilters(double pixels_per_degree) {
   FlipFilters filters;
-  // Three sigmas of the widest, for all.
+  // The radius of all is three sigmas of the widest.
   const int radius = ThreeSigmas(SensitivitySigma(kWidestB, pixels_per_degree));
   const auto sensitivity = [&](const SensitivityTerm& term) {
     return GaussianKernel(SensitivitySigma(term.b, pixels_per_degree), radius);

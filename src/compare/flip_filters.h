@@ -6,13 +6,13 @@
 
 namespace nacre {
 
-// One dimension of each; all are separable. Those of contrast sensitivity have the sum of 1 and
-// make of the opponent colours what is seen of them: that of blue against yellow is
-// first_share * blue_yellow[0] + (1 - first_share) * blue_yellow[1].
+// One dimension of each filter; all are separable. The filters of contrast sensitivity have a sum
+// of 1, and turn opponent colours into perceived ones; that for blue-yellow is first_share *
+// blue_yellow[0] + (1 - first_share) * blue_yellow[1].
 //
 // `edge` and `point` are the first and second derivative of the Gaussian `smooth`, scaled so that a
-// step or a dot in [0, 1] gives at most 1; each is taken across with `smooth` down, and the other
-// way round.
+// step or a dot in [0, 1] gives at most 1; each is applied in one direction with `smooth` in the
+// other, both ways round.
 struct FlipFilters {
   Kernel luminance, red_green;
   Kernel blue_yellow[2];
@@ -22,7 +22,7 @@ struct FlipFilters {
 
 FlipFilters MakeFlipFilters(double pixels_per_degree);
 
-// Pixels on each side that the widest of them looks at.
+// The largest radius of the filters, in pixels.
 int RadiusOf(const FlipFilters& filters);
 
 }  // namespace nacre

@@ -10,11 +10,11 @@
 namespace nacre {
 namespace {
 
-// The pre-exposure that Narkowicz cancels in his text: with it, curve(1) is 0.8.
+// The pre-exposure that Narkowicz cancels in his text; with it, curve(1) is 0.8.
 constexpr double kPreExposure = 0.6;
-constexpr double kShown = 0.85;  // of white: t_max and t_min
+constexpr double kShown = 0.85;  // of white; for t_max and t_min
 
-// The radiance that the tone curve shows as `light`: the positive root of its quadratic.
+// The radiance that the tone curve maps to `light`: the positive root of its quadratic.
 double RadianceShownAs(double light) {
   const double a = 2.51 - 2.43 * light;
   const double b = 0.03 - 0.59 * light;
@@ -30,7 +30,7 @@ double Median(std::vector<double>* values) {
 }
 
 ShowPair ShowAt(double exposure) {
-  // Float's range: references of denormals alone would ask for more.
+  // Limited to float's range, which references that consist of denormals would exceed.
   const double stops = std::clamp(exposure + std::log2(kPreExposure), -126.0, 127.0);
   const DisplaySettings display{.tone = ToneOperator::kAces, .exposure_ev = stops};
   const ShowFunction show = [display](size_t count, float* r, float* g, float* b) {

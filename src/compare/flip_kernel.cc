@@ -15,7 +15,8 @@ namespace HWY_NAMESPACE {
 
 static_assert(kFlipColumns % (2 * HWY_MAX_BYTES / sizeof(float)) == 0);
 
-// Symmetric filters of one line by the sums of what lies as far to the left as to the right.
+// Applies a symmetric filter to a line: samples at equal distance to the left and right are added
+// first.
 template <class D, class V>
 HWY_INLINE V FilterSymmetric(D d, const FlipFilter& filter, const float* centre) {
   V sum = hn::Mul(hn::Set(d, filter.half[0]), hn::LoadU(d, centre));
@@ -26,8 +27,9 @@ HWY_INLINE V FilterSymmetric(D d, const FlipFilter& filter, const float* centre)
   return sum;
 }
 
-// `edge` and `point` have the sum of 0, and are taken of differences: where a picture is even they
-// are then 0 and no rounding error, whose square root a feature's error would show.
+// `edge` and `point` have a sum of 0, and are applied to differences of samples. So they are
+// exactly 0 in flat regions, where the feature error would take the square root of a rounding
+// error.
 template <class D>
 HWY_INLINE void FilterFeatures(D d, const FlipWeights& weights, const float* centre, float* row) {
   using V = hn::Vec<D>;
@@ -75,15 +77,15 @@ void FilterFlipRowT(const FlipWeights& weights, const std::array<float*, 3>& lig
   }
 }
 
-// The pixels of two vectors in all rows of a block.
+// Sums for two vectors of pixels in all rows of a block.
 template <class V>
 struct BlockSums {
   V left[kFlipBlockRows], right[kFlipBlockRows];
 };
 
-// Adds what a filter makes of the columns at `column` of filtered rows, the first of which is the
-// uppermost that it looks at. kOfDifferences: for filters with the sum of 0, as FilterFeatures
-// says.
+// Adds the results of a vertical filter at `column`. rows[0] is the uppermost filtered row that it
+// reads. kOfDifferences: the filter has a sum of 0, and is applied to differences as in
+// FilterFeatures.
 template <bool kOfDifferences, class D, class V = hn::Vec<D>>
 HWY_INLINE void FilterDown(D d, const FlipFilter& filter, const float* const* rows, size_t column,
                            BlockSums<V>* sums) {

@@ -47,7 +47,7 @@ Rgb8Picture HeatMap(const Image& got, const Image& reference, const std::string&
                     HeatQuantity quantity, const HeatScale& scale) {
   CompareOptions options;
   options.layers = {layer};
-  options.sizes_may_differ = true;  // what both have is drawn
+  options.sizes_may_differ = true;  // only the common part is drawn
   const ImagePair pair = PairImages(got, reference, options);
   const Window& window = pair.window;
   Rgb8Picture picture{window.width(), window.height(), {}};

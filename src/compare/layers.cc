@@ -19,7 +19,7 @@ bool IsWanted(const std::string& layer, const CompareOptions& options) {
          std::find(options.layers.begin(), options.layers.end(), layer) != options.layers.end();
 }
 
-// Throws if `image` lacks a wanted channel of `other`.
+// Throws if `image` lacks a channel of `other` that is to be compared.
 void RequireChannels(const Image& image, const std::string& name, const Image& other,
                      const std::string& other_name, const CompareOptions& options) {
   for (const Channel& channel : other.channels) {
@@ -39,8 +39,8 @@ void RequireLayers(const Image& reference, const CompareOptions& options) {
   }
 }
 
-// Numbers of different primaries have nothing to do with each other. Without a word, or with one
-// that names none, they are Rec. 709's.
+// Samples with different primaries cannot be compared. Missing or invalid primaries are taken for
+// Rec. 709's.
 void RequireSamePrimaries(const Image& got, const Image& reference, const CompareOptions& options) {
   const auto text = [](const Image& image) {
     const auto found = image.metadata.find("chromaticities");
@@ -56,7 +56,7 @@ void RequireSamePrimaries(const Image& got, const Image& reference, const Compar
               "convert one of them first");
 }
 
-// The samples of a channel, at the first pixel of `window`.
+// The sample of a channel at the first pixel of `window`.
 const float* FirstSample(const Channel& channel, const Image& image, const Window& window) {
   const auto stride = static_cast<size_t>(image.data.width());
   return channel.samples.data() + static_cast<size_t>(window.y0 - image.data.y0) * stride +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// compare/layers.h: what of two images is compared with what: channels of one name over the pixels
+// compare/layers.h: pairs up the samples of two images: channels with the same name over the pixels
 // that both cover, grouped into layers.
 #pragma once
 
@@ -11,27 +11,27 @@
 namespace nacre {
 
 struct CompareOptions {
-  // The layers to compare; empty: all, and then both images must have the same channels.
+  // The layers to compare. If empty, all are, and both images must have the same channels.
   std::vector<std::string> layers;
-  // Judge the pixels that both images have, where their windows differ.
+  // If the windows differ, compare only the pixels that both images have.
   bool crop = false;
-  // Display windows of different sizes are a difference like another, not an error. Pages and
-  // pictures of differences show one image over the other, and have no use for it.
+  // Treat display windows of different sizes as a difference instead of an error. Pages and
+  // pictures of differences, which overlay the images, leave this off.
   bool sizes_may_differ = false;
-  // What error messages call the images.
+  // Names of the images in error messages.
   std::string got_name = "image";
   std::string reference_name = "reference";
 };
 
-// The layer that a channel belongs to: what comes before its last dot ("diffuse" of "diffuse.R");
-// "" for the beauty's R, G and B; other channels without a dot ("A", "Z") are their own layer.
+// The layer of a channel: the part before its last dot ("diffuse" of "diffuse.R"); "" for the
+// beauty's R, G and B. Any other channel without a dot ("A", "Z") is a layer of its own.
 std::string LayerOfChannel(const std::string& channel);
 
-// A channel of both images.
+// A channel that both images have.
 struct ChannelPair {
   std::string name;
-  const float* got;        // of the window's first pixel
-  const float* reference;  // of the window's first pixel
+  const float* got;        // at the window's first pixel
+  const float* reference;  // at the window's first pixel
 };
 
 struct LayerPair {
@@ -41,7 +41,7 @@ struct LayerPair {
 
 struct ImagePair {
   Window window;                                // the pixels that both data windows cover
-  size_t got_stride = 0, reference_stride = 0;  // samples from a row to the next
+  size_t got_stride = 0, reference_stride = 0;  // samples from one row to the next
   std::vector<LayerPair> layers;
 
   size_t GotIndex(int x, int y) const { return Index(x, y, got_stride); }
@@ -53,21 +53,22 @@ struct ImagePair {
   }
 };
 
-// Points into both images. Throws Error(kCannotCompare) if their primaries differ, or their display
-// windows in size where they may not, they share no pixel, or one has no channel of a layer to
-// compare that the other has.
+// Pairs the images; the result points into both. Throws Error (kCannotCompare) if their primaries
+// differ, their display windows differ in size although that is not allowed, they have no common
+// pixel, or a channel of a layer to compare is missing in one of them.
 ImagePair PairImages(const Image& got, const Image& reference, const CompareOptions& options);
 
 // The difference of two samples: 0 if they are equal, both NaN, or the same infinity; infinite if
-// only one of them is finite or they are otherwise not comparable. NaN never comes out.
+// only one of them is finite or they cannot be compared otherwise. Never NaN.
 double SampleError(float got, float reference);
 
-// error / |reference|; 0 for equal samples, infinity where the reference alone is 0: what
-// Tolerances::max_rel is held against.
+// error / |reference|; 0 for equal samples, infinity if only the reference is 0. This is what
+// Tolerances::max_rel limits.
 double RelativeError(double error, float reference);
 
-// error / sqrt(reference^2 + kDarkReference^2), for means and maps of errors: below 0.01, which any
-// display shows as nearly black, relative errors grow without bound though nobody could see them.
+// error / sqrt(reference^2 + kDarkReference^2), for means and maps of errors. Below 0.01, which any
+// display shows as nearly black, relative errors would grow without bound though they are
+// invisible.
 double SoftenedError(double error, float reference);
 inline constexpr double kDarkReference = 0.01;
 

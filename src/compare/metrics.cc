@@ -13,27 +13,27 @@
 namespace nacre {
 namespace {
 
-// The index, in ascending order, of the value that 99.9 % of `count` values do not exceed.
+// The index, in ascending order, of the 99.9th percentile of `count` values.
 size_t RankOf999(size_t count) {
   return count == 0 ? 0 : static_cast<size_t>(std::ceil(0.999 * static_cast<double>(count))) - 1;
 }
 
-// Some rows of one channel.
+// The errors in some rows of one channel.
 struct BandErrors {
   explicit BandErrors(size_t kept) : relative(kept) {}
 
   ErrorSums sums;
   size_t nonfinite_mismatches = 0;
-  double largest = 0;  // infinite for a sample that is not finite in one image only
+  double largest = 0;  // infinite if a sample is not finite in only one image
   DifferenceSite largest_at;
   LargestErrors relative;
 };
 
-// Of a row in which something is not finite.
+// Adds a sample of a row with values that are not finite.
 void AddSample(float got, float reference, BandErrors* band) {
   const double error = SampleError(got, reference);
   band->nonfinite_mismatches += std::isinf(error);
-  if (std::isinf(error) || !std::isfinite(reference)) return;  // or the same in both images
+  if (std::isinf(error) || !std::isfinite(reference)) return;  // or it is the same in both images
   band->sums.Add({.finite = 1,
                   .relative = reference == 0 ? size_t{0} : size_t{1},
                   .zero_mismatches = reference == 0 && error > 0 ? size_t{1} : size_t{0},
@@ -62,10 +62,10 @@ void AddRow(const float* got, const float* reference, int width, int x0, int y,
   }
 }
 
-// What 99.9 % of `count` relative errors have at most. `largest`: more of them than one in a
-// thousand, but for those that are 0.
+// The 99.9th percentile of `count` relative errors. `largest` has more than a thousandth of them,
+// the largest ones, except for zeros.
 double Quantile999(size_t count, std::vector<float>* largest) {
-  const size_t above = count - RankOf999(count);  // itself among them
+  const size_t above = count - RankOf999(count);  // including the percentile itself
   if (count == 0 || largest->size() < above) return 0;
   const auto place = largest->begin() + static_cast<std::ptrdiff_t>(above - 1);
   std::nth_element(largest->begin(), place, largest->end(), std::greater<>());
@@ -96,7 +96,7 @@ LayerMetrics CompareLayer(const ImagePair& pair, const LayerPair& layer) {
   ErrorSums sums;
   double largest = 0;
   std::vector<float> relative;
-  for (const BandErrors& band : errors) {  // in order: of equal errors the first
+  for (const BandErrors& band : errors) {  // in order: the first of equal errors is reported
     sums.Add(band.sums);
     metrics.nonfinite_mismatches += band.nonfinite_mismatches;
     const std::vector<float>& of_band = band.relative.errors();

@@ -18,8 +18,8 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Calls body(got, reference) for each vector of both rows; the last one has zeros behind the row's
-// end, which are equal and change no sum. Ends with false when a body returns it.
+// Calls body(got, reference) for each vector of both rows; the last one is padded with zeros, which
+// are equal and do not affect sums. Stops and returns false when a body returns false.
 template <class D, class Body>
 HWY_INLINE bool ForEachVector(D d, const float* got, const float* reference, size_t count,
                               const Body& body) {
@@ -39,14 +39,14 @@ HWY_INLINE bool ForEachVector(D d, const float* got, const float* reference, siz
   return body(hn::PromoteTo(d, hn::LoadU(df, last[0])), hn::PromoteTo(d, hn::LoadU(df, last[1])));
 }
 
-// As SoftenedSquare, to the bit: nothing is fused.
+// Bit for bit equal to SoftenedSquare, so nothing is fused.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V SoftenedSquares(D d, V error, V reference) {
   const V dark = hn::Set(d, kDarkReference * kDarkReference);
   return hn::Div(hn::Mul(error, error), hn::Add(hn::Mul(reference, reference), dark));
 }
 
-// Whether all of both are: 0 times infinity or NaN is NaN.
+// Whether all lanes of both are finite: 0 times infinity or NaN is NaN.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE bool AllFinite(D d, V a, V b) {
   const V zero = hn::Zero(d);
@@ -60,12 +60,12 @@ bool SumRowT(const float* got, const float* reference, size_t count, ErrorSums* 
   const V zero = hn::Zero(d);
   V squares = zero, softened = zero, sum_got = zero, sum_reference = zero;
   V largest = zero, peak = zero;
-  // A row that is not finite is found before any error is kept of it.
+  // Rows that are not finite must be detected before any of their errors are kept.
   if (!ForEachVector(d, got, reference, count,
                      [&](V g, V r) HWY_ATTR { return AllFinite(d, g, r); })) {
     return false;
   }
-  // Slightly less: lanes at the threshold are decided by LargestErrors.
+  // Slightly lowered, so that LargestErrors decides about lanes at the threshold.
   const auto threshold = [&] { return static_cast<double>(relative->threshold()) * (1 - 0x1p-20); };
   double above = threshold();
   ForEachVector(d, got, reference, count, [&](V g, V r) HWY_ATTR {
@@ -112,11 +112,11 @@ bool MarkExcessT(const float* got, const float* reference, size_t count, double 
   static_assert(HWY_MAX_BYTES / sizeof(double) <= 8);
   const V absolute = hn::Set(d, max_abs), relative = hn::Set(d, max_rel);
   V worst = hn::Zero(d);
-  uint8_t* mark = marks;  // a byte a vector
+  uint8_t* mark = marks;  // one byte per vector
   const bool finite = ForEachVector(d, got, reference, count, [&](V g, V r) HWY_ATTR {
     if (!AllFinite(d, g, r)) return false;
     const V error = hn::Abs(hn::Sub(g, r));
-    // Not fused, as the sum of Exceeds is not.
+    // Not fused, because the sum in Exceeds is not.
     const auto exceeds = hn::Gt(error, hn::Add(absolute, hn::Mul(relative, hn::Abs(r))));
     if (!hn::AllFalse(d, exceeds)) {
       uint8_t bits[8] = {};

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "color/display.h"
 #include "compare/ssim.h"
+#include "compare/ssim_rows.h"
 
 namespace nacre {
 namespace {
@@ -19,7 +20,7 @@ bool IsDisplayReferred(const Image& image) {
   return transfer != image.metadata.end() && transfer->second == "display";
 }
 
-// The channel of the layer that ends in R, G or B; null if it has none.
+// The channel of the layer whose name ends in R, G or B; null if there is none.
 const ChannelPair* FindColor(const LayerPair& layer, char color) {
   for (const ChannelPair& channel : layer.channels) {
     const size_t dot = channel.name.rfind('.');
@@ -33,7 +34,7 @@ bool IsColor(const LayerPair& layer) {
   return FindColor(layer, 'R') && FindColor(layer, 'G') && FindColor(layer, 'B');
 }
 
-// The colours of both images, as they are: radiance, or the values of a display.
+// The colours of both images unchanged: radiance, or display values.
 struct Colors {
   PictureView got, reference;
 };
@@ -51,7 +52,7 @@ Colors GetColors(const ImagePair& pair, const LayerPair& layer) {
   return colors;
 }
 
-// Pixels that are not finite in one of the pictures, and the first of them.
+// The number of pixels that are not finite in one of the pictures, and the first of them.
 struct NonfinitePixels {
   size_t count = 0;
   int x = 0, y = 0;
@@ -76,7 +77,7 @@ NonfinitePixels FindNonfinite(const Colors& colors) {
   return found;
 }
 
-// Linear display light in [0, 1].
+// Converts to linear display light in [0, 1].
 ShowFunction MakeShow(bool display_referred, const DisplaySettings& display) {
   if (display_referred) {
     return [](size_t count, float* r, float* g, float* b) {

@@ -7,7 +7,7 @@ namespace nacre {
 
 void ReadLight(const PictureView& picture, const ShowFunction& show, int x, int y, int count,
                const std::array<float*, 3>& light) {
-  // The pixels that the picture has, counted from x.
+  // The range of pixels that the picture has, relative to x.
   const int first = std::clamp(-x, 0, count - 1);
   const int end = std::clamp(picture.width - x, 1, count);
   for (size_t c = 0; c < 3; ++c) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// compare/plane.h: pictures as planes of floats, and weights of filters, for the metrics that look
-// at neighbourhoods.
+// compare/plane.h: pictures as planes of floats, and filter weights, for metrics that look at
+// neighbourhoods.
 #pragma once
 
 #include <array>
@@ -33,7 +33,7 @@ double Largest(const Plane& plane);
 // Weights of the pixels at -r .. r.
 using Kernel = std::vector<double>;
 
-// exp(-x^2 / (2 sigma^2)) at -radius .. radius, scaled to the sum of 1.
+// exp(-x^2 / (2 sigma^2)) at -radius .. radius, scaled to a sum of 1.
 Kernel GaussianKernel(double sigma, int radius);
 
 }  // namespace nacre

@@ -11,7 +11,7 @@
 namespace nacre {
 namespace {
 
-// Rows of windows that are worked on together: the windows look at ten more.
+// Rows of windows that are processed together; they read ten more rows.
 constexpr int kBandRows = 64;
 
 }  // namespace

@@ -1,22 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// compare/ssim_rows.h: SSIM on rows of pixels. The kernels are in ssim_kernel.cc.
+// compare/ssim_rows.h: SSIM on rows of pixels. The kernels are in ssim_rows_kernel.cc.
 #pragma once
 
 #include <cstddef>
 
 #include "compare/plane.h"
-#include "compare/ssim.h"
 
 namespace nacre {
+
+// Wang, Bovik, Sheikh and Simoncelli 2004, "Image Quality Assessment: From Error Visibility to
+// Structural Similarity": the window and constants of their section III-C, for greys in [0, 1].
+inline constexpr int kSsimRadius = 5;  // 11x11
+inline constexpr double kSsimSigma = 1.5;
+inline constexpr double kSsimC1 = 0.01 * 0.01;
+inline constexpr double kSsimC2 = 0.03 * 0.03;
 
 // sRGB greys of the luminance of linear light, within 5e-7. All arrays are padded to whole vectors.
 void EncodeGreys(size_t count, const float* r, const float* g, const float* b, float* greys);
 
-// Doubles that SsimRowSum wants, for rows of `width` pixels.
+// The number of doubles that SsimRowSum needs as scratch, for rows of `width` pixels.
 size_t SsimScratch(size_t width);
 
-// The sum of the SSIM of all windows of kernel.size() rows of each picture. `kernel`, symmetric, is
-// the window in one dimension. Rows are padded to whole vectors.
+// The sum of SSIM over all windows in kernel.size() rows of each picture. `kernel` is one dimension
+// of the window, and symmetric. Rows are padded to whole vectors.
 double SsimRowSum(const Kernel& kernel, size_t width, const float* const* a, const float* const* b,
                   double* scratch);
 

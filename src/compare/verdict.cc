@@ -22,15 +22,15 @@ bool Exceeds(float got, float reference, const Tolerances& tolerances) {
   return error > tolerances.max_abs + tolerances.max_rel * std::abs(static_cast<double>(reference));
 }
 
-// The first sample with the largest error of those beyond their tolerance, by rows, pixels and
-// layers.
+// The number of pixels beyond their tolerance, and the sample with the largest error among them,
+// the first in the order of rows, pixels and layers.
 struct Excess {
   size_t pixels = 0;
   double worst = 0;
   DifferenceSite worst_at;
 };
 
-// What the samples of row `y` are compared by.
+// Finds the excess in row `y`.
 class RowExcess {
  public:
   RowExcess(const ImagePair& pair, const Tolerances& tolerances)
@@ -60,7 +60,8 @@ class RowExcess {
   }
 
  private:
-  // One by one: for rows in which something is not finite, or to find the worst sample.
+  // Compares sample by sample, for rows with values that are not finite, or to find the worst
+  // sample.
   void AddSamples(int y, bool count, Excess* excess) {
     for (int x = pair_.window.x0; x < pair_.window.x1; ++x) {
       bool exceeds = false;
@@ -84,7 +85,7 @@ class RowExcess {
   const ImagePair& pair_;
   const Tolerances& tolerances_;
   size_t width_;
-  std::vector<uint64_t> marks_;  // eight of MarkExcess' each
+  std::vector<uint64_t> marks_;  // eight bytes of MarkExcess each
 };
 
 Excess FindExcess(const ImagePair& pair, const Tolerances& tolerances) {
@@ -111,7 +112,7 @@ std::string WindowInWords(const Window& window) {
   return fmt::format("{}x{} at {},{}", window.width(), window.height(), window.x0, window.y0);
 }
 
-// How the windows differ; "" if they do not.
+// Describes how the windows differ; "" if they do not.
 std::string WindowsInWords(const Image& got, const Image& reference) {
   if (got.display != reference.display) {
     return fmt::format("the display window is {}, not {}", WindowInWords(got.display),
@@ -124,7 +125,8 @@ std::string WindowsInWords(const Image& got, const Image& reference) {
   return {};
 }
 
-// Nothing is said of single samples: images that are equal need no limit of their RMSE.
+// Whether only the RMSE is limited. Then single samples are not judged, since the default, that
+// they must be equal, would make the limit pointless.
 bool RmseAloneDecides(const Tolerances& tolerances) {
   return std::isfinite(tolerances.rmse) && tolerances.max_abs == 0 && tolerances.max_rel == 0 &&
          tolerances.exceeding_fraction == 0;
@@ -147,14 +149,14 @@ Verdict Judge(const Image& got, const Image& reference, const Tolerances& tolera
   for (const LayerPair& layer : pair.layers) verdict.layers.push_back(CompareLayer(pair, layer));
   const bool by_rmse = RmseAloneDecides(tolerances);
   Tolerances of_samples = tolerances;
-  if (by_rmse) of_samples.max_abs = HUGE_VAL;  // which what is not finite exceeds still
+  if (by_rmse) of_samples.max_abs = HUGE_VAL;  // which values that are not finite still exceed
   const Excess excess = FindExcess(pair, of_samples);
   verdict.exceeding_pixels = excess.pixels;
   const std::string windows = WindowsInWords(got, reference);
   const bool windows_count = !windows.empty() && !options.crop;
   const double fraction = static_cast<double>(excess.pixels) / static_cast<double>(verdict.pixels);
   if (fraction > tolerances.exceeding_fraction) {
-    // Of equal errors the one that the layer's metrics name.
+    // Of equal errors, report the one that the layer's metrics name.
     DifferenceSite at = excess.worst_at;
     for (const LayerMetrics& layer : verdict.layers) {
       const DifferenceSite& largest = layer.max_abs_at;

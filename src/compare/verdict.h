@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// compare/verdict.h: whether an image matches its reference within given tolerances, and why not.
+// compare/verdict.h: decides whether an image matches its reference within tolerances, and why not.
 #pragma once
 
 #include <limits>
@@ -10,15 +10,15 @@
 
 namespace nacre {
 
-// A sample exceeds them if |got - reference| > max_abs + max_rel |reference|, or if it is not
-// finite in one image and not the same in the other. A pixel exceeds them if a sample of it does,
-// in any layer compared. By default images must be equal. A limit of the RMSE alone, with nothing
-// said of samples or pixels, is the whole verdict.
+// A sample exceeds the tolerances if |got - reference| > max_abs + max_rel |reference|, or if it is
+// not finite in one image and differs in the other. A pixel exceeds them if any of its samples
+// does, in any compared layer. By default, images must be equal. If only the RMSE is limited, with
+// no tolerance for samples or pixels, it alone decides.
 struct Tolerances {
   double max_abs = 0;
   double max_rel = 0;
-  double exceeding_fraction = 0;  // of the pixels that may exceed these, in [0, 1]
-  double rmse = std::numeric_limits<double>::infinity();  // that no layer may exceed
+  double exceeding_fraction = 0;  // fraction of pixels that may exceed these, in [0, 1]
+  double rmse = std::numeric_limits<double>::infinity();  // limit for every layer
 };
 
 struct Verdict {
@@ -29,7 +29,7 @@ struct Verdict {
   std::vector<LayerMetrics> layers;
 };
 
-// Images whose windows differ do not match, however equal the pixels are that both have, unless
+// Images with different windows do not match, even if the pixels that both have are equal, unless
 // options.crop allows it. Throws as PairImages does.
 Verdict Judge(const Image& got, const Image& reference, const Tolerances& tolerances,
               const CompareOptions& options = {});

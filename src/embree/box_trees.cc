@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// embree/box_trees.cc: sets Embree's scenes up: bounds, callbacks.
+// embree/box_trees.cc: sets up Embree's scenes: bounds and callbacks.
 #include "visibility/box_trees.h"
 
 #include <algorithm>
@@ -24,12 +24,12 @@ struct ReleaseScene {
 };
 using ScenePointer = std::unique_ptr<RTCSceneTy, ReleaseScene>;
 
-// No ray starts further than this from the origin of a tree that is built now, which is where the
-// camera is. A camera that is `reach` from there sees nothing further away than the extent and
-// `reach`, and its rays start no further from it. The last term is for flat lights, which move with
-// the camera: they are lifted by 2^-44 times sums of the coordinates of the camera and of their own
-// (scene/light_shapes.h), altogether less than 2^-42 times the distance of what is furthest from
-// the world's origin; u times the term is no less than that.
+// An upper bound of the distance at which rays start from the origin of a BVH that is built now,
+// which is the camera's position. A camera at a distance of `reach` from there sees nothing farther
+// away than the extent plus `reach`, and its rays start no farther from it. The last term is for
+// flat lights, which move with the camera: they are lifted by 2^-44 times sums of the coordinates
+// of the camera and of their own (scene/light_shapes.h), altogether by less than 2^-42 times the
+// distance of the farthest point from the world's origin; u times the term is no less than that.
 double OriginExtent(const TraceGeometry& geometry) {
   const double reach = geometry.eye_reach;
   if (reach == 0) return geometry.extent;
@@ -37,9 +37,10 @@ double OriginExtent(const TraceGeometry& geometry) {
   return extent + 0x1p-18 * (geometry.eye.length() + extent);
 }
 
-// How far the float ray strays from the true one, at or before points within `max_distance` of the
-// tree's origin: its origin by u |o| and its direction by u |p - o|, with |o| at most OriginExtent.
-// Twice that, for the rounding of the bounds themselves, and of the doubles that are relative to a
+// The margin of the bounds of a primitive whose points are within `max_distance` of the BVH's
+// origin: twice the distance that a float ray strays from the true one up to these points p. Its
+// origin o is off by u |o| and its direction by u |p - o|, with |o| at most OriginExtent. The other
+// half is for the rounding of the bounds themselves, and of the doubles that are relative to a
 // camera elsewhere.
 double BoundsMargin(const TraceGeometry& geometry, double max_distance) {
   return 2 * kFloatUnit * (2 * OriginExtent(geometry) + max_distance);
@@ -84,19 +85,19 @@ void TriangleBounds(const RTCBoundsFunctionArguments* args) {
   HandOver(&geometry);
 }
 
-// From so many on incoherent rays are faster one by one than in packets, which visit all boxes that
-// any of their rays meets. Measured (waiting_bench packets) with random rays on SSE4, AVX2 and
-// AVX-512: one by one they take .4 to .9 times as long, the less the more shapes there are. With
-// light from all directions on neighbouring pixels and packets of 16: 3000 spheres .7 times, a
-// million triangles .8 times, but some thousand triangles 1.1 times.
+// From this many shapes on, incoherent rays are faster one by one than in packets, which visit all
+// boxes that any of their rays meets. Measured (waiting_bench packets) with random rays on SSE4,
+// AVX2 and AVX-512: one by one they take 0.4 to 0.9 times as long, less if there are more shapes.
+// With light from all directions on neighbouring pixels and packets of 16, 3000 spheres take 0.7
+// times as long, a million triangles 0.8 times, but some thousand triangles 1.1 times.
 constexpr size_t kLargeSpheres = 64, kLargeTriangles = size_t{1} << 16;
 
-// What a build is ended by, and whether it was: the flag may be taken back.
+// Ends a build that is cancelled, and remembers that it did, because the flag may be taken back.
 struct BuildMonitor {
   CancelPointer cancel;
   std::atomic<bool> ended = false;
 
-  // Called by Embree's threads time and again; false ends the build.
+  // Embree's threads call this again and again; false ends the build.
   static bool GoesOn(void* self, double /*done*/) {
     auto* const monitor = static_cast<BuildMonitor*>(self);
     if (IsCancelled(monitor->cancel)) monitor->ended = true;
@@ -120,15 +121,15 @@ void Attach(RTCDevice device, RTCScene scene, const void* user, size_t count,
 
 }  // namespace
 
-// Embree holds pointers to the geometry; the scenes go before the device.
+// Embree holds pointers to the geometry; scenes must be released before the device.
 struct BoxTrees::State {
   struct Tree {
     ScenePointer scene;
-    Vec3d origin{0, 0, 0};  // in the world: where the camera was when it was built
+    Vec3d origin{0, 0, 0};  // in the world: the camera's position when it was built
   };
   const TraceGeometry* geometry;
   std::optional<bool> one_by_one;
-  TrianglePrimitives triangle_primitives;  // once there is a tree
+  TrianglePrimitives triangle_primitives;  // empty until a BVH is built
   EmbreeDevice device;
   Tree all, triangles;
 
@@ -176,8 +177,8 @@ void BoxTrees::Build(BoxTree tree, int threads, CancelPointer cancel) {
   try {
     device.ThrowIfFailed();
   } catch (const Error&) {
-    // Left behind: where memory ran out as TBB made a task, the scene's task group counts a task
-    // that never was, and to release the scene would wait for it for ever.
+    // The scene is leaked: if memory ran out while TBB made a task, the scene's task group counts a
+    // task that does not exist, and releasing the scene would wait for it forever.
     [[maybe_unused]] const RTCScene left = built.release();
     throw;
   }

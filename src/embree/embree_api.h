@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// embree/embree_api.h: Embree 3 and Embree 4 under one set of names: all that differs between
-// the two lives here. Queries run on packets of 4, 8 or 16 rays, or on one ray.
+// embree/embree_api.h: Embree 3 and Embree 4 under one set of names: all differences between the
+// two are here. Queries run on packets of 4, 8 or 16 rays, or on one ray.
 #pragma once
 
 #if __has_include(<embree3/rtcore.h>)
@@ -13,7 +13,8 @@ namespace nacre {
 
 #if RTC_VERSION_MAJOR == 3
 
-// What is handed unchanged from a query to its callbacks; extended by putting it first in a struct.
+// Embree passes this unchanged from a query to its callbacks. It is extended by a struct whose
+// first member it is.
 using EmbreeContext = RTCIntersectContext;
 
 inline void InitContext(EmbreeContext* context) {

@@ -15,7 +15,8 @@
 namespace nacre {
 namespace {
 
-// Embree's name for the instruction set of a target, and the widest packet it walks natively.
+// Embree's name for the instruction set of a target, and the widest packet that it traverses
+// natively.
 struct EmbreeTarget {
   const char* isa;
   int packet_width;
@@ -62,7 +63,7 @@ class ErrorRecord {
  private:
   void Remember(RTCError code, const char* text) {
     const std::lock_guard lock(mutex_);
-    if (code == RTC_ERROR_CANCELLED) return;  // it was asked for
+    if (code == RTC_ERROR_CANCELLED) return;  // it was requested
     if (code_ != RTC_ERROR_NONE) return;
     code_ = code;
     if (text == nullptr) text = "unknown error";
@@ -71,7 +72,7 @@ class ErrorRecord {
 
   std::mutex mutex_;
   RTCError code_ = RTC_ERROR_NONE;
-  char text_[256] = {};  // no string: there may be no memory left
+  char text_[256] = {};  // no std::string, because memory may have run out
 };
 
 struct ReleaseDevice {
@@ -79,8 +80,8 @@ struct ReleaseDevice {
 };
 using DevicePointer = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
 
-// Embree ignores configuration that it does not know, so what it made of it is read back. Its
-// threads are not set here: threads=1 would throttle TBB in the whole process.
+// Embree ignores configuration that it does not know, so the result is read back. Its threads are
+// not set here: threads=1 would throttle TBB in the whole process.
 DevicePointer MakeDevice(Target target) {
   const EmbreeTarget wanted = EmbreeTargetFor(target);
   const std::string config = std::string("isa=") + wanted.isa + ",verbose=0,set_affinity=0";
@@ -108,13 +109,13 @@ DevicePointer MakeDevice(Target target) {
 
 struct EmbreeDevice::Kept {
   Target target;
-  ErrorRecord errors;  // the device points to it, and goes first
+  ErrorRecord errors;  // the device points to it, and is destroyed first
   DevicePointer device;
 };
 
 namespace {
 
-// The devices that nobody uses. Never destroyed: at the process's end Embree may have gone first.
+// The devices that are not in use. Never destroyed, because at exit Embree may be destroyed first.
 struct Store {
   std::mutex mutex;
   std::vector<std::unique_ptr<EmbreeDevice::Kept>> free;
@@ -147,13 +148,13 @@ EmbreeDevice::EmbreeDevice() : kept_(TakeKept(ActiveTarget())) {
 }
 
 EmbreeDevice::~EmbreeDevice() {
-  if (!kept_->errors.empty()) return;  // one that failed is not kept
+  if (!kept_->errors.empty()) return;  // a device that failed is not kept
   Store& store = TheStore();
   const std::lock_guard lock(store.mutex);
   try {
     store.free.push_back(std::move(kept_));
   } catch (const std::bad_alloc&) {
-    // Then this one is not kept.
+    // This device is then not kept.
   }
 }
 

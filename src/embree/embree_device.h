@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// embree/embree_device.h: Embree's devices: which instruction set, what went wrong, and kept
-// from render to render.
+// embree/embree_device.h: Embree's devices, which are kept from render to render: their instruction
+// set and their errors.
 #pragma once
 
 #include <memory>
@@ -9,9 +9,9 @@
 
 namespace nacre {
 
-// A device of the active target, for one user at a time. It comes from a store of devices that
-// the process keeps, and goes back there: a new one takes milliseconds, and one that goes leaves
-// 7 KB behind in TBB 2021.8.
+// A device of the active target, for one user at a time. It is taken from a store of devices that
+// the process keeps, and returned there: creating a device takes milliseconds, and destroying one
+// leaks 7 KB in TBB 2021.8.
 class EmbreeDevice {
  public:
   // Throws Error (kInternal) if Embree lacks the target's instruction set.
@@ -21,7 +21,7 @@ class EmbreeDevice {
   EmbreeDevice& operator=(const EmbreeDevice&) = delete;
 
   RTCDevice get() const;
-  int packet_width() const;  // of the widest packets that it walks natively
+  int packet_width() const;  // of the widest packets that it traverses natively
 
   // Throws the first error that Embree reported since this was made, from any of its threads.
   void ThrowIfFailed();

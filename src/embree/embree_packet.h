@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// embree/embree_packet.h: a packet as Embree gets it, and finds it again in its callbacks.
+// embree/embree_packet.h: a packet in the form that Embree traces, with access for its callbacks.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace nacre {
 
-// The packet's float rays are `rays`, but for their origins: those of `rays` are relative to the
-// tree's origin.
+// The packet's float rays are those in `rays`, except for their origins: in `rays` these are
+// relative to the BVH's origin, in `origin` to the camera.
 struct EmbreePacket {
   EmbreePacket(int width, RTCScene scene, const TraceGeometry* geometry);
   EmbreePacket(const EmbreePacket&) = delete;  // it points into itself
@@ -18,7 +18,7 @@ struct EmbreePacket {
 
   EmbreeContext context;  // first: the callbacks get a pointer to it and find the packet
   RTCScene scene;
-  alignas(64) int valid[kMaxPacketWidth];  // -1: the lane is asked about, 0: not
+  alignas(64) int valid[kMaxPacketWidth];  // -1: the lane is active, 0: it is not
   RTCRayHit16 rays;                        // laid out for the packet's width
   Packet packet;
   alignas(64) float origin[3][kMaxPacketWidth];
@@ -57,8 +57,8 @@ inline EmbreePacket& PacketOf(EmbreeContext* context) {
   return *reinterpret_cast<EmbreePacket*>(context);
 }
 
-// The lanes, as bits, of the rays that a callback is asked about. Embree passes the packet itself,
-// or a copy of some of its rays in another order: ids lead back.
+// The lanes, as bits, of the rays that a callback is to test. Embree passes the packet itself, or a
+// copy of some of its rays in another order, in which their ids tell the lanes.
 inline uint32_t ActiveLanes(const EmbreePacket& packet, const int* valid, const void* rays,
                             unsigned count) {
   uint32_t lanes = 0;
@@ -73,7 +73,7 @@ inline uint32_t ActiveLanes(const EmbreePacket& packet, const int* valid, const 
   return lanes;
 }
 
-// Hands the packet's depth limits to the rays that a callback was given.
+// Copies the packet's depth limits to the rays that a callback was given.
 inline void ReturnDepths(const EmbreePacket& packet, const int* valid, void* rays, unsigned count) {
   if (rays == &packet.rays) return;
   auto* copy = static_cast<RTCRayN*>(rays);

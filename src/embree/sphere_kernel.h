@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// embree/sphere_kernel.h: Embree's callbacks for the spheres.
+// embree/sphere_kernel.h: Embree's callbacks for spheres.
 #pragma once
 
 #include "embree/embree_api.h"
@@ -11,8 +11,9 @@ struct PrimitiveCallbacks {
   RTCOccludedFunctionN occluded;
 };
 
-// For one user geometry whose primitives are TraceGeometry::spheres and whose user pointer is the
-// TraceGeometry; compiled for the active target. Queries must come with an EmbreePacket as context.
+// The callbacks of a user geometry whose primitives are TraceGeometry::spheres and whose user
+// pointer leads to the TraceGeometry, compiled for the active target. Queries must pass an
+// EmbreePacket as context.
 PrimitiveCallbacks SphereCallbacks();
 
 }  // namespace nacre

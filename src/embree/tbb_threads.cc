@@ -17,9 +17,9 @@
 namespace nacre {
 namespace {
 
-// Left alone, TBB starts no more workers than the machine has cores, and prints a warning. While
-// alive, it may start as many as this and all others alive ask for: the smallest of several
-// controls counts, so there is one for all.
+// By default TBB starts no more workers than the machine has cores, and prints a warning. While
+// objects of this class exist, it may start as many as the largest of them asks for. There is one
+// control for all of them, because TBB obeys the smallest of several.
 class AllowThreads {
  public:
   explicit AllowThreads(int threads) : count_(ThreadCount(threads)) {
@@ -48,7 +48,7 @@ class AllowThreads {
   }
   static void Renew() {
     static std::unique_ptr<tbb::global_control> control;
-    // The new one is there before the old one goes: others run meanwhile.
+    // The new control exists before the old one is destroyed, because other builds run meanwhile.
     control = Asked().empty() ? nullptr
                               : std::make_unique<tbb::global_control>(
                                     tbb::global_control::max_allowed_parallelism,
@@ -58,16 +58,16 @@ class AllowThreads {
   int count_;
 };
 
-// Throws std::bad_alloc if there is no memory for an arena and its first worker. TBB's own would
-// never arrive: TBB 2022 throws it under a lock that throwing takes again, and waits for ever. Its
-// controls take that lock, too.
+// Throws std::bad_alloc if there is no memory for an arena and its first worker. TBB's own
+// exception would never arrive: TBB 2022 throws it under a lock that throwing takes again, and
+// waits forever. TBB's controls take that lock, too.
 void RequireMemoryForArena() {
   constexpr size_t kBytes = size_t{8} << 20;  // a worker's stack alone is 4; never touched
   ::operator delete(::operator new(kBytes));
 }
 
-// One arena for each number of threads, kept: an arena that goes leaves 7 KB behind in TBB 2021.8,
-// and a program that renders thousands of pictures would feel it.
+// One arena for each number of threads, which is kept: destroying an arena leaks 7 KB in TBB
+// 2021.8, which would add up in a program that renders thousands of pictures.
 tbb::task_arena& ArenaOf(int threads) {
   static std::mutex mutex;
   static std::map<int, tbb::task_arena> arenas;
@@ -81,7 +81,7 @@ tbb::task_arena& ArenaOf(int threads) {
 void WithThreads(int threads, const std::function<void()>& body) {
   tbb::task_arena& arena = ArenaOf(ThreadCount(threads));
   const AllowThreads allow(threads);
-  arena.execute([&] {  // maybe in a worker, which has the modes of whoever started it
+  arena.execute([&] {  // maybe in a worker, which has the float modes of the thread that started it
     const DefaultFloatMode mode;
     body();
   });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// embree/tbb_threads.h: how many threads Embree's builds take. The only folder that knows TBB.
+// embree/tbb_threads.h: limits the threads of Embree's builds. Only this folder knows TBB.
 #pragma once
 
 #include <functional>
@@ -7,7 +7,7 @@
 namespace nacre {
 
 // Calls body() once; parallel work that it starts through TBB uses up to `threads` threads, counted
-// as ParallelFor's.
+// as in ParallelFor.
 void WithThreads(int threads, const std::function<void()>& body);
 
 }  // namespace nacre

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// embree/trace_kernel.cc: hands packets of rays to Embree, or the rays of a packet one by one.
+// embree/trace_kernel.cc: passes packets of rays to Embree, or the rays of a packet one by one.
 #include "embree/trace_kernel.h"
 
 #include "embree/embree_packet.h"
@@ -23,7 +23,7 @@ HWY_INLINE void ChooseLanes(EmbreePacket* to) {
   }
 }
 
-// The origins relative to the tree's.
+// Fills in the origins relative to the BVH's origin.
 HWY_INLINE void FillOrigins(const Vec3d& offset, EmbreePacket* to) {
   const hn::ScalableTag<double> d;
   const hn::Rebind<float, decltype(d)> df;
@@ -37,11 +37,11 @@ HWY_INLINE void FillOrigins(const Vec3d& offset, EmbreePacket* to) {
   }
 }
 
-// Whether the packet's directions differ so much that its rays share few boxes of a large tree: a
+// Whether the packet's directions differ so much that its rays share few boxes of a large BVH: a
 // packet visits every box that any of its rays meets, so such rays are faster one by one. The
-// largest component of each direction is in [1, 2] (FillLanes); the ranges of the three are summed
-// up. 16 neighbouring camera rays have some hundredths, random directions 8 to 10. The answer
-// changes nothing but time.
+// largest component of each direction is in [1, 2] (FillLanes); the ranges of the three components
+// are added up. The sum is some hundredths for 16 neighbouring camera rays, and 8 to 10 for random
+// directions. The answer affects only the time.
 HWY_INLINE bool AreIncoherent(const Packet& packet) {
   constexpr float kLimit = 0.5f;
   const hn::CappedTag<float, kMaxPacketWidth> d;
@@ -60,7 +60,7 @@ HWY_INLINE bool AreIncoherent(const Packet& packet) {
   return extent > kLimit;
 }
 
-// The packet's rays one by one: trace(&ray), whose callbacks find the lane by the ray's id.
+// Calls trace(&ray) for each of the packet's rays. Its callbacks find the lane by the ray's id.
 template <class Trace>
 HWY_INLINE void TraceOneByOne(EmbreePacket* packet, const Trace& trace) {
   const unsigned width = packet->Width();

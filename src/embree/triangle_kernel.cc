@@ -44,7 +44,8 @@ HWY_INLINE TriangleHitV<D> TestLanes(D d, const Packet& packet, int lane, const 
                                    Load3(d, shear[3] + lane, shear[4] + lane, shear[5] + lane)});
 }
 
-// Those of `hits` that are not in a hole of the mesh. Not inlined, because few scenes have holes.
+// The lanes of `hits` that are not in a hole of the mesh. Not inlined, because few scenes have
+// holes.
 template <class D>
 HWY_NOINLINE hn::Mask<D> OutsideHoles(D d, const TraceGeometry& geometry, const CutOut& holes,
                                       uint32_t triangle, const Vec3V<hn::Vec<D>>& weights,
@@ -67,7 +68,7 @@ HWY_INLINE const CutOut* HolesOf(const TraceGeometry& geometry, uint32_t triangl
   return geometry.cut_outs.empty() ? nullptr : FindCutOut(geometry.cut_outs, triangle);
 }
 
-// Whether the triangle's back is not there. Few scenes but models have such triangles.
+// Whether the triangle has only a front side. Few scenes other than models have such triangles.
 HWY_INLINE bool IsSingleSided(const TraceGeometry& geometry, uint32_t triangle) {
   return !geometry.single_sided.empty() && geometry.single_sided[triangle] != 0;
 }
@@ -86,8 +87,8 @@ Plane PlaneOf(const Corners& corners) {
           std::abs(e2.x) + std::abs(e2.y) + std::abs(e2.z)};
 }
 
-// Whether points are no further from the plane than `error` times |e1|_1 |e2|_1 / |normal|. `to_a`:
-// the vectors from the points to corner a.
+// Whether points are no farther from the plane than `error` times |e1|_1 |e2|_1 / |normal|. `to_a`
+// are the vectors from the points to corner a.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> WithinOfPlane(D d, const Plane& plane, const Vec3V<V>& to_a, V error) {
   const V scaled_distance = hn::Abs(Dot(to_a, SetVec3(d, plane.normal)));
@@ -95,7 +96,7 @@ HWY_INLINE hn::Mask<D> WithinOfPlane(D d, const Plane& plane, const Vec3V<V>& to
 }
 
 // The lanes whose origin lies on the triangle's plane within the rounding error: their ray starts
-// on this surface (on a neighbour, or on the same triangle given twice), and is not occluded by it.
+// on this surface (on a neighbour, or on the same triangle given twice), which does not occlude it.
 //
 // The distance times |normal| is to_a . normal. With u = 2^-53, E = |e1|_1 |e2|_1 and R the upper
 // bound of the coordinates of the primitive that the ray starts on, the origin is off by at most 4
@@ -152,13 +153,13 @@ void IntersectTriangles(const RTCIntersectFunctionNArguments* args) {
 
 // The lanes whose end lies on the plane within the rounding error: the light lies on this surface.
 //
-// The end is off by 22 u R at most, as for spheres (EndsOnSphere), where R is the sum of the
+// The end is off by at most 22 u R, as for spheres (EndsOnSphere), where R is the sum of the
 // origin's, the end's and the camera's coordinates, of the vector to the corner and of the edges.
 // The corners are off by 25 u R: a transform's sines and cosines, and the nine products that it is
 // made of, by 6 u each, on three coordinates, and 7 u for the sums and the camera. With the
-// evaluation's 12 u R altogether at most 59 u E R. The shape of another lamp in the light's plane
-// is lifted out of it, too, by 512 u of its world coordinates and the camera's (LiftFromItsPlane of
-// scene/light_shapes.cc), together at most 1024 u R.
+// evaluation's 12 u R this is at most 59 u E R altogether. The shape of another light in the
+// light's plane is also lifted out of it, by 512 u of its world coordinates and the camera's
+// (LiftFromItsPlane of scene/light_shapes.cc), together at most 1024 u R.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> EndsOnPlane(D d, const ShadowRaysV<D>& rays, const Vec3V<V>& to_a,
                                    const Plane& plane) {
@@ -197,8 +198,8 @@ HWY_NOINLINE void OccludeByTriangle(const TraceGeometry& geometry, uint32_t tria
     auto met = hn::And(active, within);
     if (hn::AllFalse(d, met)) continue;
     if (single_sided) {
-      // Shadow rays run towards the light: one that meets a front belongs to light from behind,
-      // which passes.
+      // Shadow rays run towards the light: if one hits a front, the light comes from behind, and
+      // passes through.
       met = hn::AndNot(ComesFromFront(d, hit, Direction(d, packet, lane)), met);
       if (hn::AllFalse(d, met)) continue;
     }
@@ -216,8 +217,8 @@ void OccludedByTriangles(const RTCOccludedFunctionNArguments* args) {
   const auto& primitives = *static_cast<const TrianglePrimitives*>(args->geometryUserPtr);
   const TraceGeometry& geometry = *primitives.geometry;
   const uint32_t* const first = &primitives.first[args->primID];
-  // Early out for triangles of the light itself, which rays only end on: without it mesh_lights and
-  // area_lights take 1.3 times as long. The two of a pair are of one mesh.
+  // Early out for triangles of the light itself, on which rays only end: without it mesh_lights and
+  // area_lights take 1.3 times as long. The two triangles of a pair belong to one mesh.
   if (packet.target.Contains(geometry.SphereCount() + first[0])) return;
   const uint32_t lanes = ActiveLanes(embree, args->valid, args->ray, args->N);
   for (uint32_t triangle = first[0]; triangle < first[1]; ++triangle) {

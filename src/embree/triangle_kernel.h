@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// embree/triangle_kernel.h: Embree's callbacks for the triangles.
+// embree/triangle_kernel.h: Embree's callbacks for triangles.
 #pragma once
 
 #include <cstdint>
@@ -10,19 +10,20 @@
 
 namespace nacre {
 
-// The triangles of a geometry as Embree's primitives: each is one triangle, or two that follow one
-// another and share an edge, as the halves of a quad do. A tree of half as many boxes is made in
-// little more than half the time.
+// The triangles of a geometry as Embree's primitives: each is one triangle, or two consecutive ones
+// that share an edge, as the halves of a quad do. A BVH of half as many boxes is built in little
+// more than half the time.
 struct TrianglePrimitives {
   const TraceGeometry* geometry = nullptr;
-  std::vector<uint32_t> first;  // each primitive's first triangle; and how many triangles there are
+  std::vector<uint32_t> first;  // each primitive's first triangle; then the number of triangles
 
   size_t size() const { return first.size() - 1; }
 };
 
 TrianglePrimitives MakeTrianglePrimitives(const TraceGeometry* geometry);
 
-// As SphereCallbacks, for a user pointer to TrianglePrimitives.
+// The callbacks of a user geometry whose user pointer leads to TrianglePrimitives; see
+// SphereCallbacks.
 PrimitiveCallbacks TriangleCallbacks();
 
 }  // namespace nacre

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// hit/batch.h: the batches that flow through the renderer, as structure-of-arrays: rays, their
-// closest hits, shaded hits and shadow rays. Data only: render and visibility write them, and
-// shading reads them; it turns their normals where maps do.
+// hit/batch.h: the batches that flow through the renderer, as structure of arrays: rays, their
+// closest hits, shaded hits and shadow rays. Data only: render and visibility write the batches;
+// shading reads them, and replaces shading normals by normal-mapped ones.
 //
 // All positions are doubles relative to the camera's position ("camera space without rotation"):
 // world position minus camera position, rounded once. Arrays have room for kBatchCapacity entries
@@ -20,7 +20,8 @@
 
 namespace nacre {
 
-// The most rays of a batch: all its arrays together fit into the L2 cache.
+// The maximum number of rays in a batch, chosen so that all its arrays together fit into the L2
+// cache.
 inline constexpr size_t kBatchCapacity = 2048;
 static_assert(kBatchCapacity % kBatchPadding == 0);
 
@@ -70,8 +71,8 @@ void CopySoa(const Soa3<T>& from, size_t count, Soa3<T>* to) {
   std::copy_n(from.z.data(), count, to->z.data());
 }
 
-// Pointers to those arrays, which loops can keep in registers: the compiler must assume that a
-// store changes the pointers in a Soa3.
+// Pointers to the arrays of a Soa3, which loops can keep in registers: the compiler must assume
+// that a store changes the pointers in the Soa3 itself.
 template <typename T>
 struct Pointers3 {
   T* __restrict first;
@@ -90,27 +91,30 @@ Pointers3<T> PointersTo(Soa3<T>* soa) {
   return {soa->all.data()};
 }
 
-// Film positions, in pixels from the top left corner of the full frame. Those of a tile's samples
-// are ordered by sample, and within a sample by the tile's sampled pixels row by row.
+// Film positions, in pixels from the top left corner of the full frame. The samples of a tile are
+// ordered by sample index, and for each index by the tile's sampled pixels, row by row.
 struct FilmBatch {
   size_t count = 0;
-  size_t pixels = 0;  // of a tile's samples: the sampled pixels, of which each has count / pixels
+  // In a batch of a tile's samples, the number of sampled pixels, each of which has count / pixels
+  // samples.
+  size_t pixels = 0;
   AlignedArray<double> x{kBatchCapacity}, y{kBatchCapacity};
 };
 
-// Rays: points origin + t direction, t > 0. Directions are not normalised.
+// Rays are the points origin + t direction, t > 0. Directions are not normalised.
 struct RayBatch {
   size_t count = 0;
   Soa3<double> origin;  // 0 for a perspective camera
   Soa3<double> direction;
   ProjectedTestView view;  // the camera's for camera rays; the default for others
-  // Whether the rays leave surfaces: `start` is where each does, kNoPrimitive for those that do
-  // not. A ray meets the sphere that it starts on, or one that coincides with it, only on the far
-  // side, and only where it goes inward; it meets no triangle whose plane it starts on. Origins
-  // need no offset. If false, as for camera rays, `start` is not read.
+  // Whether rays are spawned on surfaces. If true, `start` is the primitive that each ray starts
+  // on, or kNoPrimitive if it starts on none. A ray meets the sphere that it starts on, or one that
+  // coincides with it, only on the far side, and only if it goes inward; it meets no triangle whose
+  // plane it starts on. Origins therefore need no offset. If false, as for camera rays, `start` is
+  // not read.
   bool from_surfaces = false;
   AlignedArray<uint32_t> start{kBatchCapacity};
-  bool holes_are_solid = false;  // whether rays hit what an opacity has cut out, too
+  bool holes_are_solid = false;  // whether rays also hit what an opacity has cut out
 };
 
 // For each ray of a RayBatch, the closest hit.
@@ -145,10 +149,10 @@ struct HitOutput {
   bool positions = true;  // HitBatch::position
 };
 
-// The light of shadow rays whose occluders were not searched for.
+// ShadowRayBatch::light where no occluders of the light have been searched for beforehand.
 inline constexpr uint32_t kAnyLight = 0xffffffffu;
 
-// Shadow rays origin + t direction, 0 < t < t_max.
+// Shadow rays are the points origin + t direction, 0 < t < t_max.
 struct ShadowRayBatch {
   size_t count = 0;
   // The light that all rays go to: its index in Intersector::FindOccluders, or kAnyLight.
@@ -158,13 +162,15 @@ struct ShadowRayBatch {
   bool outward = false;
   // Primitives of the light itself, which never occlude rays to it.
   PrimitiveRange target;
-  // An upper bound of the camera's coordinates. It bounds the rounding errors of the light and of
-  // the surfaces, which were made relative to the camera. A surface on which the rays end within
-  // the rounding error, such as a ceiling that a lamp is flush with, does not occlude them.
+  // An upper bound of the camera's coordinates. It bounds the rounding errors of the positions of
+  // the light and of the surfaces, which were made relative to the camera. A surface on which the
+  // rays end within the rounding error, such as a ceiling that a lamp is flush with, does not
+  // occlude them.
   double camera_extent = 0;
   Soa3<double> origin;     // HitBatch::position, or moved off it (OffsetOrigin)
   Soa3<double> direction;  // towards the light, not normalised
-  // 1: a light at origin + direction; or infinity. 0: an inactive ray, which is not occluded.
+  // 1 for a light at origin + direction, infinity for a light at infinity, 0 for an inactive ray,
+  // which is never occluded.
   AlignedArray<double> t_max{kBatchCapacity};
   AlignedArray<uint32_t> primitive{kBatchCapacity};  // where the ray starts
   AlignedArray<uint8_t> occluded{kBatchCapacity};    // the result: 1 if occluded

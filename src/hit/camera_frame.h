@@ -16,12 +16,14 @@ struct CameraFrame {
   Projection projection;
   Vec3d forward;  // unit viewing direction
   Vec3d corner;   // perspective: direction through film (0, 0); orthographic: origin there
-  Vec3d step_x;   // change of that per pixel, perpendicular to `forward` and step_y
+  // The change of that direction or origin per pixel. Both are perpendicular to `forward` and to
+  // each other.
+  Vec3d step_x;
   Vec3d step_y;
 };
 
 // Decides which spheres the rays of a camera test in the film plane
-// (visibility/projected_sphere_test.h). The default: none.
+// (visibility/projected_sphere_test.h). By default there are none.
 struct ProjectedTestView {
   Vec3d forward{0, 0, 0};
   double max_scale = 0;  // the largest depth / radius of such spheres

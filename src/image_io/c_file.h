@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// image_io/c_file.h: a FILE that closes itself, for the libraries that read from one.
+// image_io/c_file.h: a FILE that closes itself, for libraries that read from one.
 #pragma once
 
 #include <cstdio>
@@ -13,7 +13,7 @@ struct CloseFile {
 };
 using CFile = std::unique_ptr<std::FILE, CloseFile>;
 
-// To read; null, and errno says why not.
+// Opens a file for reading. Returns null on failure, with the reason in errno.
 inline CFile OpenToRead(const std::string& path) { return CFile(std::fopen(path.c_str(), "rbe")); }
 
 }  // namespace nacre

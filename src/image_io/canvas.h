@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// image_io/canvas.h: a picture of display codes that is put together from others and text.
+// image_io/canvas.h: a picture of display codes that is composed of other pictures and text.
 #pragma once
 
 #include <utility>
@@ -15,16 +15,16 @@ class Canvas {
  public:
   Canvas(int width, int height, const Rgb8& ground);
 
-  // Copies the picture to (left, top); what lies outside is cut off.
+  // Copies the picture to (left, top), clipped to the canvas.
   void Paste(const Rgb8Picture& picture, int left, int top);
-  // Copies a part of it, each pixel `zoom` times as large.
+  // Copies the part `part` of the picture, magnified by `zoom`.
   void Paste(const Rgb8Picture& picture, const Window& part, int zoom, int left, int top);
 
-  // Text is drawn by Draw, all of it at once.
+  // Text is not drawn until Draw().
   void AddText(TextItem item) { text_.push_back(std::move(item)); }
   void AddText(const std::vector<TextItem>& items);
 
-  // The picture, complete. Throws as DrawText does.
+  // Draws the text and returns the complete picture. Throws as DrawText does.
   const Rgb8Picture& Draw();
 
  private:

@@ -27,7 +27,7 @@ bool SameLetters(std::string_view a, std::string_view b) {
   });
 }
 
-// What comes after the last dot.
+// The part of the name after the last dot.
 std::string_view OwnName(std::string_view name) {
   const size_t dot = name.rfind('.');
   return dot == std::string_view::npos ? name : name.substr(dot + 1);
@@ -85,7 +85,7 @@ ColorConversion ConversionToRec709(const std::map<std::string, std::string>& met
   if (found == metadata.end()) return {};
   const std::optional<Primaries> primaries = ParsePrimaries(found->second);
   if (!primaries) {
-    // Photoshop writes all of them as 0, which says nothing and is in most of the world's skies.
+    // Photoshop writes all of them as 0, which means nothing and is found in most published skies.
     if (found->second.find_first_not_of("0.e+- \t") == std::string::npos) return {};
     return {{},
             fmt::format("its primaries ({}) are none, and its colours are taken as Rec. 709",
@@ -100,7 +100,7 @@ ColorConversion ConversionToRec709(const std::map<std::string, std::string>& met
 size_t ConvertColors(const Imath::M33d& matrix, const std::array<float*, 3>& rgb, size_t step,
                      size_t count, bool clip, int threads) {
   constexpr size_t kPiece = size_t{1} << 16;
-  // Samples are rounded by 2^-24 of themselves, which the matrix makes at most ten times as large.
+  // The relative rounding error of samples is 2^-24, which the matrix amplifies at most tenfold.
   constexpr double kRounding = 1e-6;
   std::atomic<size_t> outside{0};
   constexpr double kMost = std::numeric_limits<float>::max();

@@ -9,8 +9,8 @@
 namespace nacre {
 namespace {
 
-// Room for the result and for ISA-L's tables, kept by each thread: a strip needs half a megabyte,
-// and taking that from the system anew costs as much as deflating into it.
+// Buffers for the result and for ISA-L's tables, kept by each thread: a strip needs half a
+// megabyte, and allocating that anew costs as much as deflating into it.
 struct Scratch {
   std::vector<uint8_t> result;
   std::vector<uint8_t> tables = std::vector<uint8_t>(ISAL_DEF_LVL1_DEFAULT);
@@ -26,7 +26,7 @@ Scratch& ThreadScratch() {
 size_t FastDeflate(std::span<const uint8_t> bytes, DeflateForm form, Scratch* scratch) {
   isal_zstream stream;
   isal_deflate_stateless_init(&stream);
-  stream.hist_bits = 0;  // the widest window; left out by the line above, it would be at random
+  stream.hist_bits = 0;  // the widest window; the line above leaves it uninitialised
   stream.level = kFastDeflate;
   stream.level_buf = scratch->tables.data();
   stream.level_buf_size = static_cast<uint32_t>(scratch->tables.size());
@@ -64,7 +64,7 @@ size_t SmallDeflate(std::span<const uint8_t> bytes, DeflateForm form, int level,
 }  // namespace
 
 std::vector<uint8_t> Deflate(std::span<const uint8_t> bytes, DeflateForm form, int level) {
-  // Bytes that nothing shortens are stored in blocks: a header each, and those of the stream.
+  // Incompressible bytes are stored in blocks, each with a header, plus the header of the stream.
   const size_t bound = compressBound(bytes.size()) + 512;
   Scratch& scratch = ThreadScratch();
   if (scratch.result.size() < bound) scratch.result.resize(bound);

@@ -20,7 +20,7 @@
 namespace nacre {
 namespace {
 
-// Where Debian has the font, and where Fedora and Arch have it.
+// Paths of the font on Debian, Fedora and Arch.
 constexpr const char* kFontFiles[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
                                       "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
                                       "/usr/share/fonts/TTF/DejaVuSans.ttf"};
@@ -28,7 +28,7 @@ constexpr const char* kFontFiles[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSa
 using Library = std::unique_ptr<FT_LibraryRec_, decltype(&FT_Done_FreeType)>;
 using Face = std::unique_ptr<FT_FaceRec_, decltype(&FT_Done_Face)>;
 
-// DejaVu Sans, open.
+// The font DejaVu Sans.
 class Font {
  public:
   Font() {
@@ -52,7 +52,7 @@ class Font {
     size_px_ = size_px;
   }
 
-  // The glyph of a character, drawn at the current size; valid until the next call.
+  // Renders the glyph of a character at the current size; valid until the next call.
   const FT_GlyphSlotRec_& Glyph(char32_t character) {
     if (FT_Load_Char(face_.get(), character, FT_LOAD_RENDER) != 0) {
       throw Error(ExitCode::kInternal, "labels", "the font DejaVu Sans is damaged");
@@ -60,7 +60,7 @@ class Font {
     return *face_->glyph;
   }
 
-  // What Glyph would advance by, in pixels, without drawing it.
+  // The advance of the glyph in pixels, without rendering it.
   int Advance(char32_t character) {
     if (FT_Load_Char(face_.get(), character, FT_LOAD_DEFAULT) != 0) return 0;
     return static_cast<int>(face_->glyph->advance.x >> 6);
@@ -72,7 +72,7 @@ class Font {
   int size_px_ = 0;
 };
 
-// The characters of UTF-8, which Printable() leaves valid.
+// Decodes UTF-8, which Printable() has made valid.
 std::u32string Decode(const std::string& utf8) {
   std::u32string text;
   for (size_t i = 0; i < utf8.size();) {
@@ -87,37 +87,37 @@ std::u32string Decode(const std::string& utf8) {
   return text;
 }
 
-// The characters from left to right as they are seen: Hebrew and Arabic run from right to left,
-// numbers in them from left to right (Unicode's bidirectional algorithm), and Arabic letters have
-// the form that joins them to their neighbours.
+// The characters in visual order, from left to right: Hebrew and Arabic run from right to left,
+// with numbers from left to right (Unicode's bidirectional algorithm), and Arabic letters take the
+// form that joins them to their neighbours.
 std::u32string VisualOrder(std::u32string text) {
-  constexpr char32_t kFirstFromRight = 0x590;  // no script before it is written so
+  constexpr char32_t kFirstFromRight = 0x590;  // all scripts before it run from left to right
   if (std::all_of(text.begin(), text.end(), [](char32_t c) { return c < kFirstFromRight; })) {
     return text;
   }
   const std::vector<FriBidiChar> logical(text.begin(), text.end());
-  std::vector<FriBidiChar> visual(logical.size() + 1);  // FriBidi ends it with a 0
-  FriBidiParType direction = FRIBIDI_PAR_ON;            // that of the first letter
+  std::vector<FriBidiChar> visual(logical.size() + 1);  // room for FriBidi's final 0
+  FriBidiParType direction = FRIBIDI_PAR_ON;            // as the first letter has it
   if (fribidi_log2vis(logical.data(), static_cast<FriBidiStrIndex>(logical.size()), &direction,
                       visual.data(), nullptr, nullptr, nullptr) == 0) {
     throw std::bad_alloc();
   }
   visual.pop_back();
-  std::erase(visual, FRIBIDI_CHAR_FILL);  // where two letters have become one
+  std::erase(visual, FRIBIDI_CHAR_FILL);  // left where two letters were joined to one
   return {visual.begin(), visual.end()};
 }
 
-// The characters that are drawn for a text.
+// The characters to draw for a text, in visual order.
 std::u32string CharactersOf(std::string_view text) { return VisualOrder(Decode(Printable(text))); }
 
-// Pixels [x0, x1) x [y0, y1) from the start of the baseline; y grows downwards.
+// Pixels [x0, x1) x [y0, y1) relative to the start of the baseline; y grows downwards.
 struct Box {
   int x0 = INT_MAX, y0 = INT_MAX, x1 = INT_MIN, y1 = INT_MIN;
 
   bool empty() const { return x0 >= x1 || y0 >= y1; }
 };
 
-// How much of each pixel a line's strokes cover, from 0 to 1.
+// The coverage of each pixel by the strokes of a line, from 0 to 1.
 struct Strokes {
   Box box;
   std::vector<float> coverage;
@@ -131,8 +131,8 @@ struct Strokes {
   float& At(int x, int y) { return coverage[IndexOf(x, y)]; }
 };
 
-// Calls with_glyph(glyph, x) for each character of a line, which starts at 0. Advances are whole
-// pixels, without kerning: letters of small text then all look alike.
+// Calls with_glyph(glyph, x) for each character of a line that starts at 0. Advances are whole
+// pixels, without kerning, so that equal letters of small text look alike.
 template <class WithGlyph>
 void ForEachGlyph(const std::u32string& text, Font* font, const WithGlyph& with_glyph) {
   int x = 0;
@@ -149,7 +149,7 @@ Box BoundsOf(const std::u32string& text, Font* font) {
     const int left = x + glyph.bitmap_left, top = -glyph.bitmap_top;
     box.x0 = std::min(box.x0, left);
     box.y0 = std::min(box.y0, top);
-    // A space has no pixels, but takes its room.
+    // A space has no pixels, but an advance.
     box.x1 = std::max({box.x1, left + static_cast<int>(glyph.bitmap.width),
                        x + static_cast<int>(glyph.advance.x >> 6)});
     box.y1 = std::max(box.y1, top + static_cast<int>(glyph.bitmap.rows));
@@ -157,7 +157,7 @@ Box BoundsOf(const std::u32string& text, Font* font) {
   return box;
 }
 
-// `room`: pixels around the strokes.
+// `room`: the margin around the strokes in pixels.
 Strokes DrawStrokes(const std::u32string& text, int room, Font* font) {
   Strokes strokes;
   strokes.box = BoundsOf(text, font);
@@ -181,7 +181,7 @@ Strokes DrawStrokes(const std::u32string& text, int room, Font* font) {
   return strokes;
 }
 
-// Each pixel becomes the largest within `radius` rows and columns.
+// Sets each pixel to the maximum within `radius` rows and columns (dilation).
 Strokes Widen(const Strokes& strokes, int radius) {
   Strokes rows = strokes, result = strokes;
   const Box& box = strokes.box;
@@ -204,8 +204,8 @@ Strokes Widen(const Strokes& strokes, int radius) {
   return result;
 }
 
-// From the start of the baseline to the point that the item places. Vertically that depends on the
-// font only, so that labels in a row stand on one line.
+// The vector from the start of the baseline to the point that the item places. Its y depends only
+// on the font, so that labels in a row share a baseline.
 struct Offset {
   int x, y;
 };
@@ -247,7 +247,7 @@ void DrawItem(const TextItem& item, std::span<uint8_t> rgb8, int width, int heig
   }
 }
 
-// Advance widths of the characters 32 to 126 of DejaVu Sans 2.37, in units of 1/2048 of the size.
+// Advance widths of the characters 32 to 126 of DejaVu Sans 2.37, in 1/2048 of the font size.
 constexpr std::array<uint16_t, 95> kAdvances = {
     651,  821,  942,  1716, 1303, 1946, 1597, 563,  799,  799,  1024, 1716, 651,  739,  651,  690,
     1303, 1303, 1303, 1303, 1303, 1303, 1303, 1303, 1303, 1303, 690,  690,  1716, 1716, 1716, 1087,
@@ -257,7 +257,7 @@ constexpr std::array<uint16_t, 95> kAdvances = {
     1300, 1300, 842,  1067, 803,  1298, 1212, 1675, 1212, 1212, 1075, 1303, 690,  1303, 1716};
 constexpr int kUnits = 2048;
 
-// In units; `other` is that of letters beyond ASCII.
+// In the same units; `other` is returned for letters beyond ASCII.
 int AdvanceOf(char first_byte, int other) {
   const auto code = static_cast<unsigned char>(first_byte);
   return code >= 32 && code < 127 ? kAdvances[code - 32u] : other;
@@ -271,12 +271,12 @@ std::unique_ptr<Font> OpenFontIfInstalled() {
   try {
     return std::make_unique<Font>();
   } catch (const Error&) {
-    return nullptr;  // who draws will be told
+    return nullptr;  // DrawText will report it
   }
 }
 
-// The advance of a letter beyond ASCII, in pixels. If the font is not installed, its size: sheets
-// are laid out for EXR files, too, into which no text is drawn.
+// The advance of a letter beyond ASCII, in pixels. If the font is not installed, the font size:
+// sheets are also laid out for EXR files, into which no text is drawn.
 int AdvanceBeyondAscii(char32_t character, int size_px) {
   static thread_local const std::unique_ptr<Font> font = OpenFontIfInstalled();
   static thread_local std::map<std::pair<int, char32_t>, int> known;  // FreeType is slow to ask
@@ -327,7 +327,7 @@ double DrawnWidth(std::string_view text, double size_px) {
       width += AdvanceBeyondAscii(character, size);
       continue;
     }
-    // FreeType scales to 64ths of a pixel, and rounds those to pixels.
+    // FreeType scales to 1/64 of a pixel, then rounds to whole pixels.
     const int in_64ths = (2 * AdvanceOf(static_cast<char>(character), kUnits) * size + 32) / 64;
     width += (in_64ths + 32) / 64;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// image_io/exif.h: the orientation that an EXIF block names.
+// image_io/exif.h: reads the orientation from an EXIF block.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +8,10 @@
 
 namespace nacre {
 
-// The orientation tag (0x0112) of the first directory of an EXIF block, which begins as TIFF files
-// do; 1, the usual one, if there is none or the block is broken. orientation.h tells what the
-// numbers mean. Written out because libexif decodes every tag of every maker to give this one.
+// The orientation tag (0x0112) of the first directory of an EXIF block, which begins like a TIFF
+// file; 1, the usual one, if there is none or the block is broken. orientation.h interprets the
+// numbers. This is written by hand because libexif would decode every tag of every maker to return
+// this one.
 inline int ExifOrientation(std::span<const uint8_t> exif) {
   if (exif.size() < 8) return 1;
   const bool little = exif[0] == 'I';

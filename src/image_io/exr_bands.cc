@@ -42,7 +42,7 @@ Compression ToCompression(const std::string& path, Imf::Compression compression)
   RefuseKind(path, "its compression is not one of nacre's");
 }
 
-// What every file has, and what ExrContainer writes by itself.
+// Attributes that every file has, and those that ExrContainer writes itself.
 const std::set<std::string> kStructure = {
     "channels",  "compression",      "dataWindow",         "displayWindow",
     "lineOrder", "pixelAspectRatio", "screenWindowCenter", "screenWindowWidth",
@@ -67,7 +67,7 @@ void AddAttribute(const std::string& path, const std::string& name, const Imf::A
 }  // namespace
 
 struct ExrBandReader::State {
-  // OpenEXR tells what is wrong with a file by exceptions of its own.
+  // Calls work(), and turns the exceptions by which OpenEXR reports errors of a file into Error.
   template <class Work>
   auto Guard(const Work& work) const {
     try {
@@ -82,7 +82,7 @@ struct ExrBandReader::State {
   }
 
   // An uncompressed chunk has exactly its full size, and a compressed one is never larger. OpenEXR
-  // fills what is missing with zeros.
+  // would fill what is missing with zeros.
   void CheckChunkSize(int y, int size) const {
     const Imf::Header& header = file->header();
     const Window data = ToWindow(header.dataWindow());
@@ -154,8 +154,8 @@ std::vector<uint8_t> ExrBandReader::ReadChunk(int y) {
 }
 
 void ExrBandReader::DecodeAll() {
-  // OpenEXR's reader makes room for what the header says, and leaves as it is what short chunks do
-  // not fill.
+  // OpenEXR's reader allocates what the header says, and leaves memory uninitialised that short
+  // chunks do not fill.
   CheckExrChunks(state_->path, 0, FileBytes(state_->path));
   const Imf::Header& header = state_->file->header();
   const Window data = ToWindow(header.dataWindow());

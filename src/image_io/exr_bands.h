@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// image_io/exr_bands.h: EXR files that each hold a band of a picture's rows, and the file that they
-// make together: chunks are copied as they are, never decoded.
+// image_io/exr_bands.h: reads EXR files that each hold a band of a picture's rows, and joins them
+// to one file. Chunks are copied without decoding them.
 #pragma once
 
 #include <cstdint>
@@ -13,29 +13,29 @@
 
 namespace nacre {
 
-// What ExrWriter was told when it wrote the file.
+// The settings with which ExrWriter wrote the file.
 struct ExrBandHeader {
   ExrHeader header;
   Compression compression = Compression::kZip;
 };
 
-// One file, open. One thread at a time. All functions throw Error (kBadInput).
+// An open file, to be used by one thread at a time. All functions throw Error (kBadInput).
 class ExrBandReader {
  public:
-  // Throws for a file that is missing, malformed, or of a kind that ExrWriter does not write.
+  // Throws for a file that is missing, malformed, or not like those that ExrWriter writes.
   explicit ExrBandReader(const std::string& path);
   ~ExrBandReader();
 
   ExrBandHeader ReadHeader() const;
 
-  // The compressed bytes of the chunk that begins at row `y`. Throws if it is not in the file.
+  // The compressed bytes of the chunk that begins at row `y`. Throws if the file does not have it.
   std::vector<uint8_t> ReadChunk(int y);
 
-  // Decodes every sample: throws if any chunk is not what the header says. Bits that flipped where
-  // a compression keeps no check of its own stay unnoticed: CheckExrChecksum notices them.
+  // Decodes every sample. Throws if any chunk contradicts the header. Flipped bits remain unnoticed
+  // if the compression has no checksum; CheckExrChecksum finds them.
   void DecodeAll();
 
-  // Rows y .. y + rows - 1 of a channel each, decoded to floats.
+  // Decodes rows y .. y + rows - 1 of the named channels to floats, one plane for each channel.
   void ReadRows(int y, int rows, const std::vector<std::string>& channels,
                 std::vector<std::vector<float>>* planes);
 
@@ -44,17 +44,18 @@ class ExrBandReader {
   std::unique_ptr<State> state_;
 };
 
-// A file being put together from bands, from the top down. Throws Error: kCannotWrite as ExrWriter
-// does.
+// Writes a file that is joined from bands, from the top down. Throws Error: kCannotWrite as
+// ExrWriter does.
 class ExrBandWriter {
  public:
   ExrBandWriter(const std::string& path, const ExrBandHeader& header);
-  // Without Finish, nothing remains of the file.
+  // If Finish was not called, no file remains.
   ~ExrBandWriter();
 
   void WriteChunk(int y, const std::vector<uint8_t>& bytes);
 
-  // After the last chunk: the file appears, once it has reached the disk: tiles are deleted for it.
+  // To be called after the last chunk. The file appears under its name once it has reached the
+  // disk, because its tiles are deleted then.
   void Finish();
 
  private:

@@ -21,8 +21,9 @@ namespace {
 
 constexpr size_t kDigits = sizeof(kNoExrChecksum) - 1;
 
-// Where the digits stand in the file; nothing if the header has no such attribute. Of another type
-// or length they stand where no right ones can: at 0, in the magic number.
+// The offset of the digits in the file; nullopt if the header has no such attribute. If the
+// attribute has another type or length, 0, the offset of the magic number, where no valid digits
+// can be.
 std::optional<uint64_t> FindDigits(std::ifstream& file) {
   constexpr std::streamoff kFirstAttribute = 8;  // after the magic number and the version
   file.seekg(kFirstAttribute);
@@ -39,7 +40,7 @@ std::optional<uint64_t> FindDigits(std::ifstream& file) {
   return std::nullopt;
 }
 
-// The kernel then has to ask the disk again for pages that are there already.
+// Drops the file from the kernel's page cache, so that reading it reads the disk again.
 void ForgetCachedPages(const std::string& path) {
   const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return;
@@ -61,7 +62,7 @@ std::string ExrChecksumDigits(uint32_t crc) { return fmt::format("{:08x}", crc);
 
 ExrChecksum CheckExrChecksum(const std::string& path) {
   std::error_code error;
-  // Files of the kernel that say they are empty may be waited for: they are refused later.
+  // Kernel files that claim to be empty might block; they are refused later.
   if (!std::filesystem::is_regular_file(path, error) ||
       std::filesystem::file_size(path, error) == 0) {
     return ExrChecksum::kNone;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// image_io/exr_checksum.h: the checksum in the header of every EXR file that nacre writes, by which
-// a single flipped bit is noticed that no decoder would notice.
+// image_io/exr_checksum.h: the checksum in the header of every EXR file that nacre writes. It
+// reveals a single flipped bit that no decoder would notice.
 //
-// The attribute nacre:checksum is a text of eight hexadecimal digits: the CRC-32 (zlib's, gzip's
-// and PNG's) of all bytes of the file, its own digits taken as zeros. It depends on nothing but the
-// file's content, so equal pictures still make equal files.
+// The attribute nacre:checksum is a string of eight hexadecimal digits: the CRC-32 (of zlib, gzip
+// and PNG) of all bytes of the file, with these digits replaced by zeros. It depends on nothing but
+// the file's content, so equal pictures still make equal files.
 #pragma once
 
 #include <cstdint>
@@ -14,24 +14,24 @@
 namespace nacre {
 
 inline constexpr char kExrChecksumAttribute[] = "nacre:checksum";
-// What stands in the attribute's place while the checksum is computed.
+// The value of the attribute while the checksum is computed.
 inline constexpr char kNoExrChecksum[] = "00000000";
 
-// The CRC-32 of bytes that follow those of `crc`; 0 for the first.
+// Extends the CRC-32 `crc` of earlier bytes, 0 at first, by `bytes`.
 uint32_t Crc32(uint32_t crc, std::span<const uint8_t> bytes);
-// Of what `crc` is of and `length` bytes more, whose own is `next`.
+// The CRC-32 of bytes whose checksum is `crc`, followed by `length` bytes whose checksum is `next`.
 uint32_t CombineCrc32(uint32_t crc, uint32_t next, uint64_t length);
 
 std::string ExrChecksumDigits(uint32_t crc);
 
 enum class ExrChecksum {
-  kNone,   // the header has none that could be found: not nacre's, older than it, or damaged
-  kRight,  // the file is what was written
-  kWrong,  // it is not
+  kNone,   // the header has no valid one: not written by nacre, by an older nacre, or damaged
+  kRight,  // the file is unchanged since it was written
+  kWrong,  // the file has changed
 };
 
-// Reads all of the file, from its disk where the system has only a copy of that in memory. Files
-// that cannot be read have no checksum.
+// Reads the whole file, from disk if the system has only cached it in memory. A file that cannot be
+// read gives kNone.
 ExrChecksum CheckExrChecksum(const std::string& path);
 
 }  // namespace nacre

@@ -33,8 +33,8 @@ std::vector<uint8_t> CompressZip(std::span<const uint16_t> words, int deflate_le
   return {bytes.begin(), bytes.end()};
 }
 
-// OpenEXR's C++ library compresses for whole files only, and its C library 3.1 has no DWAA
-// encoder: so it writes the chunk to a small file in memory, and the chunk is read from there.
+// OpenEXR's C++ library compresses only whole files, and version 3.1 of its C library cannot encode
+// DWAA. So this writes the chunk as a small file in memory, and reads it back from there.
 std::vector<uint8_t> CompressByLibrary(const ExrLayout& layout, Compression compression,
                                        std::span<const uint16_t> words) {
   const int rows = static_cast<int>(words.size() / layout.row_words);

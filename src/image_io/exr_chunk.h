@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// image_io/exr_chunk.h: one chunk of an EXR file, compressed. Any thread.
+// image_io/exr_chunk.h: compresses one chunk of an EXR file. May be called from any thread.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,11 @@
 
 namespace nacre {
 
-// ZIP and ZIPS: split, predicted and deflated; or the bytes as they are where that is not shorter.
+// ZIP and ZIPS: splits, predicts and deflates; or returns the bytes unchanged if that is not
+// shorter.
 std::vector<uint8_t> CompressZip(std::span<const uint16_t> words, int deflate_level);
 
-// By OpenEXR itself, for compressions that are not only deflate: `words` are whole rows.
+// Compresses by OpenEXR, for PIZ and DWAA. `words` are whole rows.
 std::vector<uint8_t> CompressByLibrary(const ExrLayout& layout, Compression compression,
                                        std::span<const uint16_t> words);
 

@@ -24,13 +24,14 @@ namespace {
   throw Error(ExitCode::kBadInput, path, "cannot be read as EXR: " + what);
 }
 
-// A file that is open for reading chunks. The library's messages are in its codes, too.
+// A file opened for reading chunks. The library also reports errors in its result codes, so its
+// message handler does nothing.
 class ChunkFile {
  public:
   explicit ChunkFile(const std::string& path) : path_(path) {
     exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
     initializer.error_handler_fn = [](exr_const_context_t, exr_result_t, const char*) {};
-    // A table of chunks with holes is that of a file whose writer was stopped.
+    // A chunk table with holes means that the file's writer was stopped: do not rebuild it.
     initializer.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
     Check(exr_start_read(&context_, path.c_str(), &initializer), "its header");
   }
@@ -49,7 +50,8 @@ class ChunkFile {
   exr_context_t context_ = nullptr;
 };
 
-// Bytes that the zlib stream holds, at most limit + 1; 0 for a broken one.
+// The number of bytes that the zlib stream inflates to, limit + 1 if there are more; 0 for a broken
+// stream.
 uint64_t InflatedSize(std::span<const uint8_t> packed, uint64_t limit) {
   z_stream stream{};
   if (inflateInit(&stream) != Z_OK) throw std::bad_alloc();
@@ -68,8 +70,8 @@ uint64_t InflatedSize(std::span<const uint8_t> packed, uint64_t limit) {
   return status == Z_STREAM_END ? size : size > limit ? limit + 1 : 0;
 }
 
-// Bytes that OpenEXR's runs hold: -n and n + 1 bytes as they are, or n and one byte n + 1 times;
-// 0 if the last one is cut off.
+// The number of bytes that OpenEXR's run-length encoding decodes to: a code -n is followed by n
+// literal bytes, a code n by a byte that occurs n + 1 times. 0 if the last run is cut off.
 uint64_t RunsSize(std::span<const uint8_t> packed) {
   uint64_t size = 0;
   size_t i = 0;
@@ -83,7 +85,7 @@ uint64_t RunsSize(std::span<const uint8_t> packed) {
   return size;
 }
 
-// The other compressions fail by themselves on short data.
+// The size that a chunk decodes to. Other compressions detect short data themselves.
 uint64_t DecodedSize(int compression, std::span<const uint8_t> packed, uint64_t expected) {
   switch (compression) {
     case EXR_COMPRESSION_NONE:
@@ -98,7 +100,8 @@ uint64_t DecodedSize(int compression, std::span<const uint8_t> packed, uint64_t 
   }
 }
 
-// Inflates a chunk, faster than zlib. False if it is not whole, which InflatedSize tells in words.
+// Inflates a chunk, faster than zlib does. Returns false if it is not whole; InflatedSize finds out
+// why.
 bool InflateWhole(std::span<const uint8_t> packed, std::span<uint8_t> unpacked) {
   inflate_state state;
   isal_inflate_init(&state);
@@ -112,11 +115,12 @@ bool InflateWhole(std::span<const uint8_t> packed, std::span<uint8_t> unpacked) 
 
 // Undoes SplitAndPredict (image_io/zip.h). `bytes` holds 2 * words.size().
 void JoinPredicted(std::span<const uint8_t> bytes, std::span<uint16_t> words) {
-  constexpr uint32_t kOffset = 128;  // modulo 256 the same up and down
+  constexpr uint32_t kOffset = 128;  // adding and subtracting it are the same modulo 256
   const size_t count = words.size();
   const uint8_t* const even = bytes.data();
   const uint8_t* const odd = even + count;
-  // The odd bytes go on where the even ones end: with their sum both run side by side.
+  // The odd bytes continue the prediction where the even ones end: starting them from the sum of
+  // the even bytes allows decoding both side by side.
   uint32_t sum = 0;
   for (size_t i = 0; i < count; ++i) sum += even[i];
   uint32_t low = kOffset;
@@ -149,14 +153,14 @@ void CheckChunk(const std::string& path, const ChunkFile& file, int part,
             fmt::format("{} holds {} bytes of samples, not {}", name, size, chunk.unpacked_size));
 }
 
-// A part's chunks of lines.
+// The chunks of a part that consists of scanlines.
 struct Lines {
   int64_t first = 0, rows_per_chunk = 1, height = 0;
 
   int64_t chunk_count() const { return (height + rows_per_chunk - 1) / rows_per_chunk; }
 };
 
-// Calls check(chunk, name) for each chunk of lines, in parallel.
+// Calls check(chunk, name) for each chunk of scanlines, in parallel.
 void ForEachChunk(
     const ChunkFile& file, int part, const Lines& lines,
     const std::function<void(const exr_chunk_info_t& chunk, const std::string& name)>& check) {
@@ -169,7 +173,7 @@ void ForEachChunk(
   });
 }
 
-// Every chunk has 8 bytes in the file's table of them.
+// Throws if the file is shorter than its chunk table, which takes 8 bytes per chunk.
 void CheckTable(const std::string& path, uint64_t file_bytes, int64_t columns, int64_t rows) {
   if (static_cast<double>(columns) * static_cast<double>(rows) * 8 >
       static_cast<double>(file_bytes)) {
@@ -209,7 +213,7 @@ void CheckExrChunks(const std::string& path, int part, uint64_t file_bytes) {
         exr_get_tile_descriptor(file.get(), part, &tile_width, &tile_height, &levels, &rounding),
         "tiles");
     if (tile_width == 0 || tile_height == 0) FailChunk(path, "its tiles are empty");
-    // The reader keeps a row of tiles, and a tile.
+    // OpenEXR's reader keeps a row of tiles, and a tile.
     CheckSampleCount(path + ": tiles", file_bytes, std::max<int64_t>(width, tile_width),
                      tile_height, channel_count);
     const int64_t columns = (width + tile_width - 1) / tile_width;
@@ -252,7 +256,7 @@ bool DecodeExrLines(const std::string& path, int part, uint64_t file_bytes,
     HugeArray<uint8_t> packed(chunk.packed_size);
     file.Check(exr_read_chunk(file.get(), part, &chunk, packed.data()), name);
     HugeArray<uint16_t> words(chunk.unpacked_size / 2);
-    if (packed.size() == chunk.unpacked_size) {  // stored: deflate made it no shorter
+    if (packed.size() == chunk.unpacked_size) {  // stored: deflate did not make it shorter
       std::memcpy(words.data(), packed.data(), packed.size());
     } else {
       HugeArray<uint8_t> bytes(chunk.unpacked_size);

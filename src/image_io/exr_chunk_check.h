@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// image_io/exr_chunk_check.h: whether the chunks of an EXR file are whole, before OpenEXR's C++
-// reader sees them: it allocates what a header promises, and leaves samples uninitialised where a
-// chunk is too short or inflates to too little.
+// image_io/exr_chunk_check.h: checks that the chunks of an EXR file are complete, before OpenEXR's
+// C++ reader gets it: that allocates what a header promises, and leaves samples uninitialised where
+// a chunk is too short or inflates to too little.
 #pragma once
 
 #include <cstdint>
@@ -11,20 +11,21 @@
 
 namespace nacre {
 
-// Of a part that is neither deep nor subsampled, at full resolution. Throws Error (kBadInput) for
-// chunks that are missing, that reach beyond the file, or whose samples are not as many as the
-// header says; for chunks and rows of tiles of more samples than CheckSampleCount allows.
+// Checks the chunks of a part that is neither deep nor subsampled, at full resolution. Throws Error
+// (kBadInput) for chunks that are missing, reach beyond the end of the file, or do not hold as many
+// samples as the header says, and for chunks and rows of tiles with more samples than
+// CheckSampleCount allows.
 void CheckExrChunks(const std::string& path, int part, uint64_t file_bytes);
 
-// The samples of some rows as they stand in the file: row after row, channel after channel.
+// The samples of some rows in the file's layout: row by row, and channel by channel within a row.
 struct ExrChunkRows {
   int y = 0, rows = 0;
   std::span<const uint16_t> words;
 };
 
-// Checks the chunks likewise of a part of lines that nothing but deflate compresses, and calls
-// use() with what each holds, from any thread: inflated once, in parallel. Returns false for a part
-// of another kind, of which nothing is checked.
+// Checks the chunks of a part of scanlines that is compressed by ZIP or ZIPS, and calls use() with
+// the inflated contents of each, in parallel from several threads, so that chunks are inflated only
+// once. Returns false for other parts, which it does not check.
 bool DecodeExrLines(const std::string& path, int part, uint64_t file_bytes,
                     const std::function<void(const ExrChunkRows&)>& use);
 

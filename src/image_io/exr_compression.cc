@@ -19,7 +19,7 @@ struct CompressionForm {
   int chunk_rows;
 };
 
-// By Compression.
+// Indexed by Compression.
 constexpr CompressionForm kForms[] = {
     {"none", EXR_COMPRESSION_NONE, 1},  {"zip", EXR_COMPRESSION_ZIP, 16},
     {"zips", EXR_COMPRESSION_ZIPS, 1},  {"piz", EXR_COMPRESSION_PIZ, 32},
@@ -30,7 +30,7 @@ const CompressionForm& FormOf(Compression compression) {
   return kForms[static_cast<size_t>(compression)];
 }
 
-// The first compression whose form is as asked for.
+// The first compression whose form passes the test.
 template <class Test>
 std::optional<Compression> FindForm(const Test& test) {
   const auto* const found = std::find_if(std::begin(kForms), std::end(kForms), test);

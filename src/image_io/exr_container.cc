@@ -15,7 +15,7 @@
 namespace nacre {
 namespace {
 
-// The part that every call is about.
+// Files have a single part.
 constexpr int kPart = 0;
 
 exr_pixel_type_t ToCoreType(PixelType type) {
@@ -30,7 +30,7 @@ exr_pixel_type_t ToCoreType(PixelType type) {
   return EXR_PIXEL_FLOAT;
 }
 
-// EXR windows include their last pixel.
+// The last pixel of an EXR window is inclusive.
 exr_attr_box2i_t ToCoreWindow(const Window& window) {
   exr_attr_box2i_t box;
   box.min.x = window.x0;
@@ -47,7 +47,7 @@ exr_attr_m44f_t LibraryMatrix(const Imath::M44f& matrix) {
   return m44f;
 }
 
-// EXR 2's limit; longer names must be announced, and very old readers refuse them.
+// The limit of EXR 2; longer names must be flagged in the file, and very old readers refuse them.
 constexpr size_t kMaxShortName = 31;
 
 bool HasLongName(const ExrHeader& header) {
@@ -57,7 +57,7 @@ bool HasLongName(const ExrHeader& header) {
                              [](const auto& a) { return a.first.size() > kMaxShortName; });
 }
 
-// The library's messages are in its result codes too: it need not print.
+// Silences the library's messages, since its result codes tell the same.
 void Ignore(exr_const_context_t, exr_result_t, const char*) {}
 
 }  // namespace
@@ -70,7 +70,7 @@ ExrContainer::ExrContainer(const std::string& path, std::vector<uint8_t>* memory
   initializer.error_handler_fn = Ignore;
   initializer.user_data = this;
   initializer.write_fn = OnWrite;
-  // The name is informative only: with a write function the library opens and removes nothing.
+  // The name is only informative: with a write function, the library opens and removes no file.
   Check(exr_start_write(&context_, "output", EXR_WRITE_FILE_DIRECTLY, &initializer));
   try {
     WriteHeader(header, compression);
@@ -148,7 +148,8 @@ void ExrContainer::UpdateAttribute(const std::string& name, const ExrAttribute& 
 }
 
 size_t ExrContainer::FindAttribute(const std::string& name, const std::string& type) const {
-  // After the magic number and the version: name NUL type NUL size value, until an empty name.
+  // After the magic number and the version, the header repeats name NUL type NUL size value, up to
+  // an empty name.
   size_t place = 8;
   const auto take = [&] {
     std::string text(reinterpret_cast<const char*>(&header_[place]));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// image_io/exr_container.h: an EXR file around chunks that are compressed already.
-// Uses OpenEXR's C library, as exr_chunk_check.cc does.
+// image_io/exr_container.h: writes an EXR file from chunks that are compressed already, with
+// OpenEXR's C library.
 #pragma once
 
 #include <cstdint>
@@ -18,25 +18,25 @@
 
 namespace nacre {
 
-// A single-part scanline file with lines from the top down. One thread at a time.
+// A single-part scanline file, with rows from the top down. To be used by one thread at a time.
 class ExrContainer {
  public:
-  // Opens the file and writes the header. Throws Error: kCannotWrite as OutputFile does,
-  // kInternal for a header that OpenEXR refuses. With `memory` its bytes go there, and to no file.
+  // Opens the file and writes the header. Throws Error: kCannotWrite as OutputFile does, kInternal
+  // for a header that OpenEXR refuses. If `memory` is not null, the file is written there instead.
   ExrContainer(const std::string& path, std::vector<uint8_t>* memory, const ExrHeader& header,
                Compression compression);
   ~ExrContainer();
   ExrContainer(const ExrContainer&) = delete;
   ExrContainer& operator=(const ExrContainer&) = delete;
 
-  // The next chunk, whose first row is `y`.
+  // Writes the next chunk, whose first row is `y`.
   void WriteChunk(int y, std::span<const uint8_t> bytes);
 
-  // Gives an attribute of the header another value of the same type, int or float.
+  // Changes the value of an attribute in the header, keeping its type, int or float.
   void UpdateAttribute(const std::string& name, const ExrAttribute& value);
 
-  // After the last chunk: writes the table of chunks and the checksum (image_io/exr_checksum.h),
-  // and the file appears.
+  // To be called after the last chunk. Writes the chunk table and the checksum
+  // (image_io/exr_checksum.h); then the file appears under its name.
   void Finish(bool sync);
 
  private:
@@ -45,24 +45,24 @@ class ExrContainer {
   void WriteHeader(const ExrHeader& header, Compression compression);
   void SetAttributes(const ExrHeader& header);
   void Write(uint64_t offset, std::span<const uint8_t> bytes);
-  // Notes bytes of the table or the chunks for the checksum.
+  // Adds bytes of the chunk table or the chunks to the checksum.
   void Count(uint64_t offset, std::span<const uint8_t> bytes);
   void WriteChecksum();
-  // Where the value of an attribute stands in the file; 0 if there is none.
+  // The offset of an attribute's value in the file; 0 if there is none.
   size_t FindAttribute(const std::string& name, const std::string& type) const;
   // Throws unless `result` is success.
   void Check(exr_result_t result);
 
   std::string path_;
-  std::vector<uint8_t>* memory_;    // where the bytes go, or null:
-  std::optional<OutputFile> file_;  // they go there
+  std::vector<uint8_t>* memory_;    // where the bytes go; null:
+  std::optional<OutputFile> file_;  // to this file
   exr_context_t context_ = nullptr;
   bool in_header_ = true;
-  std::vector<uint8_t> header_;  // its bytes, written at once, kept for UpdateAttribute
-  std::vector<uint8_t> table_;   // the offsets of chunks, which stand between header and chunks
-  uint64_t chunks_begin_ = 0, chunks_end_ = 0;  // in the file
+  std::vector<uint8_t> header_;  // written at once, and kept for UpdateAttribute
+  std::vector<uint8_t> table_;   // the chunk table, which is between header and chunks
+  uint64_t chunks_begin_ = 0, chunks_end_ = 0;  // offsets in the file
   uint32_t chunks_crc_ = 0;
-  std::exception_ptr write_exception_;  // carried across the library's C frames
+  std::exception_ptr write_exception_;  // carries an exception through the library's C functions
 };
 
 }  // namespace nacre

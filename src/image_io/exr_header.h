@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// image_io/exr_header.h: what an EXR file says about itself, as the writer is told it.
+// image_io/exr_header.h: the contents of an EXR header, as given to the writer.
 #pragma once
 
 #include <cstdint>
@@ -16,18 +16,18 @@
 namespace nacre {
 
 struct ExrChannel {
-  std::string name;  // "R", "diffuse.G", "id.object"; each once
+  std::string name;  // "R", "diffuse.G", "id.object"; unique
   PixelType type = PixelType::kHalf;
 };
 
 using ExrAttribute = std::variant<int, float, std::string>;
 
-// The primaries are Rec. 709 always.
+// The header of a file to write. The primaries always are those of Rec. 709.
 struct ExrHeader {
   Window display;                    // the full frame
-  Window data;                       // the part in the file; not empty, anywhere
+  Window data;                       // the part in the file; not empty, but may lie anywhere
   std::vector<ExrChannel> channels;  // in the caller's order; the file sorts them by name
-  // OpenEXR's convention: row vectors, p_camera = p_world * world_to_camera.
+  // As in OpenEXR, these are for row vectors: p_camera = p_world * world_to_camera.
   std::optional<Imath::M44f> world_to_camera;
   std::optional<Imath::M44f> world_to_ndc;
   std::map<std::string, ExrAttribute> attributes;  // by name

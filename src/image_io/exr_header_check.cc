@@ -13,8 +13,8 @@
 namespace nacre {
 namespace {
 
-// Whether the file is as long as its tables of chunks, 8 bytes a chunk, which the C++ reader makes
-// room for.
+// Whether the file is at least as long as its chunk tables, 8 bytes per chunk, for which the C++
+// reader allocates memory.
 bool HasRoomForTables(exr_const_context_t context, const std::string& path) {
   int parts = 0;
   if (exr_get_count(context, &parts) != EXR_ERR_SUCCESS) return false;
@@ -28,9 +28,10 @@ bool HasRoomForTables(exr_const_context_t context, const std::string& path) {
   return chunks * sizeof(uint64_t) <= std::filesystem::file_size(path, error) && !error;
 }
 
-// OpenEXR's C++ reader makes room for an attribute of any size that the header tells, 2 GiB of text
-// where the file has 40 bytes. Its C library looks at the file's size first, and says so, but goes
-// on after it: any complaint counts.
+// The first error that OpenEXR's C library reports about the header. Its C++ reader allocates as
+// much memory as an attribute claims to have, 2 GiB of text in a file of 40 bytes. The C library
+// compares the size with that of the file and reports an error, but then continues; so any report
+// counts.
 exr_result_t FirstComplaint(const std::string& path) {
   exr_result_t complaint = EXR_ERR_SUCCESS;
   exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
@@ -50,7 +51,8 @@ exr_result_t FirstComplaint(const std::string& path) {
   return complaint != EXR_ERR_SUCCESS ? complaint : result;
 }
 
-// Whether the channels, a name and 16 bytes each, end with an empty name where the list does.
+// Whether a list of channels, which have a name and 16 bytes each, ends with an empty name exactly
+// at its end.
 bool EndsWhereItSays(std::string_view list) {
   constexpr size_t kDescription = 16;
   while (!list.empty()) {
@@ -62,15 +64,15 @@ bool EndsWhereItSays(std::string_view list) {
   return false;
 }
 
-// The C++ reader goes on where the names of channels end, not where their size says, and takes for
-// an attribute what lies there. Sizes are within the file here.
+// The C++ reader continues after the last channel's name instead of after the attribute's size, and
+// takes what is there for an attribute. Here, sizes have been checked to lie within the file.
 bool ChannelListsEnd(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   constexpr std::streamoff kMagic = 4;
   constexpr uint32_t kMultiPart = 0x1000;
   uint32_t version = 0;
   file.seekg(kMagic).read(reinterpret_cast<char*>(&version), sizeof(version));
-  bool after_header = false;  // a second empty name ends those of several parts
+  bool after_header = false;  // a second empty name ends the headers of a multi-part file
   std::string name, type, value;
   while (std::getline(file, name, '\0')) {
     if (name.empty()) {

@@ -47,7 +47,7 @@ namespace {
   throw Error(ExitCode::kBadInput, path, what, hint);
 }
 
-// Of every compression that a file may have; exr_compression.h knows those that nacre writes.
+// The name of any compression in a file; exr_compression.h knows only those that nacre writes.
 std::string FileCompressionName(Imf::Compression compression) {
   constexpr std::array<const char*, Imf::NUM_COMPRESSION_METHODS> kNames = {
       "none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"};
@@ -71,7 +71,7 @@ std::string NumbersText(const T* values, size_t count) {
   return fmt::format("{}", fmt::join(values, values + count, " "));
 }
 
-// The attribute's value as text if it is a TypedAttribute<T>.
+// Sets *text to the attribute's value if it is a TypedAttribute<T>; returns whether it is.
 template <typename T, typename Format>
 bool Describe(const Imf::Attribute& attribute, const Format& format, std::string* text) {
   const auto* typed = dynamic_cast<const Imf::TypedAttribute<T>*>(&attribute);
@@ -121,7 +121,7 @@ std::string AttributeText(const Imf::Attribute& attribute) {
   return fmt::format("<{}>", attribute.typeName());
 }
 
-// Why the part's samples are not read; "" if they are.
+// Why the part's samples cannot be read; "" if they can.
 std::string Refusal(const ImagePart& part, const Imf::Header& header) {
   if (header.hasType() && Imf::isDeepData(header.type())) return "is a deep image";
   if (part.channels.empty()) return "has no channels";
@@ -160,20 +160,20 @@ ImagePart DescribePart(const Imf::Header& header) {
   return part;
 }
 
-// Rows that are decoded together.
+// The number of rows that are decoded together.
 int BandRows(const Imf::Header& header) {
-  constexpr int kLeast = 32, kMost = 256;  // rows of the smallest bands, of DWAB's chunks
+  constexpr int kLeast = 32, kMost = 256;  // rows; the latter for DWAB, whose chunks have as many
   if (header.hasTileDescription()) return static_cast<int>(header.tileDescription().ySize);
   return header.compression() == Imf::DWAB_COMPRESSION ? kMost : kLeast;
 }
 
-// A channel to read, and what is wanted of it.
+// A channel to read, and where its samples go.
 struct WantedChannel {
   std::string name;
   SampleTarget target;
 };
 
-// Copies the samples [first, first + count) of a row of a channel.
+// Copies the samples [first, first + count) of a row of a channel to floats.
 void CopySamples(Imf::PixelType type, const uint16_t* row, size_t first, size_t count, float* to,
                  ptrdiff_t step) {
   for (size_t x = first; x < first + count; ++x, to += step) {
@@ -189,8 +189,8 @@ void CopySamples(Imf::PixelType type, const uint16_t* row, size_t first, size_t 
   }
 }
 
-// A part whose chunks hold lines that are deflated alone: ours, and those of most others. False:
-// it is none of them.
+// Reads a part of scanlines that is compressed by ZIP or ZIPS, as nacre's files and most others
+// are. Returns false, and reads nothing, if it is of another kind.
 bool ReadLines(const std::string& path, uint64_t file_bytes, const Imf::Header& header, int index,
                const Window& region, const std::vector<WantedChannel>& wanted) {
   const Window data = ToWindow(header.dataWindow());
@@ -238,7 +238,7 @@ void ReadPart(const std::string& path, uint64_t file_bytes, Imf::MultiPartInputF
   if (!part.isComplete()) Fail(path, "cannot be read as EXR: it is not complete");
   std::vector<std::vector<float>> rows(wanted.size());
   for (std::vector<float>& samples : rows) samples.resize(width * static_cast<size_t>(band));
-  // Chunks are counted from the data window's first row, and decoded once each.
+  // Bands are counted from the data window's first row, so that each chunk is decoded only once.
   const int first = data.y0 + (common.y0 - data.y0) / band * band;
   for (int y = first; y < common.y1; y += band) {
     const int end = std::min(y + band, data.y1);
@@ -263,7 +263,7 @@ void ReadPart(const std::string& path, uint64_t file_bytes, Imf::MultiPartInputF
   }
 }
 
-// Calls body(), and makes Errors of the library's exceptions.
+// Calls body(), and turns the library's exceptions into Error.
 template <typename Body>
 void WithLibrary(const std::string& path, const Body& body) {
   try {
@@ -288,7 +288,7 @@ OpenedExr OpenParts(const std::string& path) {
   OpenedExr opened;
   WithLibrary(path, [&] {
     constexpr int kNoThreads = 0;
-    // The table of chunks may be incomplete here: ReadPart checks it before it decodes.
+    // The chunk table may be incomplete at this point: ReadPart checks it before decoding.
     opened.file = std::make_unique<Imf::MultiPartInputFile>(path.c_str(), kNoThreads);
     for (int i = 0; i < opened.file->parts(); ++i) {
       opened.parts.push_back(DescribePart(opened.file->header(i)));
@@ -297,7 +297,7 @@ OpenedExr OpenParts(const std::string& path) {
   return opened;
 }
 
-// The index of the only part that is read, or -1 for all of them.
+// The index of the part to read, or -1 for all of them.
 int ChoosePart(const std::string& path, const std::vector<ImagePart>& parts,
                const std::string& name) {
   if (name.empty()) return parts.size() == 1 ? 0 : -1;
@@ -330,7 +330,7 @@ ImageFile OpenExr(const std::string& path, const std::string& part) {
   image.file_bytes = FileBytes(path);
   image.parts = std::move(opened.parts);
   image.has_several = only < 0;
-  // The part and the own name of each channel of the image.
+  // For each channel of the image, its part, and its name in that part.
   std::vector<std::pair<int, std::string>> sources;
   for (int i = 0; i < static_cast<int>(image.parts.size()); ++i) {
     if (only >= 0 && i != only) continue;
@@ -360,7 +360,7 @@ ImageFile OpenExr(const std::string& path, const std::string& part) {
   if (int64_t{all.x1} - all.x0 > kFar || int64_t{all.y1} - all.y0 > kFar) {
     Fail(path, "its parts are too far from each other", "choose one; nacre info lists them");
   }
-  // An attribute that all parts share.
+  // The attribute is shared by all parts.
   const auto& shared = image.parts.front().metadata;
   if (const auto found = shared.find("chromaticities"); found != shared.end()) {
     image.header.metadata["chromaticities"] = found->second;

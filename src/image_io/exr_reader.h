@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// image_io/exr_reader.h: EXR files, by OpenEXR.
+// image_io/exr_reader.h: reads EXR files with OpenEXR.
 #pragma once
 
 #include <string>
@@ -9,15 +9,16 @@
 
 namespace nacre {
 
-// The scanline and tiled parts of a file (at full resolution, if they have several): all channels
-// as floats, ids too, and the headers' attributes as text. Deep parts and parts with subsampled
-// channels (luminance and chroma) have a refusal; if it would be read, it is thrown.
+// Opens the scanline and tiled parts of a file (at full resolution, if they have several): all
+// channels as floats, ids included, and the headers' attributes as text. Deep parts and parts with
+// subsampled channels (luminance and chroma) have a refusal, which is thrown if such a part would
+// be read.
 //
-// Damage is refused: chunks that are missing, shorter or longer than what they hold, and those
-// that do not decode. Beside the caller's samples, reading takes memory for a chunk or a row of
-// tiles, which are held to the samples that an image may have.
+// Damaged files are refused: missing chunks, chunks of a wrong size, and chunks that cannot be
+// decoded. Besides the caller's samples, reading takes memory for a chunk or a row of tiles, which
+// is limited like the samples of an image.
 //
-// OpenImage says what `part` is, and which errors there are.
+// `part` and the errors are explained at OpenImage.
 ImageFile OpenExr(const std::string& path, const std::string& part = {});
 
 std::vector<ImagePart> DescribeExr(const std::string& path);

@@ -14,7 +14,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "EXR files are little-endian");
 
-// Rows of the largest chunk (PIZ, DWAA), whose size the format keeps in 31 bits.
+// Rows of the largest chunks (PIZ, DWAA). The format stores the size of a chunk in 31 bits.
 constexpr size_t kMaxChunkRows = 32;
 
 uint32_t ToId(float value) {
@@ -23,7 +23,7 @@ uint32_t ToId(float value) {
   return value < kTooLarge ? static_cast<uint32_t>(value) : std::numeric_limits<uint32_t>::max();
 }
 
-// One row of one channel.
+// Converts one row of one channel.
 SampleCounts PackRow(PixelType type, const float* in, size_t width, uint16_t* words) {
   switch (type) {
     case PixelType::kHalf:

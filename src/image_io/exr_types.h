@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// image_io/exr_types.h: OpenEXR's windows and pixel types as nacre's.
+// image_io/exr_types.h: converts OpenEXR's windows and pixel types to nacre's.
 #pragma once
 
 #include <Imath/ImathBox.h>
@@ -9,7 +9,7 @@
 
 namespace nacre {
 
-// EXR windows include their last pixel.
+// The last pixel of an EXR window is inclusive.
 inline Window ToWindow(const Imath::Box2i& box) {
   return {box.min.x, box.min.y, box.max.x + 1, box.max.y + 1};
 }

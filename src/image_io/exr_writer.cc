@@ -20,7 +20,7 @@
 namespace nacre {
 namespace {
 
-// zlib's own default for --small: 9 takes twice as long for a hundredth.
+// zlib's default is used for --small: level 9 takes twice as long to save one per cent.
 constexpr int kSmallExrLevel = 6;
 
 struct Chunk {
@@ -28,13 +28,13 @@ struct Chunk {
   std::vector<uint8_t> bytes;
 };
 
-// What is written at once: the chunks of one strip, or the one chunk of two strips.
+// A unit of writing: the chunks of one strip, or the one chunk of two strips.
 using Chunks = std::vector<Chunk>;
 
-// A chunk of two strips while its rows come in.
+// A chunk of two strips, before both have come.
 struct Gathered {
   std::vector<uint16_t> words;
-  std::set<int> strips;  // rows they start at
+  std::set<int> strips;  // the first rows of the strips that have come
   int rows = 0;
 };
 
@@ -62,7 +62,7 @@ struct ExrWriter::State {
     const int rows = unit_rows();
     return static_cast<size_t>((data.height() + rows - 1) / rows);
   }
-  // Rows of what is written at once: a strip, or the strips of a chunk.
+  // The rows of a unit of writing.
   int unit_rows() const { return std::max(kStripRows, RowsPerChunk(options.compression)); }
   Chunks CompressStrip(const StripView& strip, std::span<const uint16_t> words) const;
   void Gather(const StripView& strip, std::span<const uint16_t> words);
@@ -103,7 +103,7 @@ Chunks ExrWriter::State::CompressStrip(const StripView& strip,
   return chunks;
 }
 
-// Chunks of two strips: whoever brings the second compresses both.
+// For chunks of two strips: the thread that brings the second strip compresses both.
 void ExrWriter::State::Gather(const StripView& strip, std::span<const uint16_t> words) {
   const int y = strip.y - data.y0;
   const int first_row = y / unit_rows() * unit_rows();

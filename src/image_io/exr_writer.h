@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// image_io/exr_writer.h: EXR files written strip by strip while the picture is being rendered.
+// image_io/exr_writer.h: writes EXR files strip by strip while the picture is being rendered.
 #pragma once
 
 #include <cstdint>
@@ -18,37 +18,38 @@ namespace nacre {
 struct ExrOptions {
   Compression compression = Compression::kZip;
   bool small = false;         // ZIP and ZIPS: smaller and several times slower
-  bool reproducible = false;  // ZIP and ZIPS: equal pictures make equal chunks, some times slower
-  bool sync = false;          // Finish returns when the file has reached the disk
+  bool reproducible = false;  // ZIP and ZIPS: equal pictures make equal chunks, which is slower
+  bool sync = false;          // Finish returns only when the file has reached the disk
 };
 
-// A single-part scanline file. Strips are compressed in the threads that bring them and written
-// in order. All functions throw Error: kCannotWrite when the file cannot be written, kInternal
-// when they are called wrongly.
+// Writes a single-part scanline file. Strips are compressed in the threads that bring them, and
+// written in order. All functions throw Error: kCannotWrite when the file cannot be written,
+// kInternal when they are called wrongly.
 class ExrWriter {
  public:
-  // Opens the file and writes its header: call before rendering.
+  // Opens the file and writes its header; to be called before rendering, to find errors early.
   ExrWriter(const std::string& path, const ExrHeader& header, const ExrOptions& options = {});
-  // The same bytes into `bytes`, which is empty, and into no file.
+  // Writes the file to `bytes`, which must be empty, instead of to disk.
   ExrWriter(std::vector<uint8_t>* bytes, const ExrHeader& header, const ExrOptions& options = {});
-  // Without Finish, nothing remains of the file.
+  // If Finish was not called, no file remains.
   ~ExrWriter();
 
-  // Strips of kStripRows rows counted from the data window's top, each once, in any order, from
-  // any thread, several at once.
+  // Adds a strip: kStripRows rows, counted from the top of the data window, in the last strip
+  // perhaps fewer. Each strip must come once, in any order, from any thread; calls may be
+  // concurrent.
   void WriteStrip(const StripView& strip);
 
-  // All strips of a picture that is there, in several threads: a plane for each channel.
+  // Writes all strips of a complete picture, on several threads. There is a plane for each channel.
   void WriteAll(const std::vector<const float*>& planes);
 
-  // Gives an attribute of ExrHeader::attributes another value of the same type, int or float:
-  // for what is only known at the end, such as the render time.
+  // Changes the value of an attribute in ExrHeader::attributes, keeping its type, int or float. For
+  // values that are known only at the end, such as the render time.
   void UpdateAttribute(const std::string& name, const ExrAttribute& value);
 
-  // After the last strip has been written: the file appears.
+  // To be called after the last strip has been written. Then the file appears under its name.
   void Finish();
 
-  // Samples so far that the file does not hold as computed, or that should not exist.
+  // The number of samples so far that the file does not hold exactly, or that are not finite.
   SampleCounts counts() const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// image_io/fail_to_read.h: the error that readers of images share.
+// image_io/fail_to_read.h: the error that all readers of images throw.
 #pragma once
 
 #include <string>

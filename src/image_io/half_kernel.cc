@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // image_io/half_kernel.cc: FloatToHalf and CountNonfinite of image_io/half.h.
 //
-// In integers, on every target: Highway's conversion to half truncates on the targets without
-// F16C, and on those with it the clamp and the counts take most of the time anyway.
+// All targets use integer arithmetic. Highway's conversion to half truncates on targets without
+// F16C; on those with it, the clamping and counting dominate the time anyway.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "image_io/half_kernel.cc"
 #include "hwy/foreach_target.h"
@@ -18,13 +18,13 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Bits of floats.
+// Bit patterns of floats.
 constexpr int32_t kInfinityBits = 0x7f800000;
 constexpr int32_t kMaxHalfBits = 0x477fe000;          // 65504
 constexpr int32_t kMinNormalHalfBits = 0x38800000;    // 2^-14
 constexpr int32_t kHalfBits = 0x3f000000;             // 0.5
 constexpr int32_t kQuietNanBits = 0x47c00000;         // 2^16 * 1.5: becomes 0x7e00 below
-constexpr int32_t kExponentShift = (127 - 15) << 23;  // between the two formats' biases
+constexpr int32_t kExponentShift = (127 - 15) << 23;  // the difference between the exponent biases
 
 template <class VI, class DI>
 HWY_INLINE void CountNonfinitePacket(DI di, VI magnitude, SampleCounts* counts) {
@@ -52,13 +52,13 @@ HWY_INLINE void ConvertPacket(D d, const float* in, uint16_t* out, SampleCounts*
     magnitude = hn::IfThenElse(nan, hn::Set(di, kQuietNanBits), magnitude);
   }
 
-  // Normal halves: 13 bits fall off. Adding just under half of the last place kept, and one more
-  // if that place is odd, rounds to nearest even; a carry runs into the exponent as it should.
+  // Normal halves lose 13 bits. Adding just under half of the last kept place, and one more if that
+  // place is odd, rounds to nearest even; a carry correctly increments the exponent.
   const auto odd = hn::And(hn::ShiftRight<13>(magnitude), hn::Set(di, 1));
   const auto rounding = hn::Set(di, 0xfff - kExponentShift);
   const auto normal = hn::ShiftRight<13>(hn::Add(hn::Add(magnitude, rounding), odd));
-  // Denormal halves are multiples of 2^-24, the last place of floats in [1/2, 1): the addition
-  // rounds.
+  // Denormal halves are multiples of 2^-24, which is the last place of floats in [1/2, 1): adding
+  // 1/2 rounds to it.
   const auto sum = hn::Add(hn::BitCast(d, magnitude), hn::Set(d, 0.5f));
   const auto denormal = hn::Sub(hn::BitCast(di, sum), hn::Set(di, kHalfBits));
 
@@ -73,7 +73,7 @@ SampleCounts FloatToHalfT(const float* HWY_RESTRICT in, size_t count, uint16_t* 
   SampleCounts counts;
   size_t i = 0;
   for (; i + lanes <= count; i += lanes) ConvertPacket(d, in + i, out + i, &counts);
-  // The arrays are the caller's and end where they end: the rest goes through a padded copy.
+  // The caller's arrays are not padded, so the rest goes through a padded copy.
   const size_t rest = count - i;
   if (rest != 0) {
     float padded[HWY_MAX_BYTES / sizeof(float)] = {};

@@ -26,7 +26,7 @@ namespace nacre {
 namespace {
 
 constexpr int kLargestSide = 65536;
-// Rows of other widths are never coded run by run.
+// kShortestCoded and kLongestCoded limit the width of rows that are run-length encoded.
 constexpr int kRowsAtATime = 16;
 constexpr int kShortestCoded = 8, kLongestCoded = 0x7fff;
 
@@ -35,10 +35,10 @@ constexpr int kShortestCoded = 8, kLongestCoded = 0x7fff;
   throw Error(ExitCode::kBadInput, path, what, hint);
 }
 
-// The file, byte by byte. Throws where it ends.
+// Reads the file byte by byte. Throws at its end.
 class HdrBytes {
  public:
-  // `buffered`: as many bytes as Peek will be asked for.
+  // `buffered`: the largest count that Peek will be called with.
   explicit HdrBytes(const std::string& path, size_t buffered = 0)
       : path_(path),
         file_(path, std::ios::binary),
@@ -48,7 +48,7 @@ class HdrBytes {
     if (next_ == end_) Fill();
     return static_cast<uint8_t>(buffer_[next_++]);
   }
-  // The next `count` bytes, which Skip takes; null if the file ends before.
+  // The next `count` bytes, which Skip consumes; null if the file ends before.
   const char* Peek(size_t count) {
     if (end_ - next_ < count) {
       std::copy(buffer_.begin() + next_, buffer_.begin() + end_, buffer_.begin());
@@ -58,7 +58,7 @@ class HdrBytes {
     return end_ - next_ >= count ? buffer_.data() + next_ : nullptr;
   }
   void Skip(size_t count) { next_ += count; }
-  // How many have been taken.
+  // The number of bytes consumed.
   uint64_t position() const { return read_ - (end_ - next_); }
   std::string Line() {
     constexpr size_t kLongest = 1 << 16;
@@ -92,16 +92,16 @@ class HdrBytes {
 };
 
 struct HdrHeader {
-  int width = 0, height = 0;  // of the image that is seen
+  int width = 0, height = 0;  // after applying the orientation
   Orientation orientation;
-  Vec3d exposure{1, 1, 1};  // that pixels were multiplied by
+  Vec3d exposure{1, 1, 1};  // the factor that pixels were multiplied by
   double pixel_aspect = 1;  // height of a pixel over its width
   bool is_xyz = false;      // pixels are X, Y and Z, whatever PRIMARIES says
   std::map<std::string, std::string> variables;
 };
 
-// "-Y HEIGHT +X WIDTH" and its siblings: the axis along which rows follow each other, then that of
-// a row. Y grows upwards: -Y is a row below the one before.
+// Parses "-Y HEIGHT +X WIDTH" and its seven variants: the axis along which rows follow each other,
+// then that within a row. Y grows upwards, so -Y means that rows go from the top down.
 bool ParseResolution(std::string_view line, HdrHeader* header) {
   const auto axis = [&](char* sign, char* name, int* size) {
     while (line.starts_with(' ')) line.remove_prefix(1);
@@ -129,19 +129,20 @@ bool ParseResolution(std::string_view line, HdrHeader* header) {
   return true;
 }
 
-// Radiance's own primaries, whose white is that of equal energy. Files that name none have these
-// in Radiance and Rec. 709's everywhere else, and both are taken as the latter: the red and blue
-// are the same, and the greens 0.01 apart.
+// Radiance's own primaries, with the equal-energy white. Files without PRIMARIES have these in
+// Radiance, but Rec. 709's everywhere else. Both are read as Rec. 709: red and blue are the same,
+// and the greens differ by 0.01.
 const Primaries kRadiancePrimaries = {{.640, .330}, {.290, .600}, {.150, .060}, {1 / 3., 1 / 3.}};
 
-// What ra_xyze -r makes of the XYZ of a file, whose Y is in lumens a steradian and square metre:
-// radiance by the 179 lumens a watt of white light (WHTEFFICACY), in Radiance's own primaries.
+// Converts XYZ to radiance as ra_xyze -r does. Y is in lumens per steradian and square metre: it is
+// divided by the 179 lumens per watt of white light (WHTEFFICACY). The result is in Radiance's own
+// primaries.
 Imath::M33d RadianceFromXyz() {
   constexpr double kWhiteEfficacy = 179;
   return XyzFromRgb(kRadiancePrimaries).inverse() * (1 / kWhiteEfficacy);
 }
 
-// A line "NAME=value". Others are comments, and the commands that made the picture.
+// Reads a line "NAME=value". Other lines are comments, or the commands that made the picture.
 void ReadVariable(const std::string& path, const std::string& line, HdrHeader* header) {
   const size_t equals = line.find('=');
   if (equals == std::string::npos || line.starts_with('#') || line.starts_with('\t')) return;
@@ -158,7 +159,7 @@ void ReadVariable(const std::string& path, const std::string& line, HdrHeader* h
     }
     return *parsed;
   };
-  // Of a factor: FreeImage writes EXPOSURE=0 where it knows none.
+  // For factors: FreeImage writes EXPOSURE=0 if it does not know the exposure.
   const auto says_nothing = [&](size_t count) {
     const std::vector<double> all = numbers(count);
     return std::ranges::all_of(all, [](double number) { return number == 0; });
@@ -195,7 +196,7 @@ void ReadVariable(const std::string& path, const std::string& line, HdrHeader* h
     if (!(header->pixel_aspect > 0) || !std::isfinite(header->pixel_aspect)) {
       FailHdr(path, "cannot be read: PIXASPECT makes no factor above 0");
     }
-    // Of EXR it is how much wider than high pixels are, of Radiance the other way round.
+    // EXR has pixel width over height, Radiance the reciprocal.
     header->variables["pixelAspectRatio"] = fmt::format("{:.6g}", 1 / header->pixel_aspect);
     return;
   }
@@ -210,7 +211,7 @@ HdrHeader ReadHeader(const std::string& path, HdrBytes* bytes) {
   }
   if (header.is_xyz) header.variables.erase("chromaticities");
   std::string resolution;
-  while (resolution.empty()) resolution = bytes->Line();  // some have several empty lines
+  while (resolution.empty()) resolution = bytes->Line();  // some files have several empty lines
   if (!ParseResolution(resolution, &header)) {
     FailHdr(path, "cannot be read: its resolution is not like -Y 512 +X 1024, up to 65536 a side");
   }
@@ -221,11 +222,11 @@ using Row = std::vector<std::array<uint8_t, 4>>;
 
 class RowReader {
  public:
-  // `pixels`: all that come.
+  // `pixels`: how many the file should hold.
   RowReader(const std::string& path, HdrBytes* bytes, uint64_t pixels)
       : path_(path), bytes_(bytes) {
-    // A file of just as many bytes repeats nothing: there, (1, 1, 1, n) is a colour. Coded rows,
-    // which may come to that many, begin with their sign.
+    // A file whose size is exactly that of all pixels has no repetitions: in it, (1, 1, 1, n) is a
+    // colour. Run-length encoded rows, which may happen to have that size, begin with their marker.
     const bool as_many = FileBytes(path) == bytes->position() + 4 * pixels;
     const char* const first = bytes->Peek(2);
     repeats_nothing_ = as_many && first != nullptr && !(first[0] == 2 && first[1] == 2);
@@ -247,7 +248,7 @@ class RowReader {
   }
 
  private:
-  // Takes a row without codes and repetitions, if that is what comes.
+  // Takes a row that is neither run-length encoded nor has repetitions; returns whether it did.
   bool TakePlain(Row* row) {
     const size_t size = 4 * row->size();
     const char* const bytes = bytes_->Peek(size);
@@ -270,7 +271,7 @@ class RowReader {
     return pixel;
   }
 
-  // One component of a row: runs, of one byte or of many.
+  // Reads one component of a row: runs of one repeated byte, or of literal bytes.
   void ReadRuns(size_t component, Row* row) {
     for (size_t x = 0; x < row->size();) {
       const uint8_t code = bytes_->Next();
@@ -284,8 +285,8 @@ class RowReader {
     }
   }
 
-  // As it is; (1, 1, 1, n) says that the pixel before comes n times more, and the next such one
-  // straight after it has the higher 8 bits of that number.
+  // Reads pixels. (1, 1, 1, n) repeats the previous pixel n times; if another such marker follows
+  // immediately, it holds the next higher 8 bits of the count.
   void ReadPlain(std::array<uint8_t, 4> pixel, Row* row) {
     int shift = 0;
     for (size_t x = 0; x < row->size();) {
@@ -309,7 +310,7 @@ class RowReader {
   bool repeats_nothing_ = false;
 };
 
-// `size`: of the image when it was opened.
+// `size`: the size of the image when it was opened.
 void ReadPixels(const std::string& path, const Window& size, const Window& region,
                 std::span<const SampleTarget> targets) {
   HdrBytes bytes(path, size_t{4} * static_cast<size_t>(std::max(size.width(), size.height())));
@@ -318,13 +319,13 @@ void ReadPixels(const std::string& path, const Window& size, const Window& regio
   CheckUnchanged(path, header.width == size.width() && header.height == size.height());
   const auto width = static_cast<size_t>(placer.stored_width());
   RowReader reader(path, &bytes, static_cast<uint64_t>(header.width) * header.height);
-  std::array<double, 256> scales{};  // by exponent
+  std::array<double, 256> scales{};  // indexed by exponent
   for (int exponent = 1; exponent < 256; ++exponent) {
     scales[static_cast<size_t>(exponent)] = std::ldexp(1.0, exponent - (128 + 8));
   }
   const bool exposed = header.exposure != Vec3d(1, 1, 1);
   const Imath::M33d rgb_from_xyz = RadianceFromXyz();
-  // Rows follow one another in the file and are converted several at a time.
+  // Rows are read one by one, and converted several at a time.
   std::vector<Row> rows(kRowsAtATime, Row(width));
   std::vector<std::vector<float>> values(kRowsAtATime, std::vector<float>(3 * width));
   for (int first = 0; first < placer.stored_height(); first += kRowsAtATime) {
@@ -339,7 +340,7 @@ void ReadPixels(const std::string& path, const Window& size, const Window& regio
         Vec3d value(row[x][0] * scale, row[x][1] * scale, row[x][2] * scale);
         if (exposed) value /= header.exposure;
         if (header.is_xyz) value *= rgb_from_xyz;
-        // Colours outside of the gamut are clipped, as ra_xyze -r does, whose RGBE has no signs.
+        // Colours outside of the gamut are clipped, as ra_xyze -r does, since RGBE has no signs.
         for (int c = 0; c < 3; ++c)
           to[3 * x + static_cast<size_t>(c)] = static_cast<float>(std::max(value[c], 0.0));
       }
@@ -356,8 +357,9 @@ ImageFile OpenHdr(const std::string& path) {
   ImageFile image;
   image.path = path;
   image.file_bytes = FileBytes(path);
-  // A lower bound on the file's size, before anybody makes room for its pixels: the densest rows,
-  // of the oldest files, repeat a pixel 65536 times in 16 bytes, 4096 times a byte.
+  // Checks a lower bound on the file's size before memory for its pixels is allocated. The densest
+  // rows, those of the oldest files, repeat a pixel 65536 times in 16 bytes, or 4096 times per
+  // byte.
   const double pixels = static_cast<double>(header.width) * header.height;
   if (pixels / 4096 > static_cast<double>(image.file_bytes)) {
     FailHdr(path, "cannot be read: it is cut off");

@@ -8,17 +8,18 @@
 
 namespace nacre {
 
-// A Radiance file of RGBE pixels, row by row, each row as it is, run by run, or with the oldest
-// files' repetitions (Ward 1991, "Real Pixels", and RADIANCE's ray/src/common/color.c and
-// resolu.c). Channels R G B, metadata["transfer"] = "linear", the header's variables as metadata.
+// Opens a Radiance file of RGBE or XYZE pixels, whose rows may be plain, run-length encoded, or use
+// the repetitions of the oldest files (Ward 1991, "Real Pixels", and RADIANCE's
+// ray/src/common/color.c and resolu.c). Channels R G B, metadata["transfer"] = "linear", and the
+// header's variables as metadata.
 //
-// What the header says of the pixels is honoured: all eight orientations of the resolution string,
-// EXPOSURE and COLORCORR (each may stand several times and multiplies), which are divided out, so
-// that values are radiance. Refused are XYZE pixels, PRIMARIES other than Radiance's own and Rec.
-// 709's, and GAMMA other than 1. PIXASPECT, which multiplies as well, becomes pixelAspectRatio, its
-// reciprocal. FORMAT may be missing: RADIANCE's own programs take such files as RGBE, too.
+// The header is honoured: all eight orientations of the resolution string; EXPOSURE and COLORCORR
+// (each may occur several times, and multiplies) are divided out, so that values are radiance. XYZE
+// pixels are converted as by ra_xyze -r. PRIMARIES other than Radiance's own become the metadata
+// "chromaticities". PIXASPECT, which multiplies as well, becomes pixelAspectRatio, its reciprocal.
+// FORMAT may be missing: RADIANCE's own programs take such files as RGBE, too.
 //
-// Throws Error (kBadInput) for these, and for a broken file.
+// Throws Error (kBadInput) for GAMMA other than 1, and for a broken file.
 ImageFile OpenHdr(const std::string& path);
 
 }  // namespace nacre

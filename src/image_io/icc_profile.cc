@@ -14,9 +14,9 @@ namespace {
 using Profile = std::unique_ptr<void, decltype(&cmsCloseProfile)>;
 using Transform = std::unique_ptr<void, decltype(&cmsDeleteTransform)>;
 
-// A curve of gamma 2.2, which many profiles have in the place of sRGB's own (libpng takes it for
-// that, too), is .024 off at 1/8. Of other primaries (P3, Adobe's) and other curves (1, 1.8) it is
-// .07 and more.
+// The tolerance for a component. Many profiles have a gamma of 2.2 in place of sRGB's curve (libpng
+// accepts that, too), which differs by .024 at 1/8. Other primaries (P3, Adobe's) and other curves
+// (1, 1.8) differ by .07 and more.
 constexpr double kNear = 0.03;
 
 std::string DescriptionOf(cmsHPROFILE profile) {
@@ -25,7 +25,7 @@ std::string DescriptionOf(cmsHPROFILE profile) {
   return text[0] == '\0' ? "unnamed" : text.data();
 }
 
-// Whether colours of the profile are sRGB's of the same numbers.
+// Whether the profile's colours are, within kNear, those of sRGB with the same components.
 bool IsSrgb(cmsHPROFILE profile) {
   const bool is_grey = cmsGetColorSpace(profile) == cmsSigGrayData;
   if (!is_grey && cmsGetColorSpace(profile) != cmsSigRgbData) return false;
@@ -36,7 +36,7 @@ bool IsSrgb(cmsHPROFILE profile) {
                          INTENT_RELATIVE_COLORIMETRIC, cmsFLAGS_NOCACHE | cmsFLAGS_NOOPTIMIZE),
       &cmsDeleteTransform);
   if (!transform) return false;
-  // Greys and the edges of the cube of colours, in steps of an eighth.
+  // Tests greys and lines through the colour cube, in steps of an eighth.
   constexpr int kSteps = 8;
   for (int i = 0; i <= kSteps; ++i) {
     for (int color = 0; color < 8; ++color) {

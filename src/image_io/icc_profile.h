@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// image_io/icc_profile.h: whether an ICC profile is sRGB's.
+// image_io/icc_profile.h: whether an ICC profile describes sRGB.
 #pragma once
 
 #include <cstdint>
@@ -8,14 +8,14 @@
 
 namespace nacre {
 
-// What is said of an image's colours in its metadata, of a profile that is embedded in its file.
+// What the metadata of an image says about the profile that is embedded in its file.
 struct IccProfile {
-  std::string name;  // "sRGB", or how the profile calls itself
+  std::string name;  // "sRGB", or the profile's description
   bool is_srgb = false;
 };
 
-// By what the profile makes of colours, not by its name: there are hundreds of sRGB profiles, and
-// "Linear sRGB" is none. Of a grey one its curve counts.
+// Judges a profile by what it does to colours, not by its name: there are hundreds of sRGB
+// profiles, and "Linear sRGB" is none of them. A grey profile is judged by its curve.
 IccProfile ReadIccProfile(std::span<const uint8_t> profile);
 
 }  // namespace nacre

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// image_io/in_order.h: what several threads finish in any order, written in order.
+// image_io/in_order.h: writes in order what several threads finish in any order.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@
 
 namespace nacre {
 
-// A reorder buffer. Items 0, 1, 2, ... are handed to `write` in this order, one at a time, by
-// whichever thread brings the one that the others wait for; no thread waits for another.
+// A reorder buffer. Items 0, 1, 2, ... are passed to `write` in this order, one at a time, by
+// whichever thread adds the item that is next; no thread waits for another.
 template <typename Item>
 class InOrder {
  public:
@@ -22,14 +22,14 @@ class InOrder {
 
   explicit InOrder(WriteFunction write) : write_(std::move(write)) {}
 
-  // Any thread. Throws what `write` throws; no item is written after that.
+  // May be called from any thread. Throws what `write` throws; no item is written after that.
   void Add(size_t index, Item item) {
     std::unique_lock lock(mutex_);
     if (index < next_ || !waiting_.emplace(index, std::move(item)).second) {
       throw Error(ExitCode::kInternal, "", "strip " + std::to_string(index) + " came twice");
     }
     if (writing_) return;
-    writing_ = true;  // and stays so if write_ throws
+    writing_ = true;  // remains true if write_ throws
     while (const auto node = waiting_.extract(next_)) {
       lock.unlock();
       write_(node.key(), node.mapped());

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-// In this order: the library's header needs FILE.
+// In this order: the library's header needs FILE to be declared.
 #include <jerror.h>
 #include <jpeglib.h>
 
@@ -25,11 +25,12 @@
 namespace nacre {
 namespace {
 
-// A progressive file may have a scan for every bit of every coefficient, and a hostile one any
-// number, each of which goes through the whole image. libjpeg-turbo's own tests stop at as many.
+// A progressive file may have a scan for every bit of every coefficient, and a hostile file any
+// number of scans, each of which decodes the whole image. libjpeg-turbo's own tests have the same
+// limit.
 constexpr int kMostScans = 500;
 
-// What libjpeg calls and is called with; C only, as its errors leave by longjmp.
+// The state of libjpeg and its callbacks. C types only, since errors leave libjpeg by longjmp.
 struct Decoder {
   jpeg_decompress_struct jpeg{};
   jpeg_error_mgr errors{};
@@ -44,8 +45,8 @@ void OnError(j_common_ptr common) {
   std::longjmp(decoder->leave, 1);
 }
 
-// The library goes on after what it only warns of, with pixels that it made up; but for these,
-// which leave the pixels as they are.
+// After a warning, the library continues with made-up pixels, so warnings are errors here, except
+// those that do not affect pixels.
 void OnMessage(j_common_ptr common, int level) {
   if (level >= 0) return;
   const int code = common->err->msg_code;
@@ -67,7 +68,7 @@ struct DestroyDecoder {
   }
 };
 
-// A file that is open.
+// An open file.
 class JpegFile {
  public:
   explicit JpegFile(const std::string& path) : path_(path), file_(OpenToRead(path)) {
@@ -85,7 +86,7 @@ class JpegFile {
   bool is_grey() const { return header().out_color_space == JCS_GRAYSCALE; }
 
   Orientation orientation() const {
-    constexpr char kExif[] = "Exif\0";  // and a zero that ends it
+    constexpr char kExif[] = "Exif\0";  // with the final zero
     for (auto marker = header().marker_list; marker != nullptr; marker = marker->next) {
       if (marker->marker != JPEG_APP0 + 1 || marker->data_length < sizeof kExif) continue;
       if (std::memcmp(marker->data, kExif, sizeof kExif) != 0) continue;
@@ -95,7 +96,7 @@ class JpegFile {
     return {};
   }
 
-  // The embedded profile, or nothing.
+  // The embedded profile; empty if there is none.
   std::vector<uint8_t> profile() {
     JOCTET* bytes = nullptr;
     unsigned size = 0;
@@ -104,21 +105,21 @@ class JpegFile {
     return {bytes, bytes + size};
   }
 
-  // Starts to decode rows, of `width` pixels with `components` samples each.
+  // Starts to decode rows of `width` pixels with `components` samples each.
   void Start() {
     if (!TryStart()) FailWithMessage();
   }
   void ReadRow(uint8_t* row) {
     if (!TryReadRow(row)) FailWithMessage();
   }
-  // After the last row: what follows it must be whole.
+  // To be called after the last row. Checks that the rest of the file is whole.
   void Finish() {
     if (!TryFinish()) FailWithMessage();
   }
 
  private:
-  // Of functions that libjpeg may leave by longjmp, which must not pass over an object of C++ with
-  // a destructor: false if it does.
+  // libjpeg may leave these functions by longjmp, which must not skip the destructor of a C++
+  // object. They return false if it does.
   bool ReadHeader() {
     if (setjmp(decoder_->leave) != 0) return false;
     jpeg_decompress_struct& jpeg = decoder_->jpeg;
@@ -174,8 +175,9 @@ class JpegFile {
   std::unique_ptr<Decoder, DestroyDecoder> decoder_{new Decoder};
 };
 
-// Values of a row in [0, 1]. CMYK is stored as Adobe's programs do, 255 for no ink, by those that
-// leave their marker; else 0 for no ink. Colours are then what light is left of each ink by black.
+// Converts a row to values in [0, 1]. In CMYK files with Adobe's marker, 255 means no ink; in
+// others, 0 means no ink. The colour is the light that each ink leaves, multiplied by what black
+// leaves.
 void ToFloats(const jpeg_decompress_struct& jpeg, const std::vector<uint8_t>& codes,
               std::vector<float>* values) {
   if (jpeg.out_color_space != JCS_CMYK) {
@@ -218,7 +220,7 @@ ImageFile OpenJpeg(const std::string& path) {
     if (jpeg.is_grey()) break;
   }
   image.parts = {PartOf(image.header)};
-  // Opened again for each reading, which goes through the rows from the first one on.
+  // Opens the file again for each reading, which decodes the rows from the first one on.
   image.read = [path, orientation, is_grey = jpeg.is_grey(), data = image.header.data](
                    const Window& region, std::span<const SampleTarget> targets) {
     JpegFile file(path);

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <memory>
 
-// In this order: the library's header needs FILE.
+// In this order: the library's header needs FILE to be declared.
 #include <jpeglib.h>
 
 #include "base/error.h"
@@ -14,7 +14,7 @@
 namespace nacre {
 namespace {
 
-// What libjpeg calls and is called with; C only, as its errors leave by longjmp.
+// The state of libjpeg and its callbacks. C types only, since errors leave libjpeg by longjmp.
 struct Encoder {
   jpeg_compress_struct jpeg{};
   jpeg_error_mgr errors{};
@@ -38,8 +38,8 @@ struct DestroyEncoder {
   }
 };
 
-// False, and a message, where the library fails. It may leave by longjmp, which must not pass over
-// an object of C++ with a destructor.
+// Returns false, with a message, if the library fails. It may leave by longjmp, which must not skip
+// the destructor of a C++ object.
 bool TryEncode(const uint8_t* rgb8, unsigned width, unsigned height, int quality,
                Encoder* encoder) {
   if (setjmp(encoder->leave) != 0) return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// image_io/jpeg_writer.h: JPEG pictures in memory, made with libjpeg-turbo.
+// image_io/jpeg_writer.h: encodes JPEG pictures in memory with libjpeg-turbo.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 
 namespace nacre {
 
-// The bytes of a baseline JPEG file of the picture's sRGB codes, with colours at full resolution.
-// `quality`: 1 to 100, as libjpeg has it. No file is written anywhere. Throws Error (kInternal) for
-// a picture that JPEG cannot hold: no pixel, or more than 65500 on a side.
+// The bytes of a baseline JPEG file with the picture's sRGB codes, without chroma subsampling.
+// `quality` is libjpeg's, from 1 to 100. Nothing is written to disk. Throws Error (kInternal) for a
+// picture that JPEG cannot hold: without pixels, or with more than 65500 on a side.
 std::vector<uint8_t> EncodeJpeg(const Rgb8Picture& picture, int quality);
 
 }  // namespace nacre

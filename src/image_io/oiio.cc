@@ -41,9 +41,9 @@ Function Find(void* library, const char* name) {
   return reinterpret_cast<Function>(symbol);
 }
 
-// The file that this code was loaded from, libnacre.so or a program, as the kernel knows it: no
-// name that a caller chose (argv[0], a relative path of a library) and no working folder has a part
-// in it. Empty if it cannot be told.
+// The path of the file that this code was loaded from, libnacre.so or a program, as the kernel
+// knows it. So it depends neither on a name that a caller chose (argv[0], a relative path of a
+// library) nor on the working folder. Empty if it cannot be determined.
 fs::path OwnFile() {
   const auto own = reinterpret_cast<uintptr_t>(&OwnFile);
   std::ifstream maps("/proc/self/maps");
@@ -59,7 +59,7 @@ fs::path OwnFile() {
   return {};
 }
 
-// Whether this code is a program's own, and not libnacre.so's.
+// Whether this code is linked into a program, and not loaded from libnacre.so.
 bool IsInProgram() {
   Dl_info info{};
   link_map* map = nullptr;
@@ -68,9 +68,9 @@ bool IsInProgram() {
   return found != 0 && map != nullptr && map->l_name[0] == '\0';
 }
 
-// Where the module may be: beside the file of this code, as in a build tree, and where it is
-// installed as seen from there, so that an installation can be moved. Nowhere else: what is loaded
-// runs.
+// Where the module may be: beside the file of this code, as in a build tree, or where it is
+// installed relative to that file, so that an installation can be moved. It is not looked for
+// elsewhere, since loading it executes it.
 std::vector<fs::path> ModulePaths() {
   const fs::path folder = OwnFile().parent_path();
   if (!folder.is_absolute()) return {};
@@ -78,7 +78,7 @@ std::vector<fs::path> ModulePaths() {
   return {folder / kModuleName, folder / installed / kModuleName};
 }
 
-// Empty if there is none.
+// The path of the module; empty if there is none.
 fs::path ModulePath() {
   std::error_code error;
   for (const fs::path& path : ModulePaths()) {
@@ -89,7 +89,7 @@ fs::path ModulePath() {
 
 Module LoadModule() {
   const fs::path path = ModulePath();
-  // Never closed: OpenImageIO's libraries do not survive it.
+  // The module is never closed: OpenImageIO's libraries do not survive that.
   void* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) throw Error(ExitCode::kInternal, path, dlerror());
   return {Find<decltype(Module::open)>(library, "NacreOiioOpen"),
@@ -104,15 +104,15 @@ const Module& GetModule() {
 
 Window ToWindow(const int32_t (&window)[4]) { return {window[0], window[1], window[2], window[3]}; }
 
-// The next of several strings that stand one after the other.
+// Takes the next of several consecutive NUL-terminated strings.
 std::string Take(const char** strings) {
   std::string string = *strings;
   *strings += string.size() + 1;
   return string;
 }
 
-// Both windows of the image that is seen, at the origin: what a scanner writes as an image's place
-// on the page, or a camera as a part of its sensor, is no crop.
+// Moves both windows of the oriented image to the origin: an offset that a scanner writes for the
+// place on the page, or a camera for a part of its sensor, does not mean that the image is a crop.
 Image HeaderOf(const NacreOiioFile& source, const Orientation& orientation) {
   Image header;
   header.data = ToWindow(source.data_window);
@@ -138,14 +138,14 @@ Image HeaderOf(const NacreOiioFile& source, const Orientation& orientation) {
   return header;
 }
 
-// Closes itself.
+// An open file, which closes itself.
 class OpenFile {
  public:
   explicit OpenFile(const std::string& path) : path_(path) {
     if (const char* const failure = GetModule().open(path.c_str(), kFreeSamples, &file_)) {
       FailToRead(path, failure);
     }
-    // After libtiff's own words for files that it refuses.
+    // This comes after libtiff's own errors for files that it refuses.
     if (const std::string lacks = WhatTiffLacks(path); !lacks.empty()) {
       GetModule().close(&file_);
       FailToRead(path, lacks);
@@ -187,7 +187,7 @@ ImageFile OpenWithOiio(const std::string& path) {
   image.file_bytes = FileBytes(path);
   image.header = HeaderOf(opened.get(), orientation);
   image.parts = {PartOf(image.header)};
-  // Opened again for each reading, which goes through the rows from the first one on.
+  // Opens the file again for each reading, which decodes the rows from the first one on.
   image.read = [path, orientation, channels = image.header.channels.size(),
                 data = image.header.data](const Window& region,
                                           std::span<const SampleTarget> targets) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // image_io/oiio.h: OpenImageIO, loaded when first used.
 //
-// It is in a module of its own, nacre_oiio.so, which is looked for beside the file that this code
-// is in, program or libnacre.so, and where it is installed as seen from that file: ../lib/nacre
-// from a program, nacre/ from the library. Not in the working folder, nor by anything in the
-// environment.
+// It is in a module of its own, nacre_oiio.so. The module is looked for beside the file that
+// contains this code, program or libnacre.so, and where it is installed relative to that file:
+// ../lib/nacre from a program, nacre/ from the library. Neither the working folder nor the
+// environment matters.
 #pragma once
 
 #include <string>
@@ -13,12 +13,12 @@
 
 namespace nacre {
 
-// Whether the module is there.
+// Whether the module exists.
 bool HasOiio();
 
-// TIFF, as OpenImage says. First page, full resolution. Rows are decoded in
-// bands: beside the caller's samples, reading takes memory for a band, and whatever OpenImageIO and
-// the format's library do. Orientation tags are honoured.
+// Opens a TIFF file, with the results and errors of OpenImage: the first page at full resolution.
+// Rows are decoded in bands: besides the caller's samples, reading takes memory for a band, and
+// what OpenImageIO and libtiff allocate. Orientation tags are honoured.
 ImageFile OpenWithOiio(const std::string& path);
 
 }  // namespace nacre

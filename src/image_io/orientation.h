@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// image_io/orientation.h: how the rows of a file lie in the image that is seen: Radiance's
-// resolution strings, TIFF's and EXIF's orientation tags. The only place that knows.
+// image_io/orientation.h: how the rows of a file lie in the displayed image, for Radiance's
+// resolution strings and for the orientation tags of TIFF and EXIF.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace nacre {
 
-// What makes the image of what is stored: rows become columns first, then it is mirrored.
+// How stored rows become the displayed image: first they are transposed, then mirrored.
 struct Orientation {
   bool transpose = false;
   bool flip_x = false, flip_y = false;
@@ -20,9 +20,9 @@ struct Orientation {
   bool operator==(const Orientation&) const = default;
 };
 
-// TIFF 6.0, "Orientation", and EXIF: 1 to 8, where the stored row 0 and column 0 are seen: top
-// left, top right, bottom right, bottom left; left top, right top, right bottom, left bottom. Any
-// other number counts as 1.
+// Tags 1 to 8 of TIFF 6.0, "Orientation", and EXIF. They say where the stored row 0 and column 0
+// are displayed: top left, top right, bottom right, bottom left; left top, right top, right bottom,
+// left bottom. Any other number counts as 1.
 constexpr Orientation OrientationOfTag(int tag) {
   switch (tag) {
     case 2:
@@ -44,10 +44,10 @@ constexpr Orientation OrientationOfTag(int tag) {
   }
 }
 
-// Puts stored rows where they are seen.
+// Writes stored rows to their place in the displayed image.
 class RowPlacer {
  public:
-  // `data`: the window of the image that is seen, of which `region` is wanted.
+  // `data` is the window of the displayed image, and `region` the part of it that is wanted.
   RowPlacer(const Orientation& orientation, const Window& data, const Window& region,
             std::span<const SampleTarget> targets)
       : orientation_(orientation), data_(data), region_(region), targets_(targets) {}
@@ -55,7 +55,7 @@ class RowPlacer {
   int stored_width() const { return orientation_.transpose ? data_.height() : data_.width(); }
   int stored_height() const { return orientation_.transpose ? data_.width() : data_.height(); }
 
-  // `row`: a stored row, the channels of a pixel together.
+  // `row` is a stored row with interleaved channels.
   void Place(int stored_y, const float* row, size_t channels) const {
     if (orientation_ == Orientation()) return PlaceAsStored(stored_y, row, channels);
     for (const SampleTarget& target : targets_) {
@@ -76,7 +76,7 @@ class RowPlacer {
   }
 
  private:
-  // Rows that are seen as they are stored.
+  // For images that are displayed as stored.
   void PlaceAsStored(int stored_y, const float* row, size_t channels) const {
     const int y = stored_y + data_.y0 - region_.y0;
     if (y < 0 || y >= region_.height()) return;

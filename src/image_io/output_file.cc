@@ -28,7 +28,7 @@ std::string Folder(const std::string& target) {
   return folder.empty() ? "." : folder;
 }
 
-// The file that `path` names, also when that does not exist yet.
+// The file that `path` leads to through symbolic links; it need not exist yet.
 std::string FollowLinks(const std::string& path) {
   constexpr int kMaxLinks = 40;  // as many as the kernel follows
   fs::path target = path;
@@ -42,12 +42,12 @@ std::string FollowLinks(const std::string& path) {
   throw Error(ExitCode::kCannotWrite, path, "too many symbolic links");
 }
 
-// Throws unless `target` does not exist or is a regular file that may be written.
+// Throws unless `target` does not exist or is a writable regular file.
 void CheckTarget(const std::string& path, const std::string& target) {
   if (target.empty()) throw Error(ExitCode::kCannotWrite, path, "an output file needs a name");
   struct stat status;
   if (stat(target.c_str(), &status) != 0) {
-    if (errno == ENOENT || errno == ENOTDIR) return;  // the folder is looked at when opening
+    if (errno == ENOENT || errno == ENOTDIR) return;  // the folder is checked on opening
     throw Error(ExitCode::kCannotWrite, path, "cannot write: " + ErrnoText(errno));
   }
   if (S_ISDIR(status.st_mode)) {
@@ -63,7 +63,8 @@ void CheckTarget(const std::string& path, const std::string& target) {
   }
 }
 
-// An anonymous file in `folder`, or -1. It gets a name through /proc, which must be there.
+// An anonymous file in `folder`; -1 if not supported. It is named through /proc, which must be
+// mounted.
 int OpenAnonymous(const std::string& folder) {
   const int descriptor = open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
   if (descriptor < 0) return -1;
@@ -73,10 +74,10 @@ int OpenAnonymous(const std::string& folder) {
   return -1;
 }
 
-// ".name.XXXXXX.tmp" in the target's folder, XXXXXX at random.
+// ".name.XXXXXX.tmp" in the target's folder, with random characters XXXXXX.
 std::string NameBeside(const std::string& target) {
   constexpr char kDigits[] = "0123456789abcdefghijklmnopqrstuvwxyz";
-  constexpr size_t kMaxName = 200;  // file systems stop at 255
+  constexpr size_t kMaxName = 200;  // file systems allow 255
   std::random_device random;
   std::string suffix;
   for (int i = 0; i < 6; ++i) suffix += kDigits[random() % (sizeof(kDigits) - 1)];
@@ -84,7 +85,7 @@ std::string NameBeside(const std::string& target) {
   return Folder(target) + "/." + name + "." + suffix + ".tmp";
 }
 
-// All extended attributes, access control lists among them, as far as this process may set them.
+// Copies all extended attributes, including access control lists, that this process may set.
 void CopyAttributes(const std::string& from, int descriptor) {
   const ssize_t size = listxattr(from.c_str(), nullptr, 0);
   if (size <= 0) return;
@@ -103,7 +104,8 @@ void CopyAttributes(const std::string& from, int descriptor) {
 }
 
 // Gives a new file the owner, group, mode and attributes of the one that it replaces, if there is
-// one. Who may not give it away keeps it, and then its group must not get what another group had.
+// one. If this process may not change the owner, it remains the owner, and then the file's group
+// must not get the permissions that another group had.
 void TakeOver(const std::string& replaced, int descriptor) {
   struct stat status;
   if (stat(replaced.c_str(), &status) != 0) return;
@@ -115,22 +117,23 @@ void TakeOver(const std::string& replaced, int descriptor) {
     if (!same_group) mode = (mode & ~static_cast<mode_t>(S_IRWXG)) | (mode & S_IRWXO) << 3;
   }
   CopyAttributes(replaced, descriptor);
-  // After these: a change of owner or list may change it. A file system without modes refuses it.
+  // Comes last, since changes of owner or access control list may change the mode. A file system
+  // without modes refuses it.
   [[maybe_unused]] const int ignored = fchmod(descriptor, mode);
 }
 
-// Attempts at an unused temporary name: one is nearly always enough.
+// Attempts to find an unused temporary name: one nearly always suffices.
 constexpr int kNameAttempts = 100;
 
 }  // namespace
 
 OutputFile::OutputFile(const std::string& path) : path_(path), target_(FollowLinks(path)) {
-  CheckTarget(path_, path_);  // /dev/stdout leads to what no link names
+  CheckTarget(path_, path_);  // checks links that only the kernel resolves, like /dev/stdout
   CheckTarget(path_, target_);
   const std::string folder = Folder(target_);
   descriptor_ = OpenAnonymous(folder);
-  // What replaces a file that others may not read must not be readable before it has that file's
-  // mode (TakeOver).
+  // A file that replaces one that others may not read must not be readable by them before TakeOver
+  // has set its mode.
   const mode_t mode = access(target_.c_str(), F_OK) == 0 ? 0600 : 0666;
   for (int i = 0; descriptor_ < 0 && i < kNameAttempts; ++i) {
     beside_ = NameBeside(target_);
@@ -170,10 +173,10 @@ void OutputFile::Write(uint64_t offset, std::span<const uint8_t> bytes) {
 }
 
 void OutputFile::Commit(bool sync) {
-  CheckTarget(path_, target_);  // it may have become something else meanwhile
+  CheckTarget(path_, target_);  // it may have changed meanwhile
   TakeOver(target_, descriptor_);
   if (sync && fsync(descriptor_) != 0) Fail("cannot write", errno);
-  // A new name is taken in one step. An existing one can only be replaced by a rename.
+  // A new name is taken atomically by a link. An existing file can only be replaced by a rename.
   if (beside_.empty() && LinkTo(target_)) {
     Close();
   } else {
@@ -184,7 +187,7 @@ void OutputFile::Commit(bool sync) {
   }
   if (!sync) return;
   const int folder = open(Folder(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (folder < 0) return;  // a folder that may not be read cannot be synced
+  if (folder < 0) return;  // a folder that is not readable cannot be synced
   fsync(folder);
   close(folder);
 }
@@ -231,7 +234,7 @@ std::string FileIdentity(const std::string& path) {
     if (stat(Folder(target).c_str(), &status) != 0) return path;
     return fmt::format("{}:{}/{}", status.st_dev, status.st_ino,
                        fs::path(target).filename().string());
-  } catch (const Error&) {  // links in a circle: whoever opens the file says so
+  } catch (const Error&) {  // a cycle of links is reported on opening the file
     return path;
   }
 }

@@ -29,10 +29,10 @@ namespace nacre {
 namespace {
 
 constexpr uint32_t kLargestPngSide = 65536;
-// Of a text, a colour profile and the like once unpacked, and of all of them together.
+// Limits on the unpacked size of a text, a colour profile or the like, and on all of them together.
 constexpr size_t kLargestChunk = size_t{1} << 24, kAllChunks = size_t{1} << 26;
 
-// A file that is open, at its first row. Every checksum counts: a flipped bit is damage.
+// An open file, positioned at its first row. Any wrong checksum is an error.
 class PngFile {
  public:
   explicit PngFile(const std::string& path)
@@ -42,10 +42,10 @@ class PngFile {
     Check(spng_set_crc_action(get(), SPNG_CRC_ERROR, SPNG_CRC_ERROR));
     Check(spng_set_image_limits(get(), kLargestPngSide, kLargestPngSide));
     Check(spng_set_chunk_limits(get(), kLargestChunk, kAllChunks));
-    Check(spng_set_option(get(), SPNG_KEEP_UNKNOWN_CHUNKS, 1));  // cICP is one to libspng
+    Check(spng_set_option(get(), SPNG_KEEP_UNKNOWN_CHUNKS, 1));  // libspng does not know cICP
     Check(spng_set_png_file(get(), file_.get()));
     Check(spng_get_ihdr(get(), &header_));
-    Check(spng_decode_chunks(get()));  // those before the pixels
+    Check(spng_decode_chunks(get()));  // the chunks before the pixels
     spng_trns transparency{};
     has_alpha_ = (header_.color_type & 4) != 0 || spng_get_trns(get(), &transparency) == 0;
   }
@@ -57,8 +57,8 @@ class PngFile {
   size_t channels() const { return (is_color() ? 3 : 1) + (has_alpha_ ? 1 : 0); }
   bool is_wide() const { return header_.bit_depth == 16; }
 
-  // Calls with_row(y, samples) for each row from the first one on; samples are codes of 8 or, if
-  // is_wide(), 16 bits in the processor's order.
+  // Calls with_row(y, samples) for each row, from the first one on. Samples are codes of 8 bits or,
+  // if is_wide(), of 16 bits in the processor's byte order.
   template <class WithRow>
   void ForEachRow(const WithRow& with_row) {
     if (!has_palette()) {
@@ -80,7 +80,7 @@ class PngFile {
  private:
   bool has_palette() const { return header_.color_type == 3; }
 
-  // The colours of a row, whose indices are packed from the high bits on.
+  // Looks up the colours of a row, whose indices are packed into bytes from the high bits down.
   void LookUp(uint32_t y, const uint8_t* indices, const spng_plte& palette,
               const spng_trns& transparency, uint8_t* colors) const {
     const unsigned bits = header_.bit_depth;
@@ -104,7 +104,7 @@ class PngFile {
     }
   }
 
-  // Rows as Format() says, and what follows them.
+  // Decodes rows in the format of Format(), and then the chunks after them.
   template <class WithRow>
   void ForEachDecodedRow(size_t row_bytes, const WithRow& with_row) {
     const int flags = has_alpha_ && !has_palette() ? SPNG_DECODE_TRNS : 0;
@@ -122,7 +122,7 @@ class PngFile {
       }
     }
     Check(spng_decode_chunks(get()));
-    // libspng reads past the checksum of the last chunk, IEND, and does not look at it.
+    // libspng skips the checksum of the last chunk, IEND, so it is checked here.
     std::array<uint8_t, 4> end{};
     constexpr std::array<uint8_t, 4> kEnd = {0xae, 0x42, 0x60, 0x82};
     if (std::fseek(file_.get(), -4, SEEK_CUR) != 0 ||
@@ -131,8 +131,8 @@ class PngFile {
     }
   }
 
-  // What libspng unpacks to: one sample a channel, transparency that a colour stands for as alpha.
-  // But indices as they are: libspng makes up a black of those beyond the palette.
+  // The format that libspng unpacks to: one sample per channel, with alpha for a transparent
+  // colour. Palette indices are kept, as libspng would replace indices beyond the palette by black.
   int Format() const {
     if (has_palette()) return SPNG_FMT_PNG;
     if (!is_color()) {
@@ -166,7 +166,7 @@ class PngFile {
 using Metadata = std::map<std::string, std::string>;
 
 void AddGamma(const PngFile& png, Metadata* metadata) {
-  // libpng's PNG_GAMMA_THRESHOLD: exponents that differ less look the same.
+  // libpng's PNG_GAMMA_THRESHOLD: smaller differences between exponents are invisible.
   constexpr double kGammaThreshold = 0.05;
   double encoding = 0;
   if (spng_get_gama(png.get(), &encoding) != 0 || !(encoding > 0)) return;
@@ -180,8 +180,8 @@ void AddGamma(const PngFile& png, Metadata* metadata) {
 void AddPrimaries(const PngFile& png, Metadata* metadata) {
   spng_chrm given{};
   if (spng_get_chrm(png.get(), &given) != 0) return;
-  // White, red, green, blue of Rec. 709. A hundredth: what files with digits of 1/2 unit differ by
-  // and what no eye sees.
+  // White, red, green and blue of Rec. 709. The tolerance of 0.01 covers files that round to few
+  // digits, and is invisible.
   constexpr double kRec709[] = {0.3127, 0.3290, 0.64, 0.33, 0.30, 0.60, 0.15, 0.06};
   constexpr double kNear = 0.01;
   const double values[] = {given.white_point_x, given.white_point_y, given.red_x,  given.red_y,
@@ -196,8 +196,8 @@ void AddPrimaries(const PngFile& png, Metadata* metadata) {
   if (!near) (*metadata)["not_srgb"] = "primaries that are not sRGB's (cHRM)";
 }
 
-// A chunk for colours is overruled by those that say more: sRGB, then iCCP (W3C PNG, 4.3), then
-// cICP.
+// The chunks for colours override each other in this order: gAMA and cHRM, sRGB, iCCP (W3C PNG,
+// 4.3), cICP.
 void AddProfile(const PngFile& png, Metadata* metadata) {
   uint8_t intent = 0;
   if (spng_get_srgb(png.get(), &intent) == 0) {
@@ -213,8 +213,8 @@ void AddProfile(const PngFile& png, Metadata* metadata) {
   if (!read.is_srgb) (*metadata)["not_srgb"] = "the ICC profile \"" + read.name + "\"";
 }
 
-// cICP overrules them all. By ITU-T H.273: primaries 1 are Rec. 709's, transfer 13 is sRGB's,
-// matrix 0 and range 1 are RGB of full range.
+// cICP overrides all others. By ITU-T H.273, primaries 1 are Rec. 709's, transfer 13 is sRGB's,
+// matrix 0 and range 1 mean full-range RGB.
 void AddCodePoints(const PngFile& png, Metadata* metadata) {
   uint32_t count = 0;
   if (spng_get_unknown_chunks(png.get(), nullptr, &count) != 0) return;
@@ -246,8 +246,8 @@ std::string Utf8FromLatin1(std::string_view latin1) {
   return text;
 }
 
-// Words of a file never stand where nacre says what its other chunks mean. The first of several
-// texts of one keyword counts.
+// Texts of a file never replace the metadata that nacre derives from other chunks. The first of
+// several texts with one keyword counts.
 void AddTexts(const PngFile& png, Metadata* metadata) {
   uint32_t count = 0;
   if (spng_get_text(png.get(), nullptr, &count) != 0) return;
@@ -279,7 +279,7 @@ Orientation OrientationOf(const PngFile& png) {
       ExifOrientation({reinterpret_cast<const uint8_t*>(exif.data), exif.length}));
 }
 
-// Deflate makes 1032 bytes of one at most: what promises more would only cost memory.
+// Deflate makes at most 1032 bytes of one: a file that promises more would only cost memory.
 void CheckPromise(const PngFile& png, const std::string& path, uint64_t file_bytes) {
   constexpr uint64_t kMaxRatio = 1032;
   const spng_ihdr& header = png.header();
@@ -320,7 +320,7 @@ ImageFile OpenPng(const std::string& path) {
   if (png.has_alpha()) names.push_back("A");
   for (const char* name : names) image.header.channels.push_back({name, PixelType::kFloat, {}});
   image.parts = {PartOf(image.header)};
-  // Opened again for each reading, which goes through the rows from the first one on.
+  // Opens the file again for each reading, which decodes the rows from the first one on.
   image.read = [path, orientation, channels = names.size(), data = image.header.data](
                    const Window& region, std::span<const SampleTarget> targets) {
     PngFile file(path);

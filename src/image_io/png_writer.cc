@@ -33,7 +33,7 @@ constexpr size_t kPixelBytes = 3;
 constexpr uint8_t kFilterSub = 1;
 constexpr uint8_t kFilterUp = 2;
 
-// A deflated strip as an IDAT chunk, and what the zlib stream's checksum needs of it.
+// A strip deflated into an IDAT chunk, and what the checksum of the zlib stream needs.
 struct PngStrip {
   Bytes chunk;
   uint32_t adler;
@@ -64,7 +64,8 @@ void AppendChunk(const std::string& type, std::span<const uint8_t> content, Byte
   bytes->insert(bytes->end(), chunk.begin(), chunk.end());
 }
 
-// tEXt is Latin-1, so anything else than ASCII goes into iTXt: no compression, no language.
+// Appends a text. tEXt is Latin-1, so a text that is not ASCII goes to iTXt, without compression
+// and language.
 void AppendTextChunk(const std::string& keyword, const std::string& value, Bytes* bytes) {
   const bool ascii = std::ranges::all_of(value, [](char c) { return c > 0; });
   Bytes content;
@@ -74,7 +75,7 @@ void AppendTextChunk(const std::string& keyword, const std::string& value, Bytes
   AppendChunk(ascii ? "tEXt" : "iTXt", content, bytes);
 }
 
-// Everything up to the first strip.
+// The bytes of the file before the first strip.
 Bytes MakeHeader(const PngHeader& header) {
   Bytes bytes = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
   Bytes content;
@@ -83,8 +84,8 @@ Bytes MakeHeader(const PngHeader& header) {
   // 8 bits, RGB, deflate, adaptive filters, not interlaced.
   content.insert(content.end(), {8, 2, 0, 0, 0});
   AppendChunk("IHDR", content, &bytes);
-  // Perceptual intent; and, as 11.3.3.5 recommends, the same in gAMA and cHRM for readers that do
-  // not know sRGB: 1/2.2, then x and y of white, red, green, blue, times 100000.
+  // sRGB with perceptual intent. As 11.3.3.5 recommends, gAMA and cHRM repeat it for readers that
+  // do not know sRGB: 1/2.2, then x and y of white, red, green, blue, times 100000.
   AppendChunk("sRGB", Bytes{0}, &bytes);
   content.clear();
   AppendUint32(45455, &content);
@@ -98,8 +99,9 @@ Bytes MakeHeader(const PngHeader& header) {
   return bytes;
 }
 
-// The strip's rows, each after its filter type: the first as differences from the pixel to the
-// left, so that it needs no other strip, the others as differences from the row above.
+// Filters the strip's rows; each begins with its filter type. The first row becomes differences
+// from the pixel to the left, so that it does not need another strip, the others differences from
+// the row above.
 void FilterStrip(const uint8_t* rgb8, size_t rows, size_t row_bytes, uint8_t* out) {
   out[0] = kFilterSub;
   std::memcpy(out + 1, rgb8, kPixelBytes);
@@ -131,7 +133,7 @@ struct PngWriter::State {
           adler = static_cast<uint32_t>(
               adler32_combine(adler, strip.adler, static_cast<z_off_t>(strip.filtered_size)));
         }) {
-    // A strip's bytes, deflated, must fit a chunk's length of 31 bits.
+    // The deflated bytes of a strip must fit the 31 bits of a chunk's length.
     constexpr int kMaxWidth = std::numeric_limits<int32_t>::max() / (kStripRows * 4);
     if (header.width < 1 || header.height < 1 || header.width > kMaxWidth) {
       throw Error(ExitCode::kInternal, path, "a picture of this size cannot be written as PNG");
@@ -154,9 +156,9 @@ struct PngWriter::State {
   const std::string path;
   const PngHeader header;
   const PngOptions options;
-  Bytes* const memory;             // where the bytes go, or null:
-  std::optional<OutputFile> file;  // they go there
-  uint64_t size = 0;               // of what has been written
+  Bytes* const memory;             // where the bytes go; null:
+  std::optional<OutputFile> file;  // to this file
+  uint64_t size = 0;               // bytes written so far
   uint32_t adler = 1;
   InOrder<PngStrip> in_order;
 };
@@ -173,7 +175,7 @@ PngStrip PngWriter::State::MakeStrip(size_t index, size_t rows, const uint8_t* r
               options.small          ? kSmallPngLevel
               : options.reproducible ? kReproducibleDeflate
                                      : kFastDeflate);
-  // The stream's header: deflate with a window of 32 KiB, and its check bits.
+  // The zlib header: deflate with a window of 32 KiB, and check bits.
   if (index == 0) deflated.insert(deflated.begin(), {0x78, 0x01});
   return {MakeChunk("IDAT", deflated), isal_adler32(1, filtered.data(), filtered_size),
           filtered_size};
@@ -223,8 +225,8 @@ void PngWriter::Finish(const PngText& text) {
   if (state_->in_order.count() != state_->strip_count()) {
     throw Error(ExitCode::kInternal, state_->path, "the picture is not complete");
   }
-  // The zlib stream's checksum is in a last IDAT of its own: its strips were in chunks already
-  // when the total was not known.
+  // The checksum of the zlib stream is in a last IDAT of its own, because the strips were already
+  // in chunks when it was not known yet.
   Bytes content;
   AppendUint32(state_->adler, &content);
   Bytes end = MakeChunk("IDAT", content);

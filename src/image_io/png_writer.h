@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// image_io/png_writer.h: 8-bit RGB PNG files written strip by strip while the picture is being
+// image_io/png_writer.h: writes 8-bit RGB PNG files strip by strip while the picture is being
 // rendered.
 #pragma once
 
@@ -27,34 +27,37 @@ struct PngHeader {
 };
 
 struct PngOptions {
-  bool small = false;         // zlib's best instead of ISA-L: a quarter smaller, many times slower
-  bool reproducible = false;  // equal pictures make equal files, some times slower
-  bool sync = false;          // Finish returns when the file has reached the disk
+  bool small = false;         // zlib's best level instead of ISA-L: a quarter smaller, but many
+                              // times slower
+  bool reproducible = false;  // equal pictures make equal files, which is slower
+  bool sync = false;          // Finish returns only when the file has reached the disk
 };
 
-// A file of sRGB codes, tagged as such. Strips are filtered and deflated, each by itself, in the
-// threads that bring them, and written in order. All functions throw Error: kCannotWrite when the
-// file cannot be written, kInternal when they are called wrongly.
+// Writes a file of sRGB codes, tagged as such. Each strip is filtered and deflated independently in
+// the thread that brings it; strips are written in order. All functions throw Error: kCannotWrite
+// when the file cannot be written, kInternal when they are called wrongly.
 class PngWriter {
  public:
-  // Opens the file and writes its header: call before rendering.
+  // Opens the file and writes its header; to be called before rendering, to find errors early.
   PngWriter(const std::string& path, const PngHeader& header, const PngOptions& options = {});
-  // The same bytes to the end of `bytes`, and to no file.
+  // Appends the file to `bytes` instead of writing it to disk.
   PngWriter(std::vector<uint8_t>* bytes, const PngHeader& header, const PngOptions& options = {});
-  // Without Finish, nothing remains of the file.
+  // If Finish was not called, no file remains.
   ~PngWriter();
 
-  // kStripRows rows from row `y` on (a multiple of kStripRows; the top row is 0): rows * width
-  // pixels of three bytes. Each strip once, in any order, from any thread, several at once.
+  // Adds a strip of kStripRows rows, in the last strip perhaps fewer, from row `y` on, which is a
+  // multiple of kStripRows, 0 at the top: rows * width pixels of three bytes. Each strip must come
+  // once, in any order, from any thread; calls may be concurrent.
   void WriteStrip(int y, int rows, const uint8_t* rgb8);
 
-  // All strips of a picture that is there, in several threads: its codes; or encode(first, count,
-  // rgb8), which makes those of `count` pixels from pixel `first` on, counted row by row.
+  // Writes all strips of a complete picture, on several threads. The codes are given in `rgb8`, or
+  // by encode(first, count, rgb8), which writes those of `count` pixels from pixel `first` on,
+  // counted row by row.
   void WriteAll(std::span<const uint8_t> rgb8);
   void WriteAll(const std::function<void(size_t first, size_t count, uint8_t* rgb8)>& encode);
 
-  // After the last strip has been written: adds text that is only known at the end, such as the
-  // render time, and the file appears.
+  // To be called after the last strip has been written. Adds text that is known only at the end,
+  // such as the render time; then the file appears under its name.
   void Finish(const PngText& text = {});
 
  private:
@@ -62,10 +65,10 @@ class PngWriter {
   std::unique_ptr<State> state_;
 };
 
-// A file of the picture that says what made it.
+// Writes the picture to a file, tagged with the software that made it.
 void WritePng(const std::string& path, const Rgb8Picture& picture, const PngOptions& options = {});
 
-// The bytes of that file. Throws Error (kInternal) for a picture without pixels, or one that is
+// The bytes of such a file. Throws Error (kInternal) for a picture without pixels, or one that is
 // wider than PNG allows.
 std::vector<uint8_t> EncodePng(const Rgb8Picture& picture, const PngOptions& options = {});
 

@@ -23,9 +23,9 @@ constexpr unsigned kLargestPnmSide = 65536;
 struct PnmHeader {
   char kind = 0;  // 1 to 6, f or F
   unsigned width = 0, height = 0;
-  unsigned maximum = 1;        // code of white
-  bool little_endian = false;  // of floats
-  float scale = 1;             // of floats, which are multiplied by it
+  unsigned maximum = 1;        // the code of white
+  bool little_endian = false;  // for floats
+  float scale = 1;             // for floats, which are multiplied by it
 
   bool is_color() const { return kind == '3' || kind == '6' || kind == 'F'; }
   bool is_text() const { return kind >= '1' && kind <= '3'; }
@@ -33,7 +33,7 @@ struct PnmHeader {
   bool operator==(const PnmHeader&) const = default;
 };
 
-// A file that is open, at its first sample.
+// An open file, positioned at its first sample.
 class PnmFile {
  public:
   explicit PnmFile(const std::string& path) : path_(path), file_(OpenToRead(path)) {
@@ -59,7 +59,7 @@ class PnmFile {
   const PnmHeader& header() const { return header_; }
   size_t row_samples() const { return size_t{header_.width} * (header_.is_color() ? 3 : 1); }
 
-  // The next row, as it is stored.
+  // Reads the next row as stored.
   void ReadRow(std::vector<float>* values) {
     if (header_.is_text()) {
       for (float& value : *values) value = TextSample();
@@ -93,7 +93,8 @@ class PnmFile {
     throw Error(ExitCode::kBadInput, path_, "cannot be read: " + reason);
   }
 
-  // After blanks and comments, up to and with the blank that ends it. Long words are cut.
+  // Skips blanks and comments, and reads up to and including the blank after a word. Long words are
+  // cut.
   std::string Word() {
     int c = std::getc(file_.get());
     while (c == '#' || std::isspace(c) != 0) {
@@ -124,7 +125,7 @@ class PnmFile {
 
   float TextSample() {
     if (header_.kind != '1') return Value(Number("sample", 0, header_.maximum));
-    // Digits of bits need nothing between them.
+    // Bits in text need no blanks between them.
     int c = std::getc(file_.get());
     while (std::isspace(c) != 0) c = std::getc(file_.get());
     if (c != '0' && c != '1') Fail(c == EOF ? "the file ends too early" : "a bit is not 0 or 1");
@@ -147,7 +148,7 @@ class PnmFile {
   std::vector<uint8_t> bytes_;
 };
 
-// The least bytes that its samples take, so that nobody makes room for what is not there.
+// Checks the file against the minimum number of bytes for its samples, before memory is allocated.
 void CheckLength(const PnmHeader& header, const std::string& path, uint64_t file_bytes) {
   const uint64_t row = uint64_t{header.width} * (header.is_color() ? 3 : 1);
   uint64_t bytes = row * header.height;
@@ -175,7 +176,7 @@ ImageFile OpenPnm(const std::string& path) {
     if (!header.is_color()) break;
   }
   image.parts = {PartOf(image.header)};
-  // Opened again for each reading, which goes through the rows from the first one on.
+  // Opens the file again for each reading, which reads the rows from the first one on.
   image.read = [path, header, data = image.header.data](const Window& region,
                                                         std::span<const SampleTarget> targets) {
     PnmFile file(path);

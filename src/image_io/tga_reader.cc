@@ -28,7 +28,7 @@ struct TgaHeader {
 
 using Color = std::array<float, 4>;  // R G B A, or Y first
 
-// A file that is open, at its first pixel.
+// An open file, positioned at its first pixel.
 class TgaFile {
  public:
   explicit TgaFile(const std::string& path) : path_(path), file_(OpenToRead(path)) {
@@ -60,11 +60,11 @@ class TgaFile {
                        : is_grey  ? bits == 8
                                   : is_color(bits);
     if (!known) Fail("its pixels have a size that TGA files do not have");
-    // The number of alpha bits; of palettes programs leave it 0, and theirs have none then.
+    // The number of alpha bits. Programs leave it 0 for palettes, which then have no alpha.
     header_.has_alpha = !is_grey && (bytes[17] & 0x0f) != 0;
-    // From the bottom up, unless it says otherwise.
+    // Rows are stored from the bottom up unless this bit says otherwise.
     header_.orientation = {false, (bytes[17] & 0x10) != 0, (bytes[17] & 0x20) == 0};
-    for (int i = 0; i < bytes[0]; ++i) Byte();  // a name
+    for (int i = 0; i < bytes[0]; ++i) Byte();  // an image id, ignored
     for (size_t i = 0; i < header_.color_count; ++i) {
       palette_.push_back(ReadColor(header_.color_bits));
     }
@@ -72,7 +72,7 @@ class TgaFile {
 
   const TgaHeader& header() const { return header_; }
 
-  // The next row, as it is stored. Runs may go from one row into the next.
+  // Reads the next row as stored. Runs may continue from one row into the next.
   void ReadRow(std::vector<float>* values) {
     const size_t channels = header_.channels();
     for (size_t i = 0; i < values->size(); i += channels) {
@@ -81,7 +81,7 @@ class TgaFile {
     }
   }
 
-  // After the last row: a run must not go on.
+  // To be called after the last row: checks that no run continues.
   void Finish() const {
     if (left_ > 0) Fail("a run is longer than the image");
   }
@@ -136,7 +136,7 @@ class TgaFile {
   CFile file_;
   TgaHeader header_;
   std::vector<Color> palette_;
-  int left_ = 0;  // pixels of this packet
+  int left_ = 0;  // pixels left in the current packet
   bool is_run_ = false;
   Color run_{};
 };
@@ -155,7 +155,7 @@ ImageFile OpenTga(const std::string& path) {
   names.resize(header.channels());
   for (const char* name : names) image.header.channels.push_back({name, PixelType::kFloat, {}});
   image.parts = {PartOf(image.header)};
-  // Opened again for each reading, which goes through the rows from the first one on.
+  // Opens the file again for each reading, which reads the rows from the first one on.
   image.read = [path, header, data = image.header.data](const Window& region,
                                                         std::span<const SampleTarget> targets) {
     TgaFile file(path);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// image_io/tga_reader.h: Truevision TGA files.
+// image_io/tga_reader.h: reads Truevision TGA files.
 #pragma once
 
 #include <string>
@@ -8,13 +8,14 @@
 
 namespace nacre {
 
-// Palettes, colours of 15, 16, 24 and 32 bits, greys of 8; as they are or in runs, from whichever
-// corner (Truevision TGA File Format Specification, version 2.0). Channels Y, R G B or R G B A:
-// alpha where the descriptor says that there are bits of it. Display values.
+// Opens files with palettes, colours of 15, 16, 24 and 32 bits, or greys of 8 bits; uncompressed or
+// run-length encoded, starting at any corner (Truevision TGA File Format Specification, version
+// 2.0). Channels Y, R G B or R G B A, with alpha if the descriptor counts alpha bits. Display
+// values.
 //
-// Throws Error (kBadInput) for other and for broken files. Written out because OpenImageIO 2.4
-// reads beyond its memory where an index is beyond the palette, and the files have no other library
-// in Debian that is made for strangers' files.
+// Throws Error (kBadInput) for other kinds and for broken files. This reader exists because
+// OpenImageIO 2.4 reads out of bounds where an index is beyond the palette, and Debian has no other
+// library for the format that is made for untrusted files.
 ImageFile OpenTga(const std::string& path);
 
 }  // namespace nacre

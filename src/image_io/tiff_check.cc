@@ -19,7 +19,7 @@
 namespace nacre {
 namespace {
 
-// TIFF 6.0, part 1; those of tiles are in part 2.
+// Tags of TIFF 6.0, part 1; those for tiles are in part 2.
 enum Tag : uint16_t {
   kImageWidth = 256,
   kImageLength = 257,
@@ -40,22 +40,22 @@ enum Tag : uint16_t {
 
 constexpr uint64_t kRgb = 2, kPalette = 3, kYCbCr = 6, kCieLab = 8;  // kPhotometric
 
-// Grey (0: white first), RGB, palette, mask, inks, YCbCr and the three Lab of TIFF 6.0 and its
+// Grey (0: white is zero), RGB, palette, mask, inks, YCbCr and the three Lab of TIFF 6.0 and its
 // supplements; LogL and LogLuv.
 constexpr std::array<uint64_t, 12> kPhotometrics = {0, 1, 2, 3, 4, 5, 6, 8, 9, 10, 32844, 32845};
 
-constexpr size_t kMostFields = 4096;  // of a directory; those of cameras have about a hundred
+constexpr size_t kMostFields = 4096;  // in a directory; cameras write about a hundred
 
 struct Field {
   uint16_t type = 0;
   uint64_t count = 0;
-  std::array<uint8_t, 8> value{};  // or its place in the file
+  std::array<uint8_t, 8> value{};  // or its offset in the file
 };
 
-// A file's first directory.
+// The first directory of a file.
 class Directory {
  public:
-  // Nothing where there is none.
+  // Returns nullopt if there is none.
   static std::optional<Directory> Read(const std::string& path) {
     Directory directory;
     directory.file_ = OpenToRead(path);
@@ -69,7 +69,8 @@ class Directory {
   uint64_t count(Tag tag) const { return has(tag) ? fields_.at(tag).count : 0; }
   uint64_t file_bytes() const { return file_bytes_; }
 
-  // Of whole numbers; fewer than there should be where the file ends, or of another type.
+  // The values of a field of whole numbers; fewer than its count if the file ends before, or if the
+  // type is another one.
   std::vector<uint64_t> Numbers(Tag tag) {
     if (!has(tag)) return {};
     const Field& field = fields_.at(tag);
@@ -111,7 +112,7 @@ class Directory {
            std::fread(to.data(), 1, to.size(), file_.get()) == to.size();
   }
 
-  // TIFF 6.0, p. 13 to 15; BigTIFF has numbers of 8 bytes.
+  // TIFF 6.0, p. 13 to 15; BigTIFF has 8-byte numbers.
   bool ReadFields() {
     std::array<uint8_t, 16> head{};
     const std::span<uint8_t> bytes(head);
@@ -146,7 +147,8 @@ class Directory {
   std::map<uint16_t, Field> fields_;
 };
 
-// What the samples are, and whether there are as many of a pixel as that takes.
+// Why the samples cannot be interpreted, or are too few for their interpretation; "" if all is
+// well.
 std::string WhatColorsLack(Directory* d) {
   if (!d->has(kPhotometric)) return "it does not say what its samples mean";
   const uint64_t photometric = d->Number(kPhotometric, 0);
@@ -173,13 +175,13 @@ std::string WhatColorsLack(Directory* d) {
                            : "its palette is missing";
 }
 
-// Strips or tiles, from the top left, of each plane.
+// The strips or tiles of each plane, from the top left.
 struct Blocks {
   const char* name;
   uint64_t across, down, planes;
   uint64_t width, height;     // of a block, in pixels
-  uint64_t image_height = 0;  // by which the last strips are shorter; 0: none are
-  uint64_t bits_of_pixel;     // in a plane
+  uint64_t image_height = 0;  // where the last strips end; 0 for tiles, which are not shortened
+  uint64_t bits_of_pixel;     // in one plane
 
   uint64_t bytes(uint64_t row_of_blocks) const {
     const uint64_t rows =
@@ -197,7 +199,7 @@ std::string WhatBlocksLack(Directory* d) {
   const uint64_t block_height =
       is_tiled ? d->Number(kTileLength, 0) : std::min(d->Number(kRowsPerStrip, height), height);
   for (const uint64_t side : {width, height, block_width, block_height}) {
-    if (side < 1 || side > kMostSide) return {};  // libtiff says so
+    if (side < 1 || side > kMostSide) return {};  // libtiff reports it
   }
   if (samples < 1 || samples > 0xffff || bits < 1 || bits > 64) return {};
   const bool separate = d->Number(kPlanarConfiguration, 1) == 2;
@@ -218,7 +220,7 @@ std::string WhatBlocksLack(Directory* d) {
   }
   const std::vector<uint64_t> places = d->Numbers(place_tag), bytes = d->Numbers(bytes_tag);
   if (places.size() < count || bytes.size() < count) return "the table of its strips is cut off";
-  // The chroma of uncompressed YCbCr is not at every pixel: its length is libtiff's affair.
+  // Uncompressed YCbCr has subsampled chroma: checking its length is left to libtiff.
   const bool is_plain = d->Number(kCompression, 1) == 1 && d->Number(kPhotometric, 0) != kYCbCr;
   for (uint64_t i = 0; i < count; ++i) {
     if (places[i] == 0 || bytes[i] == 0) {

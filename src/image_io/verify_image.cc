@@ -14,7 +14,7 @@
 #include "base/path.h"
 #include "image_io/exr_bands.h"
 #include "image_io/exr_checksum.h"
-#include "image_io/image_file.h"
+#include "image_io/read_image.h"
 
 namespace nacre {
 namespace {
@@ -28,14 +28,14 @@ std::string VerifyExr(const std::string& path) {
   if (checksum == ExrChecksum::kWrong) {
     RefuseDamaged(path, "its bytes are not those that its checksum was made of");
   }
-  if (checksum == ExrChecksum::kRight) {  // nacre's own, of any size
+  if (checksum == ExrChecksum::kRight) {  // written by nacre, of any size
     ExrBandReader(path).DecodeAll();
     return "whole: its checksum is right, and every sample decodes";
   }
   const std::vector<ImagePart> parts = DescribeImage(path);
   const bool refused = std::any_of(parts.begin(), parts.end(),
                                    [](const ImagePart& part) { return !part.refusal.empty(); });
-  // Deep parts, subsampled ones and the like are OpenEXR's to check: it reads them all.
+  // Deep and subsampled parts and the like are left to OpenEXR's own check, which reads them all.
   if (!refused) {
     ReadImage(path);
   } else if (Imf::checkOpenEXRFile(path.c_str(), /*reduceMemory=*/true)) {
@@ -44,7 +44,7 @@ std::string VerifyExr(const std::string& path) {
   return "every sample decodes; it has no checksum of nacre's";
 }
 
-// Whether the last chunk, which readers go no further than, is the end of the file.
+// Whether the file ends with the last chunk, at which readers stop.
 bool EndsAsPng(const std::string& path) {
   std::array<char, 8> end{};
   std::ifstream file(path, std::ios::binary);

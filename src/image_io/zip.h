@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// image_io/zip.h: what EXR's ZIP compressions do to samples before they deflate them.
+// image_io/zip.h: the transformation of samples before deflate in EXR's ZIP compressions.
 #pragma once
 
 #include <cstddef>
@@ -7,9 +7,9 @@
 
 namespace nacre {
 
-// Puts the even bytes of `words` (little-endian) first and the odd ones after them, then writes
-// the first byte and of every other its difference from the one before plus 128, modulo 256.
-// `bytes` holds 2 * count.
+// Reorders the bytes of `words` (little-endian), the even ones first, then the odd ones. Then
+// writes the first byte and, for every other, its difference from the one before plus 128, modulo
+// 256. `bytes` has room for 2 * count.
 void SplitAndPredict(const uint16_t* words, size_t count, uint8_t* bytes);
 
 }  // namespace nacre

@@ -36,7 +36,7 @@ void SplitAndPredictT(const uint16_t* HWY_RESTRICT words, size_t count,
   for (; i + lanes <= count; i += lanes) {
     const auto word = hn::LoadU(du, words + i);
     const auto previous = hn::LoadU(du, words + i - 1);
-    // Differences modulo 2^8: what is above the low byte falls away.
+    // Differences modulo 2^8: bits above the low byte are dropped.
     const auto low = hn::Add(hn::Sub(word, previous), offset);
     const auto high =
         hn::Add(hn::Sub(hn::ShiftRight<8>(word), hn::ShiftRight<8>(previous)), offset);

@@ -32,14 +32,14 @@ TextbookFaults With(bool F::*words) {
   return faults;
 }
 
-// The comparison alone, with these faults instead.
+// The change of the comparison picture if it is rendered with these faults instead.
 CodeChange ComparisonChange(const LessonPictures& lesson, const TextbookFaults& faults) {
   TextbookComparison settings;
   settings.faults = faults;
   return MeasureChange(lesson.comparison, RenderComparison(settings));
 }
 
-// The model with which nacre renders white surfaces: dielectric (metallic 0), metal (1), or a mix.
+// nacre's own model of white surfaces: dielectric (metallic 0), metal (1), or a mix.
 MicrofacetModel NacreModel(double roughness, double metallic) {
   MetallicRoughnessMaterial material;
   material.base_color = Rgb(1, 1, 1);
@@ -50,8 +50,8 @@ MicrofacetModel NacreModel(double roughness, double metallic) {
   return std::get<MicrofacetModel>(PrepareMaterial(any).model);
 }
 
-// All that it reflects: the lobe by quadrature of its terms, as compensated as it is rendered, and
-// the base.
+// The total albedo of that model: the lobe by quadrature of its terms, with the compensation used
+// in rendering, and the base.
 double NacreAlbedo(double n_dot_v, double roughness, double metallic) {
   const MicrofacetModel model = NacreModel(roughness, metallic);
   const double more = 1 / AlbedoOne(model.albedo.lobe, n_dot_v) - 1;
@@ -67,7 +67,7 @@ double NacreAlbedo(double n_dot_v, double roughness, double metallic) {
   return lobe + base;
 }
 
-// The lesson's model without what E4 and E5 do to it.
+// The lesson without faults E4 and E5.
 TextbookFaults WithoutEpsilons() {
   TextbookFaults faults;
   faults.denominator_epsilon = faults.distribution_floor = faults.v_dot_h_floor = false;
@@ -126,7 +126,7 @@ AmountLines AmountOfMetalF0(const LessonPictures&) {
 
 AmountLines AmountOfEnergy(const LessonPictures&) {
   const TextbookFaults lesson = WithoutEpsilons();
-  constexpr double kMirror = 1e-5;  // roughness; the limit is reached to 2e-5
+  constexpr double kMirror = 1e-5;  // roughness; the limit is reached within 2e-5
   const auto mirror = [&](double n_dot_v) {
     return 100 * (1 - TextbookSpecularAlbedo(n_dot_v, kMirror, 1, lesson));
   };
@@ -262,7 +262,7 @@ AmountLines AmountOfLightDirection(const LessonPictures&) {
 AmountLines AmountOfNotesShader(const LessonPictures&) {
   const Rgb color = TextbookComparison{}.phong.color;
   const double d = 10;
-  const double k_quadratic = 0.1;  // doc2's
+  const double k_quadratic = 0.1;  // of doc2
   return {
       fmt::format("{}on the comparison's colour the highlight is {:.2g}, {:.2g}, {:.2g} of "
                   "itself; ambient at d = {} is {:.3f} of itself",
@@ -297,7 +297,7 @@ AmountLines AmountOfDisplacement(const LessonPictures&) {
 
 AmountLines AmountOfCurves(const LessonPictures& lesson) {
   const GammaError error = LargestGammaError();
-  // Narkowicz' curve x (a x + b) / (x (c x + d) + e) reaches 1 where (a - c) x^2 + (b - d) x = e.
+  // Narkowicz's curve x (a x + b) / (x (c x + d) + e) reaches 1 where (a - c) x^2 + (b - d) x = e.
   const double a = 2.51, b = 0.03, c = 2.43, d = 0.59, e = 0.14;
   const double reaches_one =
       ((d - b) + std::sqrt((d - b) * (d - b) + 4 * (a - c) * e)) / (2 * (a - c));
@@ -314,7 +314,7 @@ AmountLines AmountOfCurves(const LessonPictures& lesson) {
 
 AmountLines AmountOfMetalDiffuse(const LessonPictures&) {
   const TextbookPoint p{{0, 0, 1}, {0.6, 0, 0.8}, {0, 0, 1}, {1, 1, 1}};
-  // A rough metal far from its highlight, less its highlight: what is left is diffuse.
+  // A rough metal viewed far from its highlight; without the highlight, what is left is diffuse.
   const TextbookPbr metal{.albedo = {1, 1, 1}, .metallic = 1, .roughness = 0.3};
   const TextbookAngles angles = TextbookAnglesAt(p, {});
   const double highlight = TextbookSpecular(angles, metal.roughness, 1, {}) * angles.n_dot_l;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// lesson/fault_amounts.h: how much each fault of the founding documents amounts to (FaultAmount):
-// by switching it off in the lesson's pictures, by quadrature, or from its formula.
+// lesson/fault_amounts.h: measures the effect of each fault of the founding documents
+// (FaultAmount): by switching it off in the lesson's pictures, by quadrature, or from its formula.
 #pragma once
 
-#include "lesson/fault_entries.h"
+#include "lesson/code_change.h"
 
 namespace nacre {
 
-// Lines of `ChangeLines` for the lesson without one of its faults.
+// The lines of ChangeLines for the lesson without one of its faults.
 template <bool TextbookFaults::*kFault>
 std::vector<std::string> AmountOfSwitch(const LessonPictures& lesson) {
   return ChangeLines(lesson, Without(kFault));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lesson/page.h: a picture of the lesson beside nacre's own and the difference of the two.
+// lesson/page.h: shows a picture of the lesson beside nacre's own, and the difference of the two.
 #pragma once
 
 #include <cstdint>
@@ -14,17 +14,17 @@
 
 namespace nacre {
 
-// A scene by nacre's own renderer: as shown (Reinhard, which is the lesson's tone operator, and
-// exact sRGB) and where spheres are.
+// A scene rendered by nacre's own renderer: the displayed codes (with Reinhard, the tone operator
+// of the lesson, and exact sRGB), and the pixels of spheres.
 struct AccuratePicture {
   int spp = 0;
   Rgb8Picture shown;
   std::vector<uint8_t> sphere;  // 1 where a sphere covers part of the pixel
 };
-// on_progress is told the share done, and may throw.
+// `on_progress` gets the finished fraction, and may throw.
 AccuratePicture RenderAccurate(const Scene& scene, const std::function<void(double)>& on_progress);
 
-// A part of the pictures, each pixel `zoom` times as large.
+// A part of the pictures, magnified by `zoom`.
 struct SheetView {
   Window window;
   int zoom = 1;
@@ -32,10 +32,10 @@ struct SheetView {
 
 struct TextbookSheet {
   std::string title;
-  std::vector<SheetView> views;  // one below the other, all equally wide
+  std::vector<SheetView> views;  // stacked, all of equal width
 };
 
-// Writes lesson | nacre | heat map as one PNG. Both pictures have the lesson's size.
+// Writes lesson | nacre | heat map as one PNG. Both pictures must have the same size.
 void WriteTextbookSheet(const std::string& path, const TextbookSheet& sheet,
                         const CodedPicture& lesson, const AccuratePicture& accurate);
 

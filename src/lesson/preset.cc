@@ -30,7 +30,7 @@ bool IsComparison(const Scene& scene) {
          Is<MetallicRoughnessMaterial>(scene, split.materials[1]);
 }
 
-// Metallic-roughness spheres in rows and columns, at least two of each.
+// Whether the scene has metallic-roughness spheres in at least two rows and two columns.
 bool IsGrid(const Scene& scene) {
   std::set<double> columns;
   std::set<double> rows;
@@ -57,7 +57,7 @@ ExrHeader MakeHeader(const TextbookPicture& picture, PixelType type) {
   attributes["nacre:commit"] = std::string(kCommit);
   attributes["nacre:preset"] = std::string("textbook");
   attributes["nacre:settings"] = SettingsText(picture);
-  // So that nobody takes it for linear radiance, which the lesson does not have.
+  // A warning not to take it for linear radiance, which the lesson does not have.
   attributes["comments"] = std::string(
       "display-referred: the textbook preset tone-maps and encodes in the shading, as the lesson");
   return header;

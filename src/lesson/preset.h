@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lesson/preset.h: --preset textbook: the lesson's own pictures as files.
+// lesson/preset.h: --preset textbook: renders the lesson's own pictures to files.
 #pragma once
 
 #include <functional>
@@ -14,16 +14,16 @@ namespace nacre {
 
 enum class TextbookSubject : uint8_t { kComparison, kGrid };
 
-// Which of the lesson's two pictures the scene asks for. Throws Error (usage) for a scene that is
-// neither; `file` is what the message calls it.
+// Which of the lesson's two pictures the scene corresponds to. Throws Error (kUsage) for other
+// scenes; `file` is the scene's name in the message.
 TextbookSubject ChooseTextbookSubject(const Scene& scene, const std::string& file);
 
-// By the lesson's own program, faults and all. Sides that are 0 are the lesson's.
+// Renders with the lesson's own program, including its faults. Sides of 0 mean those of the lesson.
 TextbookPicture RenderTextbookSubject(TextbookSubject subject, int width, int height);
 
 // Writes the picture to EXR and PNG files: its float image, which is display-referred, as samples
-// of `type`, and its codes. All files are open before any is written, and complete before any gets
-// its name; before_they_appear may throw, and then none does. Throws Error (kCannotWrite).
+// of `type`, and its codes. All files are opened before any is written, and all are complete before
+// any gets its name; before_they_appear may throw, and then none does. Throws Error (kCannotWrite).
 void WriteTextbookFiles(const TextbookPicture& picture, const std::vector<std::string>& paths,
                         PixelType type, const ExrOptions& options,
                         const std::function<void()>& before_they_appear);

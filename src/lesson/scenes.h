@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// lesson/scenes.h: scenes/textbook/*.json in the program: the lesson's two set-ups for
-// nacre's own renderer, with real spheres and light that falls off.
+// lesson/scenes.h: scenes/textbook/*.json, compiled in: the lesson's two set-ups for nacre's own
+// renderer, with real spheres and lights with fall-off.
 #pragma once
 
 #include "scene/scene.h"

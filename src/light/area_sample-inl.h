@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// light/area_sample-inl.h: samples of area lights on SIMD vectors: what the shapes share. Scalar
-// twin: area_sample.h.
+// light/area_sample-inl.h: samples of area lights on SIMD vectors: code that all shapes share.
+// Scalar twin: area_sample.h.
 #if defined(NACRE_LIGHT_AREA_SAMPLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_LIGHT_AREA_SAMPLE_INL_H_
 #undef NACRE_LIGHT_AREA_SAMPLE_INL_H_
@@ -33,7 +33,7 @@ HWY_INLINE AreaSampleV<V> Select(M mask, const AreaSampleV<V>& yes, const AreaSa
           hn::IfThenElse(mask, yes.cos_light, no.cos_light)};
 }
 
-// All 0 where `mask` does not hold.
+// Returns `sample`, with all members 0 where `mask` is false.
 template <class D, class M, class V>
 HWY_INLINE AreaSampleV<V> SampleIf(D d, M mask, const AreaSampleV<V>& sample) {
   const V zero = hn::Zero(d);
@@ -61,8 +61,8 @@ struct FlatLightV {
   Vec3V<V> corner, edge_x, edge_y;
 };
 
-// The largest length that a light is given by, and the light with all of them multiplied by a
-// factor.
+// LargestLength is the largest component of the vectors that describe a light. Scaled multiplies
+// all of them by a factor.
 template <class Shape, class V>
 HWY_INLINE V LargestLength(const FlatLightV<Shape, V>& light) {
   const V edges = hn::Max(LargestComponent(light.edge_x), LargestComponent(light.edge_y));
@@ -80,11 +80,11 @@ struct ScaledLightV {
   V unit;
 };
 
-// Divides a light's lengths by the power of two in the largest of them, of which the offset from
-// the point is one. The formulas below multiply up to five lengths, and with lengths of 1e-10 or
+// Divides a light's lengths, including its offset from the shaded point, by the power of two in the
+// largest of them. The light formulas multiply up to five lengths, and with lengths of 1e-10 or
 // 1e10 the products would leave the range of float. Solid angles and irradiances do not change, and
 // distances are multiples of `unit`. Where no product would have left the range, no bit of the
-// results changes. For lights with LargestLength and Scaled.
+// results changes. Light must have LargestLength and Scaled.
 template <class D, class Light, class V = hn::Vec<D>>
 HWY_INLINE ScaledLightV<Light, V> ScaleToUnit(D d, const Light& light) {
   const PowerOfTwoV<V> unit = PowerOfTwo(d, LargestLength(light));
@@ -103,7 +103,7 @@ HWY_INLINE V TripleProduct(const Vec3V<V>& a, const Vec3V<V>& b, const Vec3V<V>&
   return FusedDot(a, FusedCross(b, c));
 }
 
-// 1 / x, 0 where x <= 0.
+// 1 / x, or 0 where x <= 0.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V InverseIfPositive(D d, V x) {
   const V one = hn::Set(d, 1.0f);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// light/area_sample.h: a direction sampled towards an area light. The lights themselves:
+// light/area_sample.h: a direction sampled towards an area light. The lights themselves are in
 // {sphere,rectangle,disk,triangle}_light.h. SIMD twin: area_sample-inl.h.
 //
 // A light's geometry is relative to the shaded point: its centre or corner is the offset from the
@@ -9,8 +9,8 @@
 //
 // Every light has
 //   AreaSample SampleLight(light, u0, u1)    for u0 and u1 in [0, 1)
-//   Real       LightPdf(light, direction)    the pdf of that sample: 0 if it misses the light
-//   Real       SolidAngle(light)             a disk's by quadrature, in double only
+//   Real       LightPdf(light, direction)    the pdf of sampling it; 0 if it misses the light
+//   Real       SolidAngle(light)             for disks by quadrature, in double only
 // Pdfs are per solid angle. Samples are uniform in solid angle, unless a light's file says
 // otherwise. The radiance that leaves towards the point is up to the caller; the sign of cos_light
 // tells which side faces the point.
@@ -25,12 +25,12 @@ struct AreaSample {
   Imath::Vec3<Real> to_light{0, 0, 0};  // unit length
   Real distance = 0;                    // to the light's first surface in that direction
   Real inverse_pdf = 0;                 // solid-angle measure; 0: no sample
-  Real cos_light = 0;                   // of the light's outward normal towards the point
+  Real cos_light = 0;                   // between the light's outward normal and -to_light
 };
 
-// Flat lights of smaller solid angles are sampled by area, not by solid angle: there the pdf
-// per solid angle hardly varies over the light, unless it is seen edge-on, and differences of
-// angles have lost their digits.
+// Flat lights of smaller solid angles are sampled uniformly in area, not in solid angle: there the
+// pdf per solid angle hardly varies over the light, unless it is seen edge-on, and differences of
+// angles would have lost their digits.
 template <typename Real>
 inline constexpr Real kSmallSolidAngle = static_cast<Real>(1e-4);
 

@@ -2,9 +2,9 @@
 // light/disk_irradiance.h: the irradiance of a surface under a disk. SIMD twin:
 // disk_irradiance-inl.h.
 //
-// By Stokes' theorem it is half the contour integral of normal.(r x dr) / r^2 (Fock 1924, Lambert
-// for polygons). On a circle r^2 = a + b cos(t), so the integral is elementary, also over the arc
-// above the horizon; the chord along the horizon contributes its angle.
+// By Stokes' theorem the irradiance is half the contour integral of normal.(r x dr) / r^2 (Fock
+// 1924, Lambert for polygons). On a circle r^2 = a + b cos(t), so the integral is elementary, also
+// over the arc above the horizon; the chord along the horizon contributes its angle.
 //
 // In the disk's axes (light/disk_light.h) the offset from the shaded point to the centre is
 // z normal + rho x_axis, and the surface's normal has the components n.
@@ -40,8 +40,9 @@ DiskHorizonTerms<Real> MakeDiskHorizonTerms(const DiskLight<Real>& light,
   return disk;
 }
 
-// A disk above the horizon: pi radius^2 (n.z (w + q) + 2 z rho n.x) / (q (a + q)) with
-// a = z^2 + rho^2 + radius^2, w = z^2 + radius^2 - rho^2, q^2 = a^2 - b^2 = w^2 + (2 z rho)^2.
+// The irradiance of a disk above the horizon is pi radius^2 (n.z (w + q) + 2 z rho n.x) /
+// (q (a + q)) with a = z^2 + rho^2 + radius^2, w = z^2 + radius^2 - rho^2,
+// q^2 = a^2 - b^2 = w^2 + (2 z rho)^2.
 template <typename Real>
 Real IrradianceOfWholeDisk(const DiskHorizonTerms<Real>& disk) {
   const Real radius2 = disk.radius * disk.radius, z2 = disk.z * disk.z;
@@ -54,16 +55,17 @@ Real IrradianceOfWholeDisk(const DiskHorizonTerms<Real>& disk) {
          (q * (a + q));
 }
 
-// The integral of max(y - x, 0) over the unit disk, y a coordinate on it.
+// The integral of max(y - x, 0) over the unit disk, where y is a coordinate on it.
 template <typename Real>
 Real HeightMoment(Real x) {
   const Real y = std::sqrt((1 - x) * (1 + x));
   return 2 * y * y * y / 3 - x * (std::acos(x) - x * y);
 }
 
-// A disk that the horizon clips, and that is so small (below 1e-5 of its distance) that distance
-// and direction are constant over it: the height's first moment over the segment above the horizon.
-// The relative error is 4 times the ratio of size and distance.
+// The irradiance of a disk that the horizon clips, and that is so small (below 1e-5 of its
+// distance) that distance and direction are constant over it: it is proportional to the first
+// moment of height over the segment above the horizon. The relative error is 4 times the ratio of
+// size and distance.
 template <typename Real>
 Real IrradianceOfSmallClippedDisk(const DiskHorizonTerms<Real>& disk) {
   const Real x = -disk.centre_height / disk.rim_height;  // the horizon, in radii from the centre
@@ -77,7 +79,7 @@ template <typename Real>
 struct RimPoint {
   Imath::Vec3<Real> position;
   Real distance2;  // a + b cos(t)
-  Real one, cos;   // that of sin(t) is a logarithm of the ratio of distance2
+  Real one, cos;   // for sin(t), the difference is a logarithm of the ratio of distance2
 };
 
 template <typename Real>
@@ -93,7 +95,7 @@ RimPoint<Real> RimPointAt(const DiskHorizonTerms<Real>& disk, Real t) {
   const Real cos_half = std::cos(t / 2);
   rim.distance2 =
       z2 + (disk.radius - disk.rho) * (disk.radius - disk.rho) + 2 * b * cos_half * cos_half;
-  // The arc tangent over b, which has a limit at b = 0.
+  // The arc tangent divided by b, which has a limit at b = 0.
   const Real slope = std::sin(t) / (q + rim.distance2);
   const Real x = std::abs(b * slope);
   const Real angle_over_b = slope * (1 - x * x * AtanRemainder(x));
@@ -102,8 +104,8 @@ RimPoint<Real> RimPointAt(const DiskHorizonTerms<Real>& disk, Real t) {
   return rim;
 }
 
-// A disk that the horizon clips. In double only: terms of the order of the disk's angular size
-// cancel to its cube, so that 6 digits are left where it is 1e-5.
+// The irradiance of a disk that the horizon clips. In double only: terms of the order of the disk's
+// angular size cancel to its cube, so that 6 digits are left where it is 1e-5.
 inline double IrradianceOfClippedDisk(const DiskHorizonTerms<double>& disk) {
   const double distance = std::hypot(disk.z, disk.rho);
   if (disk.radius < 1e-5 * distance) return IrradianceOfSmallClippedDisk(disk);

@@ -19,7 +19,7 @@ namespace nacre {
 template <typename Real>
 struct DiskLight {
   Imath::Vec3<Real> centre;
-  Imath::Vec3<Real> normal;  // unit length, the way it faces
+  Imath::Vec3<Real> normal;  // unit length, out of the front
   Real radius;
 };
 
@@ -31,8 +31,8 @@ struct DiskView {
   Real rho, z;
 };
 
-// The centre is first transformed to any basis about the normal: next to the disk's axis,
-// centre - z normal would be all rounding error.
+// The centre is first transformed to an arbitrary basis about the normal: next to the disk's axis,
+// centre - z normal would be pure rounding error.
 template <typename Real>
 DiskView<Real> ViewOf(const DiskLight<Real>& light) {
   const Basis<Real> basis = BasisAbout(light.normal);
@@ -61,12 +61,11 @@ RectangleLight<Real> SquareAround(const DiskLight<Real>& light, const DiskView<R
   return {light.centre - x - y, x * 2, y * 2};
 }
 
-// The solid angle, in double, for choosing among lights; sampling does not need it. The contour
-// integral of
-// e.(r x dr) / (r (r + e.r)), e the direction to the centre, which is
+// The solid angle, in double, for choosing among lights; sampling does not need it. It is the
+// contour integral of e.(r x dr) / (r (r + e.r)), where e is the direction to the centre, which is
 // radius^2 e.normal dt / (r (r + e.r)): nothing cancels. The trapezoidal rule over a period
-// converges exponentially, the slower the nearer the disk is: 1e-10 down to heights of 1/5000 of
-// the radius.
+// converges exponentially, but more slowly the nearer the disk is: the error is 1e-10 down to
+// heights of 1/5000 of the radius.
 inline double SolidAngle(const DiskLight<double>& light) {
   const DiskView<double> view = ViewOf(light);
   const double distance = std::hypot(view.rho, view.z);
@@ -75,7 +74,7 @@ inline double SolidAngle(const DiskLight<double>& light) {
   const double nearness = light.radius / std::hypot(std::max(beside, 0.0), view.z);
   const int steps = 16 + static_cast<int>(24 * std::min(nearness, 5000.0));
   double sum = 0;
-  for (int i = 0; i < steps; ++i) {  // half of the period: the other half is the same
+  for (int i = 0; i < steps; ++i) {  // half of the period: the other half is symmetric
     const double cos = std::cos(M_PI * (i + 0.5) / steps);
     const double along = light.radius * view.rho * cos / distance;
     const double r =
@@ -108,7 +107,7 @@ AreaSample<Real> SampleLight(const DiskLight<Real>& light, Real u0, Real u1) {
   return sample;
 }
 
-// Integrates to 1; for a nearby disk to the fraction of samples that are not discarded.
+// The pdf integrates to 1, or for a nearby disk to the fraction of samples that are not discarded.
 template <typename Real>
 Real LightPdf(const DiskLight<Real>& light, const Imath::Vec3<Real>& direction) {
   const DiskView<Real> view = ViewOf(light);

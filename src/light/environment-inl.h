@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // light/environment-inl.h: an environment's image on SIMD vectors. Scalar twin: environment.h.
 //
-// Look-ups are done lane by lane: a texel is three floats side by side, and a sampled one takes
+// Look-ups are done lane by lane: a texel is three floats side by side, and sampling one takes
 // random reads of tables, which gathers do not speed up.
 #if defined(NACRE_LIGHT_ENVIRONMENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_LIGHT_ENVIRONMENT_INL_H_
@@ -58,7 +58,7 @@ HWY_INLINE void StoreTexel(const EnvironmentMap& map, size_t index, size_t lane,
   lanes[2][lane] = texel.z;
 }
 
-// As TexelOf has it, of what StoreTexel has stored for all lanes.
+// Returns the texels that StoreTexel has stored for all lanes, with the pdf of TexelOf.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE EnvironmentTexelV<V> LoadTexels(D d, const EnvironmentMap& map,
                                            EnvironmentLanes& lanes) {
@@ -80,7 +80,7 @@ HWY_INLINE EnvironmentTexelV<V> LoadTexels(D d, const EnvironmentMap& map,
           map.is_black ? hn::Zero(d) : hn::Load(d, lanes[3])};
 }
 
-// Radiance and sampling pdf of these directions.
+// The radiance of these directions, and the pdf with which they are sampled.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE EnvironmentTexelV<V> TexelAt(D d, const EnvironmentMap& map, const Vec3V<V>& direction) {
   const LatLongV<V> at = LatLongFromDirection(d, direction);
@@ -104,7 +104,7 @@ struct EnvironmentSampleV {
   EnvironmentTexelV<V> texel;
 };
 
-// One sample a lane, from numbers of 32 random bits: the 24 bits of a float would not reach dim
+// One sample per lane, from numbers with 32 random bits: the 24 bits of a float would not reach dim
 // texels next to a sun.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE EnvironmentSampleV<V> SampleEnvironment(D d, const EnvironmentMap& map,

@@ -15,7 +15,7 @@ namespace {
 EnvironmentRow RowEdges(int height, int row) {
   const double step = M_PI / height;
   const bool upper = 2 * row < height;
-  // 1 - cos = 2 sin^2(half the angle), from the nearer pole.
+  // 1 - cos = 2 sin^2(theta / 2), with theta measured from the nearer pole.
   const auto one_minus_cos = [&](int edge) {
     const double sin = std::sin(step * (upper ? edge : height - edge) / 2);
     return static_cast<float>(2 * sin * sin);
@@ -33,7 +33,7 @@ double FillBlocks(std::span<const Vec3f> row, std::span<EnvironmentBlock> blocks
     }
     blocks[i].sum = sum;
   }
-  // Of a black row, which is never chosen, every quotient is NaN.
+  // In a black row, which is never chosen, every quotient is NaN.
   size_t block = 0;
   for (size_t cell = 0; cell < blocks.size(); ++cell) {
     const double begin = static_cast<double>(cell) / static_cast<double>(blocks.size());
@@ -61,7 +61,7 @@ EnvironmentMap MakeEnvironmentMap(int width, int height, std::shared_ptr<const V
   map.blocks = HugeArray<EnvironmentBlock>(rows * map.row_blocks);
   map.row_sums.resize(rows);
   std::vector<double> row_weights(rows);
-  constexpr size_t kRows = 16;  // at a time
+  constexpr size_t kRows = 16;  // per task
   ParallelFor((rows + kRows - 1) / kRows, threads, [&](size_t some) {
     for (size_t y = some * kRows; y < std::min(rows, (some + 1) * kRows); ++y) {
       EnvironmentBlock* const blocks = &map.blocks[y * map.row_blocks];

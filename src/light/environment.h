@@ -40,38 +40,40 @@ struct EnvironmentRow {
   float sign;
 };
 
-// So many texels of a row, or what is left of it, are a block.
+// The number of texels in a block. Blocks do not cross rows, so the last one of a row may be
+// shorter.
 inline constexpr size_t kEnvironmentBlock = 16;
 
-// Block i of a row and, for the search, the i-th of as many equal cells of the unit interval as the
-// row has blocks. A table of texels would be larger than the image, and a search among the texels
-// of a block reads fewer lines of memory than one in such a table.
+// Entry i describes block i of a row and, for the search, the i-th of as many equal cells of the
+// unit interval as the row has blocks. A table with an entry for each texel would be larger than
+// the image, and a search among the texels of a block reads fewer cache lines than one in such a
+// table.
 struct EnvironmentBlock {
-  double sum;      // of the row's luminances up to the end of the block
+  double sum;      // sum of the row's luminances up to the end of the block
   uint32_t first;  // the block in whose part cell i begins, where the search starts
 };
 
 struct EnvironmentMap {
   int width = 0, height = 0;
-  std::shared_ptr<const Vec3f[]> texels;  // the image's own, row by row
+  std::shared_ptr<const Vec3f[]> texels;  // row by row; shared with the image, not copied
   std::vector<EnvironmentRow> rows;
   std::vector<CdfEntry> row_table;
-  std::vector<double> row_sums;        // of luminances
-  size_t row_blocks = 0;               // of a row
+  std::vector<double> row_sums;        // the sum of luminances of each row
+  size_t row_blocks = 0;               // the number of blocks per row
   HugeArray<EnvironmentBlock> blocks;  // row by row
-  double sum = 0;                      // of luminance times solid angle of all texels
+  double sum = 0;                      // luminance times solid angle, summed over all texels
   bool is_black = true;                // nothing to sample
 
   size_t size() const { return static_cast<size_t>(width) * static_cast<size_t>(height); }
 };
 
-// Texels in rows from +y on; radiances >= 0 and finite. The map takes a byte a texel, beside the
-// texels themselves. On up to `threads` threads (0: as many as the machine has).
+// `texels` are rows from +y on; radiances must be >= 0 and finite. The map takes one byte per texel
+// beside the texels themselves. Uses up to `threads` threads (0: as many as the machine has).
 EnvironmentMap MakeEnvironmentMap(int width, int height, std::shared_ptr<const Vec3f[]> texels,
                                   int threads = 1);
 
-// The luminance that texels are chosen by. Denormals count as 0 in whatever mode of floats, as they
-// do in renders.
+// The luminance by which texels are chosen. Denormals count as 0 in every floating-point mode, as
+// they do in renders.
 inline double TexelLuminance(const Vec3f& texel) {
   const auto seen = [](float x) {
     return x >= std::numeric_limits<float>::min() ? double{x} : 0.0;
@@ -79,7 +81,8 @@ inline double TexelLuminance(const Vec3f& texel) {
   return Luminance(Rgb(seen(texel.x), seen(texel.y), seen(texel.z)));
 }
 
-// The texel with its pdf: luminance times solid angle over its sum, per solid angle.
+// The texel with its pdf per solid angle: the probability, luminance times solid angle over the sum
+// of all, divided by the solid angle.
 inline EnvironmentTexel TexelOf(const EnvironmentMap& map, size_t index) {
   const Vec3f& t = map.texels[static_cast<ptrdiff_t>(index)];
   const double pdf = map.is_black ? 0 : static_cast<float>(TexelLuminance(t)) / map.sum;
@@ -101,7 +104,8 @@ Imath::Vec3<Real> DirectionFromLatLong(Real u, Real v) {
   return {std::sin(2 * pi * u) * sin, std::cos(pi * v), -std::cos(2 * pi * u) * sin};
 }
 
-// u in [0, 1), v in [0, 1]. By arc tangents, because acos(y) loses its digits at the poles.
+// Returns u in [0, 1), v in [0, 1]. Both are arc tangents, because acos(y) loses its digits at the
+// poles.
 template <typename Real>
 LatLong<Real> LatLongFromDirection(const Imath::Vec3<Real>& direction) {
   const Real pi = static_cast<Real>(M_PI);
@@ -131,15 +135,15 @@ struct EnvironmentPick {
   double sign;
 };
 
-// A search for a texel, in steps: tables and texels lie far apart in memory, and while one search
-// waits for them, others go on.
+// A search for a texel, which runs in steps (FindRow, FindBlock, PickTexel): tables and texels lie
+// far apart in memory, and while one search waits for them, others go on.
 struct EnvironmentSearch {
   CdfPick row;
-  double u;  // where in the row
+  double u;  // the position in the CDF of the row
   size_t block;
 };
 
-// The row, which is not black. `block`: where the search of it starts.
+// Chooses the row, which is never black. Sets `block` to the cell where FindBlock starts.
 inline EnvironmentSearch FindRow(const EnvironmentMap& map, double u0, double u1) {
   const CdfPick row = PickIndex(map.row_table, u1);
   const size_t last = map.row_blocks - 1;
@@ -148,8 +152,9 @@ inline EnvironmentSearch FindRow(const EnvironmentMap& map, double u0, double u1
   return {row, u0, cell};
 }
 
-// Whether the CDF of a row is above u at a texel up to which luminances have this sum. Mostly a
-// product tells that it is not: two roundings are less than 2^-51 of it.
+// Whether the CDF of a row is above u at a texel up to which luminances add up to `sum`; `total` is
+// the sum of the row. Where it is not, comparing with a product mostly decides, and saves the
+// division: the product's two rounding errors are less than 2^-51 of it.
 inline bool IsAbove(double sum, double total, double u) {
   return !(sum < u * total * (1 - 0x1p-51)) && sum / total > u;
 }
@@ -164,10 +169,11 @@ inline void FindBlock(const EnvironmentMap& map, EnvironmentSearch* search) {
   search->block = i;
   const size_t first = row * static_cast<size_t>(map.width) + i * kEnvironmentBlock;
   const float* const values = &map.texels[static_cast<ptrdiff_t>(first)].x;
-  for (const size_t k : {0, 16, 32, 47}) __builtin_prefetch(values + k);  // all lines of it
+  for (const size_t k : {0, 16, 32, 47}) __builtin_prefetch(values + k);  // all its cache lines
 }
 
-// The texel of the row: as PickIndex has it of a table of the row's luminances, to the bit.
+// The column of the texel, bit for bit as PickIndex would choose it from a table of the row's
+// luminances.
 inline CdfPick FindColumn(const EnvironmentMap& map, const EnvironmentSearch& search) {
   const size_t row = search.row.index, width = static_cast<size_t>(map.width);
   const double total = map.row_sums[row], u = search.u;
@@ -196,11 +202,11 @@ inline EnvironmentPick PickTexel(const EnvironmentMap& map, const EnvironmentSea
 template <typename Real>
 struct EnvironmentSample {
   Imath::Vec3<Real> to_light{0, 1, 0};
-  EnvironmentTexel texel{0, 0, 0, 0};  // its pdf is the sample's; 0: no sample
+  EnvironmentTexel texel{0, 0, 0, 0};  // its pdf is that of the sample; 0: no sample
 };
 
-// A direction by importance sampling; no sample if the environment is black. u0 and u1 should have
-// 32 random bits: 24 do not reach dim texels next to a sun.
+// Samples a direction by importance. There is no sample if the environment is black. u0 and u1
+// should have 32 random bits: 24 do not reach dim texels next to a sun.
 template <typename Real>
 EnvironmentSample<Real> SampleEnvironment(const EnvironmentMap& map, double u0, double u1) {
   if (map.is_black) return {};

@@ -2,7 +2,7 @@
 // light/irradiance.h: the irradiance of a surface under an unoccluded area light of uniform
 // radiance, in closed form, clipped at the surface's horizon. SIMD twin: irradiance-inl.h.
 //
-//   Real Irradiance(light, normal)    per unit of radiance; pi under a light all around the point
+//   Real Irradiance(light, normal)    per unit of radiance; pi where light comes from everywhere
 //
 // `light` is relative to the shaded point (light/area_sample.h), `normal` is unit length. Both
 // faces of a flat light and both sides of a sphere count as emitting; the caller checks which ones

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// light/mesh_light-inl.h: the triangles of a mesh light that rays hit. Scalar twin:
-// FindMeshLightHits of mesh_light.h, bit for bit. Rays to a light go to all its parts, so each
+// light/mesh_light-inl.h: finds the triangles of a mesh light that rays hit. Scalar twin, bit for
+// bit: FindMeshLightHits of mesh_light.h. Rays to a light go to all parts of it, so each ray
 // traverses the tree by itself: a vector holds the boxes of a node, or the triangles of a leaf.
 #if defined(NACRE_LIGHT_MESH_LIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_LIGHT_MESH_LIGHT_INL_H_
@@ -21,28 +21,28 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Rays as the boxes of the tree are tested with them, in floats: relative to the light's origin,
-// and from the point where they are nearest to it, so that the floats' errors are relative to the
-// light's size, however far away a ray starts.
+// Rays in the form in which they are tested against the boxes of the tree, in floats: relative to
+// the light's origin, and with the point nearest to it as the ray's origin, so that the floats'
+// errors are relative to the light's size, however far away a ray starts.
 //
-// In place of the origin are two with a margin between them: what the exact test may accept beside
-// a triangle must not be outside of its box, nor lost by roundings. R is the light's radius, p
-// where the ray starts. In units of 2^-24 R, floats lose at most 1 in the origin, 2 in the
-// difference to a side of a box, which is up to 2 R, and 4 in its product with the rounded inverse.
-// In units of 2^-53 |p|, doubles lose less than 4 in the origin, and the exact test accepts less
-// than 12 beside a triangle; more only if the ray is all but parallel to an edge, where its last
-// bits decide. The margin is twice that.
+// Instead of one ray origin there are two, with a margin between them: a point beside a triangle
+// that the exact test may accept must not lie outside the triangle's box, nor be lost by rounding.
+// R is the light's radius, p the point where the ray starts. In units of 2^-24 R, floats lose at
+// most 1 in the origin, 2 in the difference to a side of a box, which is up to 2 R, and 4 in its
+// product with the rounded inverse. In units of 2^-53 |p|, doubles lose less than 4 in the origin,
+// and the exact test accepts points less than 12 beside a triangle, or more only if the ray is
+// nearly parallel to an edge, where its last bits decide. The margin is twice that.
 inline constexpr double kLightBoxMargin = 16 * 0x1p-24, kLightDistanceMargin = 32 * 0x1p-53;
 
 struct LightBoxRays {
   static constexpr size_t kMaxLanes = HWY_MAX_BYTES / sizeof(double);
-  // Of an axis: the origin plus and minus the margin, and the inverse of the direction.
+  // For each axis, the origin plus and minus the margin, and the inverse of the direction.
   alignas(64) float plus[3][kMaxLanes], minus[3][kMaxLanes], inverse[3][kMaxLanes];
   alignas(64) float start[kMaxLanes];  // where the ray starts, in units of the direction
 };
 
-// Sets `rays`. `direction`: unit vectors, up to the rounding to float. Returns the lanes whose ray
-// meets the ball around the light.
+// Sets `rays`. `direction` are unit vectors, up to the rounding to float. Returns the lanes whose
+// ray meets the ball around the light.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> MakeLightBoxRays(D d, const MeshLight& light, const Vec3V<V>& point,
                                         const Vec3V<V>& direction, LightBoxRays* rays) {
@@ -58,20 +58,20 @@ HWY_INLINE hn::Mask<D> MakeLightBoxRays(D d, const MeshLight& light, const Vec3V
   const auto axis = [&](int c, V at, V along) HWY_ATTR {
     store(hn::Add(at, margin), rays->plus[c]);
     store(hn::Sub(at, margin), rays->minus[c]);
-    // A ray along a slab is not in its planes: the margin lies between.
+    // A ray parallel to a slab never lies in its planes: the margin lies between.
     const V size_along = hn::Max(hn::Abs(along), hn::Set(d, 1e-30));
     store(hn::Div(hn::CopySign(hn::Set(d, 1.0), along), size_along), rays->inverse[c]);
   };
   axis(0, nearest.x, direction.x);
   axis(1, nearest.y, direction.y);
   axis(2, nearest.z, direction.z);
-  // Nothing of the light is before -4 R, where floats still hold the margin.
+  // No part of the light lies before -4 R, where floats still resolve the margin.
   store(hn::Sub(hn::Max(hn::Neg(forward), hn::Set(d, -4 * light.radius)), margin), rays->start);
   const V reach = hn::Add(hn::Set(d, light.radius), hn::Add(margin, margin));
   return hn::Le(Dot(nearest, nearest), hn::Mul(reach, reach));
 }
 
-// The boxes of the node that ray `lane` meets, as bits.
+// The boxes of the node that ray `lane` meets, as a bit mask.
 HWY_INLINE uint32_t IntersectBoxes(const MeshLightNode& node, const LightBoxRays& rays,
                                    size_t lane) {
   const hn::CappedTag<float, kMeshLightWidth> d;
@@ -97,9 +97,9 @@ HWY_INLINE uint32_t IntersectBoxes(const MeshLightNode& node, const LightBoxRays
   return bits & ((uint32_t{1} << node.count) - 1);
 }
 
-// Calls found(triangle, t, towards) for the triangles of the leaf that the ray hits: t in units of
-// the direction, and the product of the direction and the triangle's normal, negative where the ray
-// meets its front.
+// Calls found(triangle, t, towards) for the triangles of the leaf that the ray hits. t is in units
+// of the direction; `towards` is the dot product of the direction and the triangle's normal (not
+// normalised), negative where the ray meets the front.
 template <class Found>
 HWY_INLINE void ForEachLeafHit(const MeshLightLeaf& leaf, const Vec3d& point,
                                const Vec3d& direction, const Found& found) {
@@ -138,7 +138,8 @@ HWY_INLINE void ForEachLeafHit(const MeshLightLeaf& leaf, const Vec3d& point,
   }
 }
 
-// Calls found(triangle, t, towards) for the triangles that a ray hits, which is `lane` of the rays.
+// Calls found(triangle, t, towards), as ForEachLeafHit does, for all triangles that ray `lane` of
+// the rays hits; `point` and `direction` are that ray in double.
 template <class Found>
 HWY_INLINE void ForEachMeshLightHit(const MeshLight& light, const LightBoxRays& rays, size_t lane,
                                     const Vec3d& point, const Vec3d& direction,
@@ -157,7 +158,7 @@ HWY_INLINE void ForEachMeshLightHit(const MeshLight& light, const LightBoxRays& 
   uint32_t stack[kMeshLightStack];
   size_t size = 0;
   stack[size++] = 0;
-  // Leaves are on the stack as well, so that triangles are met in the order of the tree.
+  // Leaves are put on the stack, too, so that triangles are met in the order of the tree.
   constexpr uint32_t kLeafBit = 0x80000000u;
   while (size > 0) {
     const uint32_t top = stack[--size];

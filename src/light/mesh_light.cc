@@ -29,8 +29,8 @@ struct Box {
 
 Vec3d Centroid(const TriangleLight<double>& t) { return t.corner + (t.edge_x + t.edge_y) / 3; }
 
-// Triangles [begin, end) of the sorted ones, and their box. The halves of what is split are two
-// neighbours, `halves` and the next.
+// Triangles [begin, end) in sorted order, and their box. A range that is split has its two halves
+// at the indices `halves` and `halves` + 1.
 struct Range {
   Box box;
   uint32_t begin = 0, end = 0;
@@ -39,8 +39,8 @@ struct Range {
   uint32_t count() const { return end - begin; }
 };
 
-// Splits the triangles at the median along the longest side of their centroids' box, until few are
-// left. Sorts `order`.
+// Splits the triangles at the median along the longest side of their centroids' box, until each
+// range has few. Sorts `order`.
 class RangeSplitter {
  public:
   RangeSplitter(const std::vector<TriangleLight<double>>& triangles, std::vector<uint32_t>* order)
@@ -87,8 +87,8 @@ float RoundDown(double x) {
 }
 
 // Makes the light's tree: nodes of up to kMeshLightWidth ranges, leaves of up to kMeshLightLeaf
-// triangles. Of two halves the second always comes first: pdfs are summed in the order in which
-// rays meet triangles, so the order is part of a picture's bits.
+// triangles. The second half of a range always comes before the first: pdfs are summed in the order
+// in which rays meet triangles, so the order affects the bits of a picture.
 class TreeBuilder {
  public:
   TreeBuilder(const std::vector<Range>& ranges, MeshLight* light)
@@ -121,7 +121,7 @@ class TreeBuilder {
     light_.nodes.emplace_back();
     light_.nodes[node].count = static_cast<uint32_t>(children.size());
     for (size_t i = 0; i < kMeshLightWidth; ++i) {
-      // Unused entries repeat the last one.
+      // Unused entries repeat the last child's box.
       SetBox(ranges_[children[std::min(i, children.size() - 1)]].box, i, &light_.nodes[node]);
     }
     for (size_t i = 0; i < children.size(); ++i) {
@@ -133,7 +133,7 @@ class TreeBuilder {
     return node;
   }
 
-  // The largest ranges are split until there are enough, or none needs it.
+  // Splits the largest range repeatedly until there are kMeshLightWidth, or all are leaves.
   std::vector<uint32_t> ChildrenOf(uint32_t root) const {
     std::vector<uint32_t> children{root};
     while (children.size() < kMeshLightWidth) {
@@ -186,7 +186,7 @@ class TreeBuilder {
 
 // The tolerance of corners from a plane, relative to the mesh's size, because files hold floats. A
 // step of that height hides parts of the mesh only from points that see it at smaller slopes, which
-// get as little light.
+// receive correspondingly little light.
 constexpr double kFlat = 1e-7;
 
 // The largest and the smallest height of any corner over any triangle's plane, relative to the

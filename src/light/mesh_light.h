@@ -18,17 +18,17 @@
 
 namespace nacre {
 
-inline constexpr size_t kMeshLightWidth = 16;  // the most children of a node: a vector of floats
-inline constexpr size_t kMeshLightLeaf = 8;    // the most triangles of a leaf: a vector of doubles
-// Up to so many leaves a ray asks all boxes, which takes as many vectors as the nodes that it meets
-// in a tree, and no branches between them.
+inline constexpr size_t kMeshLightWidth = 16;  // maximum children of a node: a vector of floats
+inline constexpr size_t kMeshLightLeaf = 8;    // maximum triangles of a leaf: a vector of doubles
+// With up to this many leaves, a ray is tested against the boxes of all leaves, which takes as many
+// vectors as the nodes that it would meet in a tree, and no branches between them.
 inline constexpr size_t kMaxListedLeaves = 4 * kMeshLightWidth;
 
 // A node of a bounding volume hierarchy. The children's boxes are rounded outwards to floats.
 struct MeshLightNode {
   alignas(64) float low[3][kMeshLightWidth];
   alignas(64) float high[3][kMeshLightWidth];
-  uint32_t count = 0;               // of children
+  uint32_t count = 0;               // the number of children
   uint32_t child[kMeshLightWidth];  // a node's index; or a leaf's, if the bit is set in `leaves`
   uint32_t leaves = 0;
 };
@@ -37,8 +37,8 @@ struct MeshLightLeaf {
   alignas(64) double corner[3][kMeshLightLeaf];
   alignas(64) double edge_x[3][kMeshLightLeaf];
   alignas(64) double edge_y[3][kMeshLightLeaf];
-  alignas(64) double cross[3][kMeshLightLeaf];  // 0: no triangle
-  uint32_t triangle[kMeshLightLeaf];            // its index
+  alignas(64) double cross[3][kMeshLightLeaf];  // edge_x cross edge_y; 0 in unused entries
+  uint32_t triangle[kMeshLightLeaf];            // index in MeshLight::triangles
 };
 
 struct MeshLight {
@@ -46,11 +46,11 @@ struct MeshLight {
   std::vector<Vec3d> crosses;                    // edge_x cross edge_y of each
   std::vector<double> probabilities;             // area over the sum of all
   std::vector<CdfEntry> by_area;
-  // The first one is the root. But few leaves have no tree: rays ask all nodes, whose children are
-  // leaves in their order.
+  // The first node is the root. If is_flat_list, however, there is no tree: rays are tested against
+  // all nodes, whose children are the leaves in order.
   std::vector<MeshLightNode> nodes;
   std::vector<MeshLightLeaf> leaves;
-  bool is_flat_list = false;  // there is no tree
+  bool is_flat_list = false;  // true for up to kMaxListedLeaves leaves
   double radius = 0;          // of the ball around the origin that holds all triangles
   // Convex: no corner lies in front of any triangle's plane, so that from no point a front face
   // hides another one. Flat: no corner lies behind one either.
@@ -59,8 +59,8 @@ struct MeshLight {
   MeshOutline outline;  // of convex solids and polygons; else empty
 };
 
-// The size of the traversal stack. A node puts at most kMeshLightWidth on it, and a tree that is
-// split into halves has 29 levels of them above leaves of 8, 4 of which make one level of nodes.
+// The size of the traversal stack. A node pushes at most kMeshLightWidth entries. Halving 2^32
+// triangles down to leaves of 8 takes 29 levels, 4 of which make one level of nodes.
 inline constexpr size_t kMeshLightStack = 8 * kMeshLightWidth;
 
 // Meshes with more triangles are not checked for convexity: summing their irradiance in closed form

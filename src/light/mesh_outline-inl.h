@@ -27,8 +27,9 @@ struct OutlineCornersV {
   std::array<Vec3V<V>, kMaxOutlineCorners> offset, unit_offset;
 };
 
-// The light relative to a surface's horizon: whether it is visible at all, and whether the horizon
-// clips it or it is low over the horizon, so that its irradiance needs SectorIrradiance.
+// The light relative to a surface's horizon: `visible` if any of it is above the horizon;
+// `needs_sectors` if the horizon clips it or it is low over the horizon, so that its irradiance
+// needs SectorIrradiance.
 template <class M>
 struct HorizonV {
   M visible, needs_sectors;

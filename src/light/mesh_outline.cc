@@ -66,15 +66,15 @@ size_t CountPieces(const MeshOutline& outline) {
   return pieces;
 }
 
-// Euler's formula: the faces enclose one ball exactly once, without a hole.
+// Tests by Euler's formula whether the faces enclose one ball exactly once, without a hole.
 bool IsSolid(const MeshOutline& outline) {
   const auto closed = [](const OutlineEdge& edge) { return edge.right != kNoFace; };
   return std::all_of(outline.edges.begin(), outline.edges.end(), closed) &&
          outline.corners.size() + outline.faces.size() == outline.edges.size() + 2;
 }
 
-// Whether all faces have the same side, and no corner lies to the right of a border edge as seen
-// from there.
+// Whether all faces face the same way, and no corner lies to the right of a border edge, as seen
+// from the front.
 bool IsConvexPolygon(const MeshOutline& outline) {
   const Vec3d& up = outline.faces[0].cross;
   for (const OutlineFace& face : outline.faces) {

@@ -16,8 +16,8 @@ namespace nacre {
 
 inline constexpr uint32_t kNoFace = 0xffffffffu;
 
-// An edge shared by two triangles: its direction in `left` is from `from` to `to`, in `right`
-// reversed.
+// An edge shared by two triangles. It runs from `from` to `to` in the face `left`, and the other
+// way in the face `right`.
 struct OutlineEdge {
   uint32_t from, to;
   uint32_t left, right;  // right: kNoFace at a polygon's border
@@ -34,12 +34,12 @@ struct MeshOutline {
   std::vector<OutlineEdge> edges;
 };
 
-// The most corners of kMaxClosedFormTriangles triangles that are connected by edges.
+// The maximum number of corners of kMaxClosedFormTriangles triangles that are connected by edges.
 inline constexpr size_t kMaxOutlineCorners = 66;
 
-// For a mesh that is convex in the sense of MeshLight::is_convex and, if `is_flat`, flat. Corners
-// become relative to `origin`. Empty if the mesh is open at some edge or not convex, so that its
-// outline may be a different one.
+// The mesh must be convex in the sense of MeshLight::is_convex and, if `is_flat`, flat. Corners
+// become relative to `origin`. The result is empty if the mesh is not a closed solid or a convex
+// polygon, so that its outline may be a different one.
 MeshOutline MakeMeshOutline(std::span<const Vec3d> positions, std::span<const uint32_t> triangles,
                             const Vec3d& origin, bool is_flat);
 

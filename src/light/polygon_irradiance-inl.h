@@ -31,8 +31,8 @@ HWY_INLINE V EdgeIrradiance(D d, const Vec3V<V>& pivot, const Vec3V<V>& to_a, co
   const V t = hn::Div(hn::Min(chord_length, sum_length), larger);
   const V z = hn::Mul(t, t);
   const V remainder = AtanRemainderPolynomial(d, z);
-  // t is the tangent of half the arc for a short arc, whose excess is ArcExcess, and that of half
-  // its complement for a long one.
+  // t is the tangent of half the arc for a short arc, whose excess is ArcExcess, and the tangent of
+  // half the arc's complement for a long one.
   const V of_short = hn::Mul(z, hn::NegMulAdd(hn::Add(one, z), remainder, one));
   const V complement = hn::NegMulAdd(hn::Mul(t, z), remainder, t);  // the arc tangent of t
   const V angle = hn::NegMulAdd(hn::Set(d, 2.0f), complement, hn::Set(d, kTwoPi / 2));
@@ -77,7 +77,7 @@ HWY_INLINE V SectorIrradiance(D d, const Vec3V<V>& a, const Vec3V<V>& chord,
   const V m2 = hn::Add(c2, across2);
   const V size = hn::Abs(c);
   const auto is_short = hn::And(hn::Gt(p, size), hn::Gt(hn::Mul(q, q), m2));
-  // The series, in inverses of p and q.
+  // The power series, in inverses of p and q.
   const V ip = hn::Div(one, hn::IfThenElse(is_short, p, one));
   const V iq = hn::Div(one, hn::IfThenElse(is_short, q, one));
   const V ipq = hn::Mul(ip, iq);
@@ -91,7 +91,7 @@ HWY_INLINE V SectorIrradiance(D d, const Vec3V<V>& a, const Vec3V<V>& chord,
   const V by_series =
       hn::Mul(c, hn::NegMulAdd(hn::Mul(q_tan2, iq), hn::Mul(remainders.quotient, squares),
                                hn::NegMulAdd(remainders.first, cubes, hn::Mul(heights, ipq))));
-  // By angles.
+  // The form with angles.
   const V m = hn::Sqrt(m2);
   const V inverse_sum = InverseIfPositive(d, hn::Add(m, size));
   const V y = hn::MulSub(hn::Mul(p, across2), inverse_sum, hn::Mul(size, heights));
@@ -142,10 +142,10 @@ HWY_INLINE V PolygonIrradiance(D d, const Vec3V<V>& corner,
                                const Vec3V<V>& normal) {
   const V zero = hn::Zero(d);
   const V half = hn::Set(d, 0.5f);
-  const V most = hn::Set(d, kTwoPi / 2);  // a needle next to the point is all rounding error
+  const V most = hn::Set(d, kTwoPi / 2);  // a needle next to the point gives pure rounding error
   const Vec3V<V> pivot = Scale(corner, InverseIfPositive(d, Length(corner)));
-  // Only the sign is needed. Divided by a power of two because products with the volume of a
-  // polygon of 1e-10 of its distance would leave the range of float below.
+  // Only the sign is needed. It is divided by a power of two, because products with the volume of a
+  // polygon whose size is 1e-10 of its distance would underflow.
   const V triple = TripleProduct(corner, from_corner[1], from_corner[2]);
   const V orientation = hn::Mul(triple, PowerOfTwo(d, hn::Abs(triple)).inverse);
   std::array<Vec3V<V>, kCount> unit_offsets;

@@ -2,18 +2,20 @@
 // light/polygon_irradiance.h: the irradiance of a surface under convex polygons. SIMD twin:
 // polygon_irradiance-inl.h.
 //
-// Lambert 1760: half the sum, over the edges of the polygon's part above the horizon, of the angle
-// that an edge subtends times the cosine between the normal and the normal of the plane through the
-// edge and the point. In that form the terms of a distant polygon, of the order of its angular
-// size, cancel to the order of its square, and those of a strip along the horizon to the order of
-// the square of its height. Two rearrangements avoid that:
+// By Lambert 1760 the irradiance is half the sum, over the edges of the polygon's part above the
+// horizon, of the angle that an edge subtends times the cosine between the surface's normal and the
+// normal of the plane through the edge and the point. In that form the terms of a distant polygon,
+// of the order of its angular size, cancel to the order of its square, and those of a strip along
+// the horizon to the order of the square of its height. Two rearrangements avoid that:
 //
-// By chords, for small polygons: an edge from a to b on the unit sphere contributes normal.(a x b)
-// and the excess of its arc over its chord. The sum of the former over a closed polygon does not
-// change if a x b is replaced by (a - p) x (b - p), and a - p is small for a small polygon.
+// The sum by chords, for small polygons: an edge from a to b on the unit sphere contributes
+// normal.(a x b) and the excess of its arc over its chord. The sum of the former over a closed
+// polygon does not change if a x b is replaced by (a - p) x (b - p), and a - p is small for a small
+// polygon. p is the pivot below.
 //
-// By sectors, for polygons along the horizon: an edge contributes the region between it and the
-// horizon, the integral of sin^2 of its elevation over its azimuth, which is small for a low edge.
+// The sum by sectors, for polygons along the horizon: an edge contributes the region between it and
+// the horizon, the integral of sin^2 of its elevation over its azimuth, which is small for a low
+// edge.
 #pragma once
 
 #include <algorithm>
@@ -67,7 +69,8 @@ Real SectorIrradiance(const Imath::Vec3<Real>& a, const Imath::Vec3<Real>& chord
   const Real across2 = (chord * a_height - a * (b_height - a_height)).length2();
   const Real m2 = c * c + across2;
   if (p > std::abs(c) && q * q > m2) {  // less than an eighth of a turn
-    // The power series of both, with differences such as c / p - c / q computed in closed form.
+    // The power series of both arc tangents, with differences such as c / p - c / q computed in
+    // closed form.
     const Real pq = p * q;
     const Real p_tan2 = c * c / (p * p), q_tan2 = m2 / (q * q);
     const Real p_remainder = AtanRemainder(std::sqrt(p_tan2));
@@ -83,7 +86,7 @@ Real SectorIrradiance(const Imath::Vec3<Real>& a, const Imath::Vec3<Real>& chord
   return std::copysign(tilt - shift, c);
 }
 
-// Sums of twice the irradiance over a polygon's edges, in both forms.
+// Sums of twice the irradiance over a polygon's edges, by chords and by sectors.
 template <typename Real>
 struct EdgeSums {
   Real chords = 0, sectors = 0;
@@ -111,7 +114,7 @@ void AddEdge(const Imath::Vec3<Real>& corner, const Imath::Vec3<Real>& pivot,
 }
 
 // The irradiance under a convex polygon, given by its first vertex and the offsets from there to
-// all its vertices (that of the first: 0).
+// all its vertices, of which the first is 0.
 template <typename Real, size_t kCount>
 Real PolygonIrradiance(const Imath::Vec3<Real>& corner,
                        const std::array<Imath::Vec3<Real>, kCount>& from_corner,
@@ -135,12 +138,12 @@ Real PolygonIrradiance(const Imath::Vec3<Real>& corner,
     lowest = std::min(lowest, height);
     overhead = overhead && orientation * (normal ^ ((corner + from) % (to - from))) > 0;
   }
-  // Errors of the sum by chords are of the order of size^2, of that by sectors size highest^2. If
-  // the normal meets the polygon, the sum by sectors misses the zenith.
+  // The error of the sum by chords is of the order of size^2, that of the sum by sectors of the
+  // order of size highest^2. If the normal meets the polygon, the sum by sectors misses the zenith.
   const bool low = lowest < 0 || highest * highest * highest * highest < size2;
   const Real twice =
       low && !overhead ? sums.sectors : sums.chords + EdgeIrradiance(pivot, leaves, enters, normal);
-  // For a needle next to the point the sum is all rounding error: clamped to that of the
+  // For a needle next to the point the sum is pure rounding error. It is clamped to that of the
   // hemisphere.
   return std::min(std::abs(twice) / 2, static_cast<Real>(M_PI));
 }

@@ -16,7 +16,7 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// 1 / (constant + linear d + quadratic d^2), 0 at the light itself.
+// 1 / (constant + linear d + quadratic d^2), or 0 at the light itself.
 template <class D, class T = hn::TFromD<D>, class V = hn::Vec<D>>
 HWY_INLINE V AttenuationFactor(D d, const AttenuationTerms<T>& a, V distance) {
   const V slope = hn::MulAdd(hn::Set(d, a.quadratic), distance, hn::Set(d, a.linear));

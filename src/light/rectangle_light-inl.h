@@ -62,7 +62,7 @@ HWY_INLINE V SolidAngle(D d, const RectangleLightV<V>& light) {
   return SolidAngle(d, ViewOf(d, ScaleToUnit(d, light).light));
 }
 
-// The scalar twin explains the names. Undefined where view.z is 0.
+// The scalar twin explains the names. The result is undefined where view.z is 0.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V SampleRectangleX(D d, const RectangleViewV<V>& view, V solid_angle, V part) {
   const V zero = hn::Zero(d);
@@ -86,7 +86,7 @@ HWY_INLINE V SampleRectangleX(D d, const RectangleViewV<V>& view, V solid_angle,
   const SinCosV<V> a = SinCosTurns(d, turns);
   const V sin_half = SinCosTurns(d, hn::Mul(turns, hn::Set(d, 0.5f))).sin;
   const V one_minus_cos = hn::Mul(hn::Set(d, 2.0f), hn::Mul(sin_half, sin_half));
-  // Minus the twin's numerator, which is negative.
+  // The negative of the scalar twin's numerator, so this one is positive.
   const V numerator = hn::MulAdd(hn::Mul(sin_g3, q), a.cos,
                                  hn::MulAdd(b1, one_minus_cos, hn::Mul(hn::Mul(b0, sin_k), a.sin)));
   const V denominator = hn::MulAdd(sin_k, a.cos, hn::Mul(cos_k, a.sin));
@@ -143,7 +143,7 @@ HWY_INLINE AreaSampleV<V> SampleLight(D d, const RectangleLightV<V>& light, V u0
   return sample;
 }
 
-// LightPdf, likewise.
+// LightPdf for a light that ScaleToUnit has scaled.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V PdfScaled(D d, const RectangleLightV<V>& light, const Vec3V<V>& direction) {
   const V zero = hn::Zero(d);

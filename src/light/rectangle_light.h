@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // light/rectangle_light.h: sampling a rectangle as a light. SIMD twin: rectangle_light-inl.h.
 //
-// Uniform in solid angle: Urena, Fajardo and King 2013, "An Area-Preserving Parametrization for
-// Spherical Rectangles", rearranged so that nothing of the size of pi cancels: the sines and
-// cosines of the corners' angles are algebraic in the coordinates, and their sum is never formed.
-// Below kSmallSolidAngle uniform in area.
+// Samples are uniform in solid angle: Urena, Fajardo and King 2013, "An Area-Preserving
+// Parametrization for Spherical Rectangles", rearranged so that nothing of the size of pi cancels:
+// the sines and cosines of the corners' angles are algebraic in the coordinates, and the sum of the
+// angles is never formed. Below kSmallSolidAngle samples are uniform in area.
 #pragma once
 
 #include <algorithm>
@@ -100,7 +100,8 @@ Real SampleRectangleX(const RectangleView<Real>& view, Real solid_angle, Real pa
   return std::clamp(x, x0, view.x1);
 }
 
-// y, uniform in the angle that the segment at x subtends.
+// Samples y on the segment at x, uniformly in h = y / distance, the sine of the angle to the plane
+// y = 0.
 template <typename Real>
 Real SampleRectangleY(const RectangleView<Real>& view, Real x, Real part) {
   const Real across = std::hypot(x, view.z);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// light/sky.h: analytic skies, with the irradiance of an unoccluded surface in closed form. One
-// colour channel each. SIMD twin: sky-inl.h.
+// light/sky.h: analytic skies, with the irradiance of an unoccluded surface in closed form. Each
+// struct holds one colour channel. SIMD twin: sky-inl.h.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,8 @@
 
 namespace nacre {
 
-// Linear in the height of the direction, from the horizon up to the zenith and down to the ground.
+// The radiance is linear in the height of the direction, from the horizon up to the zenith and down
+// to the ground.
 template <typename Real>
 struct GradientSkyTerms {
   Real zenith, horizon, ground;
@@ -34,7 +35,7 @@ Real Irradiance(const GradientSkyTerms<Real>& sky, const Imath::Vec3<Real>& norm
   return pi * sky.horizon + (sky.zenith - sky.horizon) * upper + (sky.ground - sky.horizon) * lower;
 }
 
-// a0 + a1 c + a2 c^2, c the cosine from an axis of unit length.
+// The radiance is a0 + a1 c + a2 c^2, where c is the cosine from an axis of unit length.
 template <typename Real>
 struct QuadraticSkyTerms {
   Imath::Vec3<Real> axis;
@@ -47,7 +48,7 @@ Real Radiance(const QuadraticSkyTerms<Real>& sky, const Imath::Vec3<Real>& direc
   return sky.a0 + c * (sky.a1 + c * sky.a2);
 }
 
-// The clamped cosine's moments: pi, 2 pi / 3 c, pi / 4 (1 + c^2).
+// The integrals of 1, c and c^2 times the clamped cosine are pi, 2 pi / 3 c and pi / 4 (1 + c^2).
 template <typename Real>
 Real Irradiance(const QuadraticSkyTerms<Real>& sky, const Imath::Vec3<Real>& normal) {
   const Real c = sky.axis ^ normal;

@@ -15,7 +15,7 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// For c in (-1, 1); finite, but meaningless, for other c.
+// For c in (-1, 1). The result is finite, but meaningless, for other c.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V IrradianceOfClippedSphere(D d, V sin, V c) {
   const V one = hn::Set(d, 1.0f);

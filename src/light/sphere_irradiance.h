@@ -4,7 +4,7 @@
 //
 // Snyder 1996, "Area Light Sources for Real-Time Graphics": with s the sine of the sphere's angular
 // radius, t the angle from the normal to its centre and c = cos(t) / s its centre's height over the
-// horizon in radii, pi s^2 cos(t) if it is all above, else
+// horizon in radii, the irradiance is pi s^2 cos(t) if the sphere is wholly above the horizon, else
 //   s^2 cos(t) acos(-cot(t) cot(asin s)) - s k cos(asin s) + atan(k tan(asin s)),  k^2 = 1 - c^2.
 // Its terms are of the order s and cancel to s^3, and next to c = -1 to (1 + c)^2.5 of that. The
 // forms below are rearranged so that nothing cancels.
@@ -17,7 +17,7 @@
 
 namespace nacre {
 
-// A sphere that the horizon clips: c in (-1, 1).
+// The irradiance of a sphere that the horizon clips: c in (-1, 1).
 template <typename Real>
 Real IrradianceOfClippedSphere(Real sin, Real c) {
   const Real cos = std::sqrt((1 - sin) * (1 + sin));

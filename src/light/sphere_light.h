@@ -23,8 +23,8 @@ struct SphereLight {
 // The cone of directions from a point outside.
 template <typename Real>
 struct SphereCone {
-  Real distance;       // of the centre
-  Real sin;            // of the half angle: radius / distance, 1 from inside
+  Real distance;       // from the point to the centre
+  Real sin;            // sine of the half angle: radius / distance, 1 from inside
   Real one_minus_cos;  // sin^2 / (1 + cos): the difference would cancel for far spheres
 };
 
@@ -58,7 +58,7 @@ AreaSample<Real> SampleSphereFromInside(const SphereLight<Real>& light, Real u0,
   const Real distance = light.centre.length();
   const Real power = (light.radius - distance) * (light.radius + distance);
   const Real root = std::sqrt(along * along + power);
-  // The larger root of t^2 - 2 along t - power = 0, by whichever form does not cancel.
+  // The larger root of t^2 - 2 along t - power = 0, in the form that does not cancel.
   sample.distance = along >= 0 ? along + root : power / (root - along);
   sample.inverse_pdf = 4 * static_cast<Real>(M_PI);
   sample.cos_light = -root / light.radius;

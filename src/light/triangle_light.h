@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // light/triangle_light.h: sampling a triangle as a light. SIMD twin: triangle_light-inl.h.
 //
-// Uniform in solid angle, by Arvo's map (1995, "Stratified Sampling of Spherical Triangles") from
-// the tangent formula of Van Oosterom and Strackee 1983 instead of the corners' angles, and with
-// differences of unit vectors computed from the edges: nothing cancels, even for tiny triangles.
-// Below kSmallSolidAngle uniform in area.
+// Samples are uniform in solid angle, by Arvo's map (1995, "Stratified Sampling of Spherical
+// Triangles"), derived from the tangent formula of Van Oosterom and Strackee 1983 instead of the
+// corners' angles, and with differences of unit vectors computed from the edges: nothing cancels,
+// even for tiny triangles. Below kSmallSolidAngle samples are uniform in area.
 #pragma once
 
 #include <cmath>
@@ -45,7 +45,7 @@ SphericalTriangle<Real> SphericalTriangleOf(const TriangleLight<Real>& light) {
   t.to_b = UnitDifference(light.corner, light.edge_x);
   t.to_c = UnitDifference(light.corner, light.edge_y);
   t.determinant = std::abs(t.a ^ (t.to_b % t.to_c));
-  // 1 + a.b = 2 - |a - b|^2 / 2, and the like.
+  // 1 + a.b = 2 - |a - b|^2 / 2, and correspondingly for the other pairs.
   t.one_plus_ab = 2 - t.to_b.length2() / 2;
   const Real sum = t.one_plus_ab + 2 - t.to_c.length2() / 2 - (t.to_c - t.to_b).length2() / 2;
   t.solid_angle = t.determinant > 0 ? 2 * std::atan2(t.determinant, sum) : 0;
@@ -57,12 +57,12 @@ Real SolidAngle(const TriangleLight<Real>& light) {
   return SphericalTriangleOf(light).solid_angle;
 }
 
-// A direction uniform in the spherical triangle.
+// Samples a direction uniformly in the spherical triangle.
 template <typename Real>
 Imath::Vec3<Real> SampleSphericalTriangle(const SphericalTriangle<Real>& t, Real u0, Real u1) {
   using Vec = Imath::Vec3<Real>;
-  // c' on the arc from a to c such that (a, b, c') has the solid angle u0 solid_angle: with tau
-  // the tangent of half the arc from a to c', tan(solid angle / 2) =
+  // c' is the point on the arc from a to c for which (a, b, c') has the solid angle u0 solid_angle:
+  // with tau the tangent of half the arc from a to c', tan(solid angle / 2) =
   // tau det(a, b, tangent) / (1 + a.b + tau b.tangent), solved for tau = numerator / denominator.
   const Vec tangent = (t.to_c + t.a * (t.to_c.length2() / 2)).normalized();
   const Real half_area = u0 * t.solid_angle / 2;
@@ -72,13 +72,13 @@ Imath::Vec3<Real> SampleSphericalTriangle(const SphericalTriangle<Real>& t, Real
       std::cos(half_area) * std::abs(t.a ^ (t.to_b % tangent)) - sin * (t.to_b ^ tangent);
   const Real size2 = numerator * numerator + denominator * denominator;
   const Vec to_c = (tangent * denominator - t.a * numerator) * (2 * numerator / size2);
-  // From b towards c', uniform in 1 - cos.
+  // The sample lies on the arc from b to c', uniform in 1 - cos.
   const Vec b = t.a + t.to_b;
   const Vec chord = to_c - t.to_b;
   const Real x = u1 * chord.length2() / 2;
   const Vec across = chord + b * (chord.length2() / 2);
   const Real across_length = across.length();
-  if (!(across_length > 0)) return b;  // c' = b: the triangle's arc has no length
+  if (!(across_length > 0)) return b;  // c' = b: the arc has no length
   return (b * (1 - x) + across * (std::sqrt(x * (2 - x)) / across_length)).normalized();
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// no_embree/box_trees.cc: what a build without Embree has in the place of src/embree.
+// no_embree/box_trees.cc: replaces src/embree in builds without Embree.
 #include "visibility/box_trees.h"
 
 #include "base/error.h"
@@ -17,7 +17,7 @@ BoxTrees::BoxTrees(const TraceGeometry* /*geometry*/, std::optional<bool> /*one_
 }
 BoxTrees::~BoxTrees() = default;
 
-// There is never an object to call these of.
+// These are never called, because the constructor throws.
 void BoxTrees::Build(BoxTree /*tree*/, int /*threads*/, CancelPointer /*cancel*/) {}
 bool BoxTrees::Serve(const Vec3d& /*eye*/) const { return true; }
 void BoxTrees::FindNearer(BoxTree /*tree*/, const RayBatch& /*rays*/, ClosestHits* /*hits*/) const {

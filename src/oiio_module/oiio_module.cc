@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// oiio_module/oiio_module.cc: the functions of image_io/oiio_abi.h, on OpenImageIO.
+// oiio_module/oiio_module.cc: implements the functions of image_io/oiio_abi.h with OpenImageIO.
 #include <algorithm>
 #include <array>
 #include <cstdarg>
@@ -15,23 +15,23 @@
 #include <OpenImageIO/imageio.h>
 #include <tiffio.h>
 
-// Only these names are seen from outside.
+// Only these names are exported.
 #pragma GCC visibility push(default)
 #include "image_io/oiio_abi.h"
 #pragma GCC visibility pop
 #include "image_io/icc_profile.h"
 
-// The library has it, its headers do not.
+// The library defines it, but its headers do not declare it.
 OIIO_NAMESPACE_BEGIN
 ImageInput* tiff_input_imageio_create();
 OIIO_NAMESPACE_END
 
 namespace {
 
-// Where OpenImageIO fails and says nothing, as of TIFF files with new versions of libtiff.
+// For failures of OpenImageIO without a message, as for TIFF files with new versions of libtiff.
 constexpr const char* kNoReason = "its contents are damaged, or end early";
 
-// The first line: OpenImageIO adds what it did about it.
+// Keeps the message's first line; the following ones are details that OpenImageIO adds.
 const char* KeepMessage(const std::string& message) {
   thread_local std::array<char, 1024> kept;
   const std::string line = message.substr(0, message.find('\n'));
@@ -39,7 +39,7 @@ const char* KeepMessage(const std::string& message) {
   return kept.data();
 }
 
-// A copy that C frees; `strings` may hold NULs.
+// A copy to be freed by C; `strings` may contain NULs.
 char* Copy(const std::string& strings) {
   auto* copy = static_cast<char*>(std::malloc(strings.size() + 1));
   if (copy == nullptr) throw std::bad_alloc();
@@ -47,16 +47,17 @@ char* Copy(const std::string& strings) {
   return copy;
 }
 
-// What libtiff complained of on this thread: warnings, too, after which it goes on with pixels that
-// it made up (the end of a fax or of a JPEG that is missing), and OpenImageIO with them.
+// The first message of libtiff on this thread, even if it is only a warning: after a warning,
+// libtiff continues with made-up pixels (for a missing end of a fax or JPEG), and so does
+// OpenImageIO.
 thread_local std::string g_complaint;
 
 void TakeComplaint(const char* module, const char* format, va_list arguments) {
-  if (!g_complaint.empty()) return;  // the first tells the cause
+  if (!g_complaint.empty()) return;  // the first message tells the cause
   std::array<char, 512> text{};
   std::vsnprintf(text.data(), text.size(), format, arguments);
   g_complaint = std::string(module == nullptr ? "libtiff" : module) + ": " + text.data();
-  g_complaint.erase(g_complaint.find_last_not_of(": ") + 1);  // what zlib may leave of its reasons
+  g_complaint.erase(g_complaint.find_last_not_of(": ") + 1);  // left if zlib gives no reason
 }
 
 void DescribeImage(const OIIO::ImageSpec& spec, NacreOiioFile* file) {
@@ -97,10 +98,10 @@ void DescribeImage(const OIIO::ImageSpec& spec, NacreOiioFile* file) {
 
 std::string Open(const char* path, uint64_t max_samples, NacreOiioFile* file) {
   OIIO::ImageSpec config;
-  config["oiio:UnassociatedAlpha"] = 1;  // the file's values, not multiplied by alpha
-  // A stranger's file must not choose among the forty readers that OpenImageIO brings. Nor is its
-  // list of them asked: to make it, OpenImageIO loads what lies in the folders that
-  // OIIO_LIBRARY_PATH and LD_LIBRARY_PATH name.
+  config["oiio:UnassociatedAlpha"] = 1;  // keeps the file's values, not multiplied by alpha
+  // An untrusted file must not choose among the forty readers of OpenImageIO. Nor is OpenImageIO's
+  // list of readers used: to make it, OpenImageIO loads code from the folders in OIIO_LIBRARY_PATH
+  // and LD_LIBRARY_PATH.
   OIIO::ImageInput::unique_ptr input(OIIO::tiff_input_imageio_create());
   OIIO::ImageSpec spec;
   if (!input->open(path, spec, config)) return input->geterror();
@@ -114,14 +115,15 @@ std::string Open(const char* path, uint64_t max_samples, NacreOiioFile* file) {
   }
   const uint64_t tile_width = static_cast<uint64_t>(std::max(spec.tile_width, 0));
   const uint64_t tile_height = static_cast<uint64_t>(std::max(spec.tile_height, 0));
-  // Divided, because the product may wrap around.
+  // Divides, because the product may wrap around.
   const auto channels = static_cast<uint64_t>(spec.nchannels);
   const uint64_t across = std::max(tile_width, static_cast<uint64_t>(spec.width));
   if (tile_height > max_samples / channels / across) return "its tiles are too large";
-  // OpenImageIO has put its own in their place, once and for all, when the first file was opened.
+  // Replaces OpenImageIO's handlers, which it sets only once, when it opens the first file.
   TIFFSetErrorHandler(&TakeComplaint);
   TIFFSetWarningHandler(&TakeComplaint);
-  // Of tiles that it inflates itself on several threads it does not ask whether they are whole.
+  // With several threads, OpenImageIO inflates tiles itself without checking that they are
+  // complete.
   input->threads(1);
   DescribeImage(spec, file);
   file->input = input.release();
@@ -139,8 +141,8 @@ std::string ReadAs(OIIO::TypeDesc type, NacreOiioFile* file, int32_t y0, int32_t
                              type, to);
   } else if (spec.get_int_attribute("tiff:Compression") == COMPRESSION_ADOBE_DEFLATE &&
              spec.get_int_attribute("tiff:PlanarConfiguration") == PLANARCONFIG_CONTIG) {
-    // Row by row: whole strips of these it inflates itself, and does not ask whether they end
-    // early.
+    // Reads row by row: OpenImageIO inflates whole strips of these itself, without checking whether
+    // they end early.
     const size_t row =
         static_cast<size_t>(spec.width) * static_cast<size_t>(spec.nchannels) * type.size();
     for (int y = first; read && y < end; ++y) {
@@ -155,8 +157,8 @@ std::string ReadAs(OIIO::TypeDesc type, NacreOiioFile* file, int32_t y0, int32_t
   return read && error.empty() ? std::string() : error.empty() ? kNoReason : error;
 }
 
-// Codes are divided by white's, as in nacre's other readers: OpenImageIO multiplies by the rounded
-// inverse, and equal pixels would differ by an ulp from one format to the other.
+// Divides codes by the code of white, as nacre's other readers do. OpenImageIO multiplies by the
+// rounded reciprocal, so equal pixels would differ by an ulp between formats.
 template <typename Code>
 std::string ReadCodes(OIIO::TypeDesc type, NacreOiioFile* file, int32_t y0, int32_t y1,
                       size_t count, float* values) {

@@ -64,7 +64,8 @@ std::string ShadowingForms(MaterialTraits traits) {
 
 namespace {
 
-// Flat lights that are shown move a little with the camera.
+// The hash of the planned scene, which reuses the parts that `prepared` keeps. The shapes of
+// visible flat lights depend slightly on the camera.
 uint64_t HashPlanned(const FramePlan& plan, PreparedScene* prepared) {
   if (prepared == nullptr) return HashScene(*plan.scene);
   const SceneParts parts = plan.with_lights ? SceneParts(ScenePart::kCamera) : SceneParts();
@@ -84,7 +85,7 @@ uint64_t HashPlanned(const FramePlan& plan, PreparedScene* prepared) {
   } else {
     for (const uint32_t i : *changed) prepared->hashes.ForgetMaterial(i);
   }
-  prepared->material_hashes.Forget();  // memory may run out
+  prepared->material_hashes.Forget();  // in case memory runs out before the key is set again
   const uint64_t hash = HashScene(*plan.scene, &prepared->hashes);
   prepared->material_hashes.Set(of_lights, {});
   prepared->materials_hashed = versions.materials();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// output/metadata.h: what the files of a render say about it.
+// output/metadata.h: the metadata in the files of a render.
 #pragma once
 
 #include "image_io/exr_header.h"
@@ -13,19 +13,20 @@ namespace nacre {
 inline constexpr char kRenderTimeAttribute[] = "renderTime";
 inline constexpr char kTileAttribute[] = "nacre:tile";
 
-// Everything but the channels. `tile`: as --tile has it, or empty. `reproducible`: without the
-// render time, which is 0 until ExrWriter::UpdateAttribute. `prepared`: what the plan was made
-// with, which keeps what the scene's hash is made of; or null.
+// Makes a header with everything except channels. `tile`: the argument of --tile, or empty.
+// `reproducible`: leaves out the render time, which otherwise is 0 until
+// ExrWriter::UpdateAttribute. `prepared`: what the plan was made with, in which hashes of the
+// scene's parts are kept; or null.
 ExrHeader MakeExrHeader(const FramePlan& plan, bool reproducible, const std::string& tile = {},
                         PreparedScene* prepared = nullptr);
 
-// What made the file: the attribute or text "Software".
+// The software that made the file: the attribute or text "Software".
 std::string SoftwareName();
 
-// The header's attributes as text, as readers of its file return them.
+// Adds the header's attributes to the image as text, as readers of the file return them.
 void AddMetadata(const ExrHeader& header, Image* image);
 
-// The masking-shadowing forms among the traits of materials by name, "height_correlated" or
+// Lists the masking-shadowing forms among the materials' traits by name: "height_correlated" or
 // "height_correlated, separable"; "none" if there is none.
 std::string ShadowingForms(MaterialTraits traits);
 

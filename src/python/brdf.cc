@@ -2,39 +2,27 @@
 #include "python/brdf.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
-#include <memory>
-#include <optional>
+#include <vector>
 
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include "python/guard.h"
+#include "python/planes.h"
 #include "python/scene.h"
 #include "python/sealed.h"
 
 namespace nacre_python {
 namespace {
 
-// x, y and z of each vector: an array of shape (3, count).
-using Planes = py::array_t<double, py::array::c_style | py::array::forcecast>;
-
-// The same as an array of shape (count, 3), with any strides.
+// An array of shape (count, 3) with x, y and z of each vector, with any strides.
 using Rows = py::array_t<double, py::array::forcecast>;
 
 std::array<const double*, 3> VectorsOf(const Planes& planes) {
   const auto count = static_cast<size_t>(planes.shape(1));
   return {planes.data(), planes.data() + count, planes.data() + 2 * count};
-}
-
-// The package passes nothing else; what it holds can be changed under it.
-void RequireShape(const py::array& array, size_t rows, size_t columns) {
-  const bool right = array.ndim() == 2 && static_cast<size_t>(array.shape(0)) == rows &&
-                     static_cast<size_t>(array.shape(1)) == columns;
-  if (!right) {
-    throw py::value_error("nacre: an array is not of the shape (" + std::to_string(rows) + ", " +
-                          std::to_string(columns) + ")");
-  }
 }
 
 nacre::Directions DirectionsOf(const Planes& normal, const Planes& to_view,
@@ -62,25 +50,7 @@ py::array_t<Number> ArrayOf(const std::array<std::vector<Number>, 3>& planes) {
   return array;
 }
 
-// A Python function that C++ threads may copy, drop and, under the interpreter lock, call.
-class Function {
- public:
-  explicit Function(const py::object& function)
-      : function_(new py::object(function), [](py::object* object) {
-          const py::gil_scoped_acquire acquire;
-          delete object;
-        }) {}
-
-  template <class... Arguments>
-  py::object operator()(Arguments&&... arguments) const {
-    return (*function_)(std::forward<Arguments>(arguments)...);
-  }
-
- private:
-  std::shared_ptr<py::object> function_;
-};
-
-// Of an array that need not be aligned.
+// Reads a number that may be unaligned.
 double NumberAt(const char* place) {
   double number;
   std::memcpy(&number, place, sizeof number);
@@ -99,8 +69,8 @@ void CopyRows(const Rows& rows, size_t begin, size_t count, double* planes, size
   }
 }
 
-// Brdf::Shade of rows of vectors, in pieces, so that memory is bounded and Ctrl-C is heard. Returns
-// the sum, or both components.
+// Calls Brdf::Shade for rows of vectors, in pieces, which bounds memory and lets Ctrl-C interrupt.
+// Returns the sum, or both components.
 py::object ShadeRows(const nacre::Brdf& brdf, const Rows& normal, const Rows& to_view,
                      const Rows& to_light, bool components) {
   if (normal.ndim() != 2) throw py::value_error("nacre: an array has not two axes");
@@ -147,94 +117,7 @@ py::object ShadeRows(const nacre::Brdf& brdf, const Rows& normal, const Rows& to
   return sum;
 }
 
-#if PY_VERSION_HEX < 0x030D0000  // as Python 3.13 names it for everybody
-int Py_IsFinalizing() { return _Py_IsFinalizing(); }
-#endif
-
-// Python keeps a state for each thread that calls it. The renderer's threads are not Python's: this
-// makes theirs, once. py::gil_scoped_acquire alone would make one for each call, which takes as
-// long as the rest of a call.
-class ThreadState {
- public:
-  ThreadState() : state_(PyGILState_Ensure()), saved_(PyEval_SaveThread()) {}
-  ~ThreadState() {
-    if (!Py_IsInitialized() || Py_IsFinalizing() != 0) return;
-    PyEval_RestoreThread(saved_);
-    PyGILState_Release(state_);
-  }
-  ThreadState(const ThreadState&) = delete;
-  ThreadState& operator=(const ThreadState&) = delete;
-
- private:
-  PyGILState_STATE state_;
-  PyThreadState* saved_;
-};
-
-// What a render's thread holds while it calls a function of the user's.
-class Call {
- public:
-  Call() {
-    static thread_local const ThreadState state;
-    interpreter_.emplace();
-  }
-
- private:
-  FunctionLock function_;
-  std::optional<py::gil_scoped_acquire> interpreter_;
-};
-
-// A copy, for the function may keep it: an array of shape (count, columns) whose columns are each
-// in one piece.
-template <size_t kColumns>
-py::object Columns(size_t count, const std::array<const double*, kColumns>& from) {
-  py::array_t<double, py::array::f_style> columns({count, kColumns});
-  for (size_t c = 0; c < kColumns; ++c) {
-    std::memcpy(columns.mutable_data() + c * count, from[c], count * sizeof(double));
-  }
-  return columns;
-}
-
-void CopyPlanes(const py::object& result, size_t count, const std::array<double*, 3>& to) {
-  const Planes planes = result;
-  RequireShape(planes, 3, count);
-  for (size_t c = 0; c < 3; ++c) {
-    std::memcpy(to[c], planes.data() + c * count, count * sizeof(double));
-  }
-}
-
 }  // namespace
-
-nacre::UserBrdf UserBrdfOf(const py::object& evaluate, const py::object& sample,
-                           const py::object& pdf) {
-  nacre::UserBrdf brdf;
-  brdf.evaluate = [function = Function(evaluate)](const nacre::Directions& d, const auto& rgb) {
-    const Call call;
-    CopyPlanes(function(Columns<3>(d.count, d.normal), Columns<3>(d.count, d.to_view),
-                        Columns<3>(d.count, d.to_light)),
-               d.count, rgb);
-  };
-  if (!sample.is_none()) {
-    brdf.sample = [function = Function(sample)](const nacre::Directions& d, const double* u,
-                                                const double* v, const auto& to_light) {
-      const Call call;
-      CopyPlanes(function(Columns<3>(d.count, d.normal), Columns<3>(d.count, d.to_view),
-                          Columns<2>(d.count, {u, v})),
-                 d.count, to_light);
-    };
-  }
-  if (!pdf.is_none()) {
-    brdf.pdf = [function = Function(pdf)](const nacre::Directions& d, double* out) {
-      const Call call;
-      const Planes values = function(Columns<3>(d.count, d.normal), Columns<3>(d.count, d.to_view),
-                                     Columns<3>(d.count, d.to_light));
-      if (static_cast<size_t>(values.size()) != d.count) {
-        throw py::value_error("nacre: a pdf is not one number for each sample");
-      }
-      std::memcpy(out, values.data(), d.count * sizeof(double));
-    };
-  }
-  return brdf;
-}
 
 void BindBrdfs(py::module_* module) {
   py::class_<nacre::Brdf> brdfs(*module, "Brdf");

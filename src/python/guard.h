@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// python/guard.h: objects that C++ works on while other Python threads run, and signals meanwhile.
+// python/guard.h: guards objects while C++ works on them without the interpreter lock, and handles
+// signals meanwhile.
 #pragma once
 
 #include <algorithm>
@@ -23,16 +24,16 @@ namespace nacre_python {
 
 namespace py = pybind11;
 
-// Throws nacre::Error for what is used wrongly.
+// Throws nacre::Error for wrong use.
 [[noreturn]] inline void Refuse(const std::string& where, const std::string& what,
                                 const std::string& hint) {
   throw nacre::Error(64, {{where, what, hint}},
                      "error: " + where + ": " + what + "\n  hint: " + hint);
 }
 
-// How many calls are at work on an object. The interpreter lock protects it: it is held wherever a
-// guard is made or goes. A thread that finds the object taken gets an error, never a wait that may
-// have no end.
+// Counts the calls that work on an object. It is protected by the interpreter lock, which must be
+// held when a guard is made or destroyed. A thread that finds the object in use gets an error,
+// instead of a wait that might never end.
 class Users {
  public:
   int count = 0;
@@ -58,19 +59,19 @@ class Use {
   Kind kind_;
 };
 
-// Held where a render calls a function of the user's, so that there is one call at a time in the
-// process. The interpreter lock alone would not do: numpy drops it in every operation on more than
-// 500 numbers, and threads that hand it to one another each time are slower than one.
+// Held while a render calls a user's function, so that only one such call runs at a time in the
+// process. The interpreter lock alone is not enough: numpy releases it in every operation on more
+// than 500 numbers, and threads that pass it to each other every time are slower than a single one.
 class FunctionLock {
  public:
   FunctionLock() : lock_(TheMutex(), std::defer_lock), outer_(std::exchange(Held(), &lock_)) {
-    // Calls take some 50 us, and so does it to wake a thread that sleeps.
+    // A call takes about 50 us, as does waking a sleeping thread, so this spins first.
     const auto start = std::chrono::steady_clock::now();
     while (!lock_.try_lock()) {
       if (std::chrono::steady_clock::now() - start > std::chrono::microseconds(200)) {
-        // Not for ever: a function may wait for another thread whose render calls one as well. By
-        // the system's clock: GCC 12's thread sanitizer does not see a lock taken by the steady
-        // one.
+        // The wait is limited, as a function may wait for another thread whose render also calls
+        // one. It uses the system's clock, because GCC 12's thread sanitizer does not see a lock
+        // taken by the steady one.
         (void)lock_.try_lock_until(std::chrono::system_clock::now() + std::chrono::seconds(1));
         break;
       }
@@ -81,14 +82,14 @@ class FunctionLock {
   FunctionLock(const FunctionLock&) = delete;
   FunctionLock& operator=(const FunctionLock&) = delete;
 
-  // Whether this thread is in such a function.
+  // Whether this thread is inside such a function.
   static bool IsHere() { return Held() != nullptr; }
 
-  // Of a child after a fork, in which no function runs.
+  // To be called in a child process after a fork, in which no function runs.
   static void Reset() { new (&TheMutex()) std::timed_mutex; }
 
-  // Lets go of the lock that this thread holds, if any, while a function of the user's waits for a
-  // render of its own. Not to be made or destroyed with the interpreter lock.
+  // Releases the lock that this thread holds, if any, while a user's function waits for a render of
+  // its own. It must not be made or destroyed while the interpreter lock is held.
   class Pause {
    public:
     Pause() : held_(Held() != nullptr && Held()->owns_lock() ? Held() : nullptr) {
@@ -118,8 +119,8 @@ class FunctionLock {
   std::unique_lock<std::timed_mutex>* outer_;
 };
 
-// What ends the renders that run, for the interpreter's end: a thread that comes back to an
-// interpreter that is gone ends the process by std::terminate. Protected by the interpreter lock.
+// The running renders, which are stopped when the interpreter ends: a thread that returned to a
+// finished interpreter would end the process by std::terminate. Protected by the interpreter lock.
 class Running {
  public:
   explicit Running(const std::function<void()>* stop) {
@@ -134,10 +135,11 @@ class Running {
   Running(const Running&) = delete;
   Running& operator=(const Running&) = delete;
 
-  // Of a new thread that works for this render: what it calls has one more that waits for it.
+  // To be called in a new thread that works for this render, so that functions called there count
+  // it as waiting.
   void CallFromHere() const { Chain() = waiting_ + 1; }
 
-  // Ends them all, and waits for that.
+  // Stops all renders, and waits until they have ended.
   static void StopAll() {
     Ending() = true;
     for (const std::function<void()>* stop : Stops()) (*stop)();
@@ -146,10 +148,10 @@ class Running {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
   }
-  // Of a child after a fork, in which no render runs.
+  // To be called in a child process after a fork, in which no render runs.
   static void Reset() { Stops().clear(); }
 
-  // Ends a thread of Python's, and prints nothing.
+  // Ends a Python thread silently.
   [[noreturn]] static void ExitThread() {
     PyErr_SetNone(PyExc_SystemExit);
     throw py::error_already_set();
@@ -163,9 +165,9 @@ class Running {
  private:
   static constexpr int kMostNested = 64;
 
-  // How many renders wait for what this thread does. The threads that help a render are not told,
-  // and count as the first of a chain in its functions. Each of these waits in one chain at most,
-  // so that all chains end.
+  // The number of renders that wait for this thread. Helper threads of a render do not inherit it,
+  // and count as the first of a chain when they run its functions. As each helper waits in at most
+  // one chain, all chains end.
   static int& Chain() {
     static thread_local int chain = 0;
     return chain;
@@ -180,9 +182,9 @@ class Running {
   std::list<const std::function<void()>*>::iterator place_;
 };
 
-// Calls body() on a thread of its own, without the interpreter lock, while this thread looks for
-// signals: the first whose handler throws (Ctrl-C) calls stop(), and its exception is thrown when
-// body() has returned. `body` may take the lock.
+// Calls body() on another thread, without the interpreter lock, while this thread checks for
+// signals. The first signal whose handler throws (Ctrl-C) calls stop(), and its exception is thrown
+// after body() has returned. `body` may acquire the lock.
 template <class Body>
 auto Interruptibly(const std::function<void()>& stop, const Body& body) {
   using Result = decltype(body());

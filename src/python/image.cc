@@ -23,7 +23,7 @@ nacre::Window WindowOf(const py::handle& tuple) {
   return {x0, y0, x1, y1};
 }
 
-// Whether a window has the width and height of channels.
+// Whether the window has the width and height of the block of channels.
 bool HasSizeOf(const nacre::Window& window, const py::array& block) {
   return int64_t{window.x1} - window.x0 == block.shape(2) &&
          int64_t{window.y1} - window.y0 == block.shape(1);
@@ -77,7 +77,7 @@ py::dict ToDict(const nacre::LayerMetrics& m) {
   return dict;
 }
 
-// Where a channel stands among those of its layer: R, G, B and A, or X, Y and Z.
+// The rank of a channel within its layer: R, G, B and A, or X, Y and Z.
 size_t RankOf(const std::string& channel) {
   const std::string component = channel.substr(channel.rfind('.') + 1);
   const size_t rank = component.size() == 1 ? std::string("RGBAXYZ").find(component[0]) : 0;
@@ -89,8 +89,8 @@ std::string LayerOf(const std::string& channel) {
   return dot == std::string::npos ? std::string() : channel.substr(0, dot);
 }
 
-// So that the channels of a layer are neighbours in the order in which people think of them: files
-// have them in the alphabet's.
+// Sorts the channels so that those of a layer are adjacent and in the usual order; files sort them
+// alphabetically.
 void SortChannels(std::vector<nacre::Channel>* channels) {
   std::map<std::string, size_t> layers;
   for (const nacre::Channel& channel : *channels) {
@@ -149,7 +149,7 @@ nacre::Image FromPython(const py::object& image) {
   std::vector<std::string> names;
   for (const py::handle name : image.attr("_names")) names.push_back(BytesOf(name));
   const auto types = image.attr("_types").cast<std::vector<std::string>>();
-  // Whatever has been done to the members of an image: each is held to the others.
+  // Users may have changed members of an image, so they are checked against each other.
   const bool is_whole = block.ndim() == 3 && static_cast<size_t>(block.shape(0)) == names.size() &&
                         types.size() == names.size() && HasSizeOf(result.data, block) &&
                         result.frame.x0 <= result.frame.x1 && result.frame.y0 <= result.frame.y1;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// python/image.h: images between Python, where all channels are one array, and the public API.
+// python/image.h: converts images between Python, where all channels are one array, and the public
+// API.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -8,7 +9,7 @@
 
 namespace nacre_python {
 
-// An object of Python's class nacre.Image.
+// To and from an object of Python's class nacre.Image.
 pybind11::object ToPython(nacre::Image&& image);
 nacre::Image FromPython(const pybind11::object& image);
 

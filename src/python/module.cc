@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// python/module.cc: the module _nacre, on which the package nacre stands: nothing here is for
-// users.
+// python/module.cc: the extension module _nacre, on which the package nacre is built. It is not an
+// interface for users.
 #include <utility>
 
 #include <pybind11/pybind11.h>
@@ -49,12 +49,12 @@ PYBIND11_MODULE(_nacre, module) {
   module.def("active_target", &nacre::ActiveTarget);
   module.def("set_target", &nacre::SetTarget);
   module.def("scene_schema", &nacre::SceneSchema);
-  // Older pybind11 refuses other interpreters by itself.
+  // Older versions of pybind11 refuse other interpreters themselves.
   module.def("is_main_interpreter",
              [] { return PyInterpreterState_Get() == PyInterpreterState_Main(); });
   module.def("stop_all", &Running::StopAll);
   module.def("after_fork", [process = getpid()]() mutable {
-    if (std::exchange(process, getpid()) == getpid()) return;  // here renders may run
+    if (std::exchange(process, getpid()) == getpid()) return;  // renders may be running here
     FunctionLock::Reset();
     Running::Reset();
   });

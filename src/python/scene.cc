@@ -7,9 +7,9 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
-#include "python/brdf.h"
 #include "python/image.h"
 #include "python/sealed.h"
+#include "python/user_brdf.h"
 
 namespace nacre_python {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Indices = py::array_t<uint32_t, py::array::c_style | py::array::forcecast>;
 
-// An array of shape (count, columns) as C++ wants it.
+// Converts an array of shape (count, columns).
 template <size_t kColumns>
 std::vector<std::array<double, kColumns>> Rows(const Doubles& array, const char* name) {
   if (array.ndim() != 2 || array.shape(1) != static_cast<py::ssize_t>(kColumns)) {
@@ -41,8 +41,8 @@ nacre::Parameters ParametersOf(const Members& members) {
 
 namespace {
 
-// on_progress of a render: takes the interpreter lock for `callback` no more often than eyes can
-// follow.
+// Makes on_progress of a render, which takes the interpreter lock for `callback` no more often than
+// the eye can follow.
 std::function<void(double)> Progress(const py::object& callback) {
   if (callback.is_none()) return {};
   auto last = std::chrono::steady_clock::now();
@@ -173,7 +173,7 @@ class Session {
                                     return rendered;
                                   }));
     } catch (...) {
-      cancelled_ = false;  // it has been obeyed
+      cancelled_ = false;  // the request has been served
       throw;
     }
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// python/scene.h: scenes, sessions and renders of the public API for Python.
+// python/scene.h: the Python bindings of scenes, sessions and renders.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ struct Scene {
   mutable Users users;
 };
 
-// Parameters by name, each as JSON text.
+// Parameters by name, each with its value as JSON text.
 using Members = std::vector<std::pair<std::string, std::string>>;
 nacre::Parameters ParametersOf(const Members& members);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// python/text.h: texts of files and of their names, which may be in any encoding.
+// python/text.h: converts texts and file names, which may be in any encoding.
 #pragma once
 
 #include <string>
@@ -8,7 +8,8 @@
 
 namespace nacre_python {
 
-// As os.fsdecode does: bytes that are no UTF-8 become surrogates, and come back as they were.
+// Like os.fsdecode: bytes that are not UTF-8 become surrogates, which convert back to the same
+// bytes.
 inline pybind11::str TextOf(const std::string& bytes) {
   PyObject* const text =
       PyUnicode_DecodeUTF8(bytes.data(), static_cast<Py_ssize_t>(bytes.size()), "surrogateescape");

@@ -22,8 +22,8 @@ constexpr int kChunk = 16;
 
 using SampleEntry = CellState::SampleEntry;
 
-// Samples [first, first + count) of each entry of the list, one entry after the other. `samplers`:
-// one per replicate.
+// Makes the film positions of samples [first, first + count) of each entry of the list, entry by
+// entry. There is one sampler per replicate.
 void MakeListSamples(const PixelSampler* samplers, const Window& cell,
                      std::span<const SampleEntry> list, int first, int count, TileWork* s,
                      CellState* c) {
@@ -45,7 +45,7 @@ std::array<PixelRun, kBlockSide> BlockRows(const Window& block) {
   return rows;
 }
 
-// The same for one sample of each entry, where the list consists of whole blocks.
+// Makes the film position of one sample of each entry, if the list consists of whole blocks.
 void MakeBlockSamples(const PixelSampler* samplers, const Window& cell,
                       std::span<const SampleEntry> list, int index, TileWork* s, CellState* c) {
   for (size_t ray = 0; ray < list.size(); ray += kBlockPixels) {
@@ -58,7 +58,7 @@ void MakeBlockSamples(const PixelSampler* samplers, const Window& cell,
   s->samples.film.count = list.size();
 }
 
-// Numbers these samples, for sampling of lights.
+// Numbers the samples of MakeListSamples, for light sampling.
 void NumberListSamples(const PixelSampler* samplers, const Window& cell,
                        std::span<const SampleEntry> list, int first, int count,
                        SampleNumbers* numbers) {
@@ -74,7 +74,7 @@ void NumberListSamples(const PixelSampler* samplers, const Window& cell,
   }
 }
 
-// The weighted sum of a chunk, in four partial sums. `count`: a power of two, not 1.
+// The weighted sum of a chunk, in four partial sums. `count` is a power of two, but not 1.
 double SumOfChunk(const double* values, const double* weights, size_t count) {
   if (count == 2) return weights[0] * values[0] + weights[1] * values[1];
   double sums[4] = {};
@@ -90,8 +90,8 @@ void AddBlock(const double* __restrict values, double weight, double* __restrict
   for (size_t k = 0; k < kBlockPixels; ++k) sums[k] += weight * values[k];
 }
 
-// Extends the pixels' ranges by those of such samples that hit. Without branches: they would be
-// mispredicted.
+// Extends the ranges of a block's pixels by the samples that hit. There are no branches, because
+// they would be mispredicted.
 void ExtendHitRanges(const double* values, const double* hits, double* low, double* high) {
   for (size_t k = 0; k < kBlockPixels; ++k) {
     const bool hit = hits[k] != 0;
@@ -109,7 +109,7 @@ void UpdateExtremes(double value, double* lowest, double* second_lowest, double*
   *highest = std::max(*highest, value);
 }
 
-// One sample of each of a block's pixels.
+// Updates the extremes with one sample of each of a block's pixels.
 void UpdateBlockExtremes(const double* values, int channel, uint32_t pixel, CellState* c) {
   double* __restrict const lowest = c->lowest[channel] + pixel;
   double* __restrict const second_lowest = c->second_lowest[channel] + pixel;
@@ -120,7 +120,7 @@ void UpdateBlockExtremes(const double* values, int channel, uint32_t pixel, Cell
   }
 }
 
-// `count` samples of one pixel.
+// Updates the extremes with `count` samples of one pixel.
 void UpdatePixelExtremes(const double* values, size_t count, int channel, uint32_t pixel,
                          CellState* c) {
   double lowest = c->lowest[channel][pixel], second_lowest = c->second_lowest[channel][pixel];
@@ -139,8 +139,8 @@ void MarkHits(const TileWork& s, std::vector<double>* hits) {
 }
 
 // The sums of an averaged layer's channel, by replicate. Beauty and coverage are summed for each
-// replicate, because the spread of the replicates tells when a pixel has converged; other layers
-// have one sum.
+// replicate, because the differences between replicates tell when a pixel has converged; other
+// layers have one sum.
 void FindSums(LayerKind layer, int channel, double* film_sum, CellState* c,
               double* (&sums)[kReplicates]) {
   for (size_t r = 0; r < kReplicates; ++r) {
@@ -225,7 +225,8 @@ void AddLevel(const FramePlan& plan, const Window& cell, size_t level, TileWork*
       clock->Charge(Stage::kFilm);
       listed = 0;
     };
-    // Whole blocks in the common levels, else single pixels; for each of them all replicates.
+    // A group is a whole block in the common levels, else a single pixel. It is listed for all
+    // replicates in turn.
     const size_t group = by_blocks ? kBlockPixels : 1;
     for (size_t i = 0; i < c->active.size(); i += group) {
       for (uint32_t replicate = 0; replicate < kReplicates; ++replicate) {
@@ -248,8 +249,8 @@ void ListPixels(uint32_t blocks, std::vector<uint32_t>* pixels) {
 }
 
 // Takes one sample through the centre of each pixel of the blocks whose bits are set in `blocks`.
-// Returns, as bits, the blocks of `edge_free` that need no more. The film gets their values, and,
-// of all of `blocks`, positions, depths and ids.
+// Returns, as bits, the blocks of `edge_free` that need no more samples. The film gets their
+// values, and the positions, depths and ids of all `blocks`.
 uint32_t AddCenters(const FramePlan& plan, const Window& cell, uint32_t blocks, uint32_t edge_free,
                     TileWork* work, CellState* c, StageClock* clock, RenderStats* stats) {
   if (blocks == 0) return 0;
@@ -301,8 +302,8 @@ uint32_t AddCenters(const FramePlan& plan, const Window& cell, uint32_t blocks, 
 }
 
 // Gives every pixel whose coverage is known one hit before its first sample, because all samples of
-// a barely covered pixel may miss. Of its hits only the mean is used, so that a point chosen in the
-// middle of the covered part does no harm.
+// a barely covered pixel may miss. Only the mean of its hits is used, so that it does no harm to
+// choose a point in the middle of the covered part.
 void AddCoveredHits(const FramePlan& plan, const Window& cell, TileWork* work, CellState* c,
                     StageClock* clock, RenderStats* stats) {
   if (c->covered_points.empty()) return;
@@ -329,7 +330,7 @@ void AddCoveredHits(const FramePlan& plan, const Window& cell, TileWork* work, C
       for (size_t i = 0; i < c->covered_points.size(); ++i) {
         if (c->hits[i] == 0) continue;
         const uint32_t pixel = c->covered_points[i].pixel;
-        // It counts as a hit in place of a miss: the number of samples stays.
+        // It replaces a miss by a hit, so that the number of samples stays the same.
         sums[0][pixel] += value[i] - background[channel];
         if (beauty) c->hit_low[channel][pixel] = c->hit_high[channel][pixel] = value[i];
       }
@@ -369,7 +370,8 @@ void RenderCell(const FramePlan& plan, const Window& cell, const Window& part, T
   StartTile(plan.film, cell, kBatchCapacity, &s.film);
   std::fill_n(c.samples, kCellPixels, 0u);
   clock->Charge(Stage::kFilm);
-  // All blocks within the frame, whatever part is rendered: pixels use what their neighbours know.
+  // All blocks within the frame, whatever part is rendered, because pixels depend on their
+  // neighbours.
   const uint32_t blocks = BlocksOf(cell, plan.frame);
   c.projections = ProjectSpheres(plan.camera, s.shapes.spheres);
   const uint32_t edge_free = FindEdgeFreeBlocks(plan, cell, blocks, &s, &c);

@@ -24,7 +24,7 @@
 
 namespace nacre {
 
-// Renders a cell of the frame and writes the pixels of `part`, a part of it, to the strip.
+// Renders a cell of the frame, and writes its pixels that lie in `part` to the strip.
 void RenderCell(const FramePlan& plan, const Window& cell, const Window& part, TileWork* work,
                 CellState* cell_scratch, Strip* strip, StageClock* clock, RenderStats* stats);
 

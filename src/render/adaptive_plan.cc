@@ -36,8 +36,8 @@ double NarrowestLobe(const ShadingMaterial& material) {
                     material.model);
 }
 
-// The second moment of |filter| along one axis, in pixels squared. Half of it times the second
-// derivative is what the mean over a pixel differs by from the value at its centre.
+// The second moment of |filter| along one axis, in pixels squared. The mean over a pixel differs
+// from the value at its centre by half of that times the second derivative.
 double SecondMoment(const PixelFilter& filter) {
   constexpr int kSteps = 4096;
   double sum = 0, moment = 0;
@@ -96,9 +96,9 @@ AdaptivePlan PlanAdaptiveLevels(const Scene& scene, std::span<const ShadingMater
       });
   plan.footprints = !both_signs && !HasHardCone(scene) && !sampled;
   plan.filter_radius = std::max(filter.width / 2, 0.5);
-  // Half the second moment where the picture is smooth. Where its slope changes within a pixel, as
-  // where a surface turns away from a light, up to three times that (for a box: 1/8 of the change
-  // of slope instead of 1/24).
+  // The error is half the second moment where the picture is smooth, and up to three times that
+  // where its slope changes within a pixel, as where a surface turns away from a light (for a box:
+  // 1/8 of the change of slope instead of 1/24).
   plan.center_error = 1.5 * SecondMoment(filter);
   for (const ShadingMaterial& material : materials)
     plan.lobe_widths.push_back(NarrowestLobe(material));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/adaptive_plan.h: what adaptive sampling (adaptive.h) decides once per frame.
+// render/adaptive_plan.h: decisions that adaptive sampling (adaptive.h) makes once per frame.
 #pragma once
 
 #include <array>
@@ -62,13 +62,13 @@ struct AdaptivePlan {
   // Half the side, in pixels, of the square that a box filter averages, if the coverage of pixels
   // on outlines can be computed exactly (outline_coverage.h); else 0.
   double box_half_side = 0;
-  // The same if samples may be spread over dust alone (dust.h); else 0.
+  // As box_half_side, if samples may be restricted to dust (dust.h); else 0.
   double dust_half_side = 0;
   double filter_radius = 0.5;  // in pixels from a pixel's centre
   // The error of taking a pixel's centre for its mean, as a multiple of the second differences.
   double center_error = 0;
-  // The half-width of each material's narrowest lobe, in radians: of the half vector's angle, for
-  // Phong of that from the mirrored direction, which is twice as wide (highlights.cc).
+  // The half-width of each material's narrowest lobe, in radians: of the half vector's angle or,
+  // for Phong, of the angle from the mirrored direction, which is twice as wide (highlights.cc).
   std::vector<double> lobe_widths;
   std::vector<HighlightLight> lights;  // all but skies
   SmallTriangles small_triangles;
@@ -76,8 +76,8 @@ struct AdaptivePlan {
   std::shared_ptr<const TexelMaps> texel_maps;  // null: there are none
 };
 
-// The levels, and what the image's settings and the materials alone decide. `max_samples`:
-// AdaptivePlan::max_samples. `materials`: those of the scene, in its order.
+// Makes the levels, and all that depends only on the image's settings and the materials.
+// `max_samples` is AdaptivePlan::max_samples; `materials` are those of the scene, in its order.
 AdaptivePlan PlanAdaptiveLevels(const Scene& scene, std::span<const ShadingMaterial> materials,
                                 double max_error, int max_samples);
 

@@ -26,8 +26,8 @@ double MeanRadiance(const EnvironmentMap& map) {
   return sum / (4 * M_PI);
 }
 
-// The most that any material of the scene reflects of surroundings of radiance 1. Classic Phong
-// materials lack the factor 1/pi, and their lobe, without n.l, integrates to 2 pi / (n + 1).
+// An upper bound of what any material of the scene reflects of surroundings of radiance 1. Classic
+// Phong materials lack the factor 1/pi, and their lobe, without n.l, integrates to 2 pi / (n + 1).
 double MaxReflectance(const Scene& scene) {
   double largest = 1;
   for (const Material& material : scene.materials) {
@@ -41,8 +41,9 @@ double MaxReflectance(const Scene& scene) {
   return largest;
 }
 
-// A bound of the mean radiance that an object of reflectance 1 shows under the light. The picture
-// of a mirror ball shows all directions equally; a matte object shows at most 4 times their mean.
+// An upper bound of the mean radiance that an object of reflectance 1 shows under the light. The
+// image of a mirror ball shows all directions equally; a matte object shows at most 4 times their
+// mean.
 double BrightestUnder(const SampledLight& light) {
   const double color = LargestChannel(light.color);
   switch (light.form) {
@@ -61,7 +62,7 @@ double BrightestUnder(const SampledLight& light) {
 double BrightestObject(const Scene& scene, const DirectPlan& direct, double white) {
   if (white < kNoBound) return white;
   for (const Material& material : scene.materials) {
-    if (material.user) return kNoBound;  // it may reflect more than there is
+    if (material.user) return kNoBound;  // it may gain energy
   }
   double brightest = LargestEmission(scene);
   for (const Light& light : scene.lights) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/camera.h: camera rays through film positions.
+// render/camera.h: makes camera rays through film positions.
 #pragma once
 
 #include "hit/batch.h"
@@ -8,11 +8,11 @@
 
 namespace nacre {
 
-// `width` and `height`: of the full frame, in pixels. Pixels are square.
+// `width` and `height` are those of the full frame, in pixels. Pixels are square.
 CameraFrame MakeCameraFrame(const Camera& camera, int width, int height);
 
-// Rays through `count` film positions, which are in pixels. Origins are relative to the camera's
-// position.
+// Makes rays through `count` film positions, which are in pixels. Origins are relative to the
+// camera's position.
 void MakeCameraRays(const CameraFrame& frame, const double* film_x, const double* film_y,
                     size_t count, RayBatch* rays);
 

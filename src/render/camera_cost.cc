@@ -13,21 +13,21 @@ namespace {
 
 constexpr size_t kSample = 1024;
 
-// A sphere larger than this is none of a cloud, and must not stand for all that are not sampled.
+// Larger spheres do not belong to a cloud, and must not represent all spheres that are not sampled.
 constexpr double kLargest = 128;  // pixels
 
-// Nanoseconds of one thread on AVX-512, fitted to what `waiting_bench clouds` measured of 1e4 to
-// 4e6 spheres, of which a ray passes 0.1 to 256 on average, at 1, 4 and 16 samples a pixel
-// (1280x720): the sign of TreeSaves was right wherever one took a fifth less time than the other,
-// but for one cloud of 1e5 spheres.
-constexpr double kBin = 80;      // a sphere, once for each view
-constexpr double kGather = 250;  // a sphere in a cell, each frame
-// A ray more by a tree, which it goes down to a few leaves.
+// Costs in nanoseconds of one thread on AVX-512, fitted to measurements of `waiting_bench clouds`
+// with 1e4 to 4e6 spheres, of which a ray passes 0.1 to 256 on average, at 1, 4 and 16 samples per
+// pixel (1280x720). The sign of TreeSaves was right wherever one method took a fifth less time than
+// the other, except for one cloud of 1e5 spheres.
+constexpr double kBin = 80;      // per sphere, once for each view
+constexpr double kGather = 250;  // per sphere in a cell, in each frame
+// Per ray, what a BVH costs more: the ray descends to a few leaves.
 constexpr double kDescend = 100;
-// To fetch a sphere and what is above it into the cache, of a tree whose spheres can be seen. In a
-// cloud, the share of those falls with the root of the depth.
+// Per visible sphere, to fetch it and the nodes above it into the cache. In a cloud, the share of
+// visible spheres falls with the root of the depth.
 constexpr double kFetch = 560;
-constexpr double kBuild = 700;  // a sphere
+constexpr double kBuild = 700;  // per sphere
 
 }  // namespace
 
@@ -37,7 +37,8 @@ CameraWork EstimateCameraWork(const Scene& scene, const CameraFrame& camera, con
   double cells = 0, area = 0, visible = 0;
   Window covered{window.x1, window.y1, window.x0, window.y0};
   for (size_t i = 0; i < size; ++i) {
-    // Indices in steps of the golden ratio, as the order of spheres in a scene may have any period.
+    // Indices go in steps of the golden ratio, because the order of spheres in a scene may have any
+    // period.
     const uint64_t index = size == count ? i : ((i * 0x9e3779b97f4a7c15u >> 32) * count) >> 32;
     const Sphere& sphere = scene.spheres[index];
     const ProjectedBounds b =

@@ -33,7 +33,7 @@ struct CellState {
   // Sums of the samples of each replicate: the three channels of the beauty, and coverage.
   double replicate[kReplicates][4][kCellPixels];
   BlockIntervals intervals[kCellBlocks];  // of blocks with active pixels
-  // The spheres that rays of the cell may hit, projected; none if they are too many.
+  // The projections of the spheres that rays of the cell may hit; nullopt if they are too many.
   std::optional<std::vector<SphereProjection>> projections;
   uint32_t only_outlines;             // blocks, as bits, whose only edges are outlines of spheres
   uint32_t outlined;                  // blocks, as bits, that have pixels with on_outline
@@ -50,7 +50,7 @@ struct CellState {
   // Rare features of a pixel, which few of its samples hit (rare_features.h): how many samples are
   // needed to hit them, and an upper bound of what they add to the pixel's radiance.
   double rare_samples[kCellPixels], rare_radiance[kCellPixels];
-  // What few samples of a pixel hit and whose radiance is known: triangles of one material
+  // A rare feature of a pixel whose radiance is known: triangles of one material
   // (rare_triangles.h), or texels that look alike (rare_texels.h). Sorted by pixel.
   struct RarePart {
     uint32_t pixel;
@@ -58,9 +58,9 @@ struct CellState {
     Rgb radiance;  // what it adds to the pixel, that is, its radiance times the share
   };
   std::vector<RarePart> rare_parts;
-  bool has_other_texels[kCellPixels];  // which matter, too, and are not among rare_parts
-  // How many samples a pixel needs to find the rare features that matter to it, given what it looks
-  // like so far (evidence.h); 0 if none does.
+  bool has_other_texels[kCellPixels];  // texels that matter and are not in rare_parts
+  // How many samples a pixel needs to find the rare features that matter, judged by its samples so
+  // far (evidence.h); 0 if none do.
   double required_samples[kCellPixels];
   // A point on the film, in pixels, whose ray hits the sphere that partly covers the pixel.
   struct CoveredPoint {
@@ -82,7 +82,7 @@ struct CellState {
   uint32_t first_patch[kCellPixels + 1];
   // Buffers.
   std::vector<double> hits = std::vector<double>(kBatchCapacity);  // 1 for rays that hit, else 0
-  std::vector<double> sample_share = std::vector<double>(kBatchCapacity);  // of samples of dust
+  std::vector<double> sample_share = std::vector<double>(kBatchCapacity);  // of dust samples
   std::vector<SampledPixel> pixels;
   std::vector<SampleEntry> sample_list = std::vector<SampleEntry>(kBatchCapacity);  // of a batch
   PixelBatch block{kBlockPixels};

@@ -147,7 +147,7 @@ double WidestNeighbour(const CellState& c, uint32_t pixel) {
     for (int column = std::max(x - 1, 0); column <= std::min(x + 1, kBlockSide - 1); ++column) {
       const auto i = static_cast<uint32_t>(row * kBlockSide + column);
       if ((intervals.narrow >> i & 1) != 0) continue;
-      // Rare features are known for each pixel by itself and tell nothing of its neighbours.
+      // Rare features are known for each pixel by itself, and say nothing about its neighbours.
       const uint32_t other = pixel - pixel % uint32_t{kBlockPixels} + i;
       if (c.required_samples[other] > 0) continue;
       widest = std::max(widest, intervals.half_width[i]);
@@ -203,7 +203,7 @@ void DropConverged(const FramePlan& plan, size_t level, CellState* c) {
 
 size_t CountUnsettled(const FramePlan& plan, const Window& cell, const Window& part, CellState* c) {
   if (c->active.empty()) return 0;
-  // With so few levels no pixel was dropped, and nothing measured.
+  // With so few levels no pixel has been dropped, and nothing measured.
   if (plan.adaptive.levels.size() + 1 < kCommonLevels) FindOutlineRanges(c);
   MeasureActive({plan.adaptive.max_error, kUnbounded}, BackgroundOf(plan.film.layers[0], plan.film),
                 c);

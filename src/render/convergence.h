@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/convergence.h: when a pixel of adaptive sampling has enough samples.
+// render/convergence.h: decides when a pixel of adaptive sampling has enough samples.
 #pragma once
 
 #include "render/cell_state.h"

@@ -51,7 +51,8 @@ void CastShadows(const DirectBatch& batch, const PlannedPunctualLight& planned) 
   }
 }
 
-// What all lit runs reflect of the light. `on_hits`: the light in room.light, or null.
+// Computes the radiance that all lit runs reflect of the light. `on_hits` is room.light, or null if
+// the kernels evaluate the light.
 void ShadeRuns(const DirectBatch& batch, const ShadingLight& light, const LightBatch* on_hits,
                ReflectedRadiance* radiance) {
   const LitHits lit{batch.hits(), batch.surface(),       light,
@@ -62,7 +63,7 @@ void ShadeRuns(const DirectBatch& batch, const ShadingLight& light, const LightB
   }
 }
 
-// Whether the light, which casts no shadow here, is left to the kernels of the batch's materials.
+// Whether the kernels of the batch's materials evaluate the light, which casts no shadow here.
 bool IsLeftToKernels(const DirectBatch& batch, const ShadingLight& light) {
   const std::span<const MaterialRun> runs = LitRuns(batch.surfaces);
   return EvaluatedInPlace(light) && !batch.surface().turned &&
@@ -102,7 +103,7 @@ void ShadeByPunctualLights(const DirectBatch& batch) {
   }
 }
 
-// Everything except the coats over the hits.
+// Shades everything except the coats over the hits.
 void ShadeSurfaces(const DirectBatch& batch, const SampleNumbers* numbers) {
   batch.radiance.per_light.resize(batch.plan.light_layer_count);
   if (batch.lit() > 0) {

@@ -10,7 +10,7 @@
 #include "render/stats.h"
 #include "render/surfaces.h"
 #include "sampling/pair_sampler.h"
-#include "shading/sampled_light.h"
+#include "shading/light_sampling.h"
 #include "shading/shade.h"
 
 namespace nacre {
@@ -34,7 +34,7 @@ struct SampledRoom {
   UnitPoints points{kBatchCapacity};
   LightDirections directions;
   AlignedArray<float> pdf{kBatchCapacity}, weight{kBatchCapacity};
-  AlignedArray<uint8_t> closed_form{kBatchCapacity};  // 1: for a hit's diffuse reflection
+  AlignedArray<uint8_t> closed_form{kBatchCapacity};  // 1: diffuse reflection in closed form
   ReflectedRadiance unit;                             // of a light of colour 1
 };
 
@@ -52,7 +52,8 @@ struct DirectRoom {
   std::unique_ptr<BatchRadiance> coat_radiance;  // made for the first hit with a coat
 };
 
-// What the integrator works on. Functions below read the plan and the surfaces, and write the rest.
+// The data that the integrator works on. The functions below read the plan and the surfaces, and
+// write the rest.
 struct DirectBatch {
   const DirectPlan& plan;
   const Surfaces& surfaces;

@@ -108,7 +108,7 @@ void PlanSampledLights(const Scene& scene, const RenderSettings& settings,
   }
 }
 
-// Whether the components of what is reflected are computed, beside their sum.
+// Decides whether the diffuse and specular components are computed besides their sum.
 void PlanComponents(const Scene& scene, const std::vector<Layer>& layers, DirectPlan* plan,
                     Explanation* why) {
   const auto shows_component = [](const Layer& layer) {
@@ -132,7 +132,8 @@ bool LieOnFewSpheres(const Scene& scene, const DirectPlan& plan) {
   return scene.meshes.empty() && scene.spheres.size() <= kMaxOffsetSpheres && plan.eye_outside;
 }
 
-// Those of the scene come before those of lights. `changed`: which differ; nothing: any may.
+// Copies the scene's materials, which come before those of lights. `changed` are those that differ;
+// if it is nullopt, any may.
 void UpdateMaterials(const Scene& scene, const std::optional<std::span<const uint32_t>>& changed,
                      Scene* with) {
   if (!changed) std::copy(scene.materials.begin(), scene.materials.end(), with->materials.begin());

@@ -37,9 +37,9 @@ struct PlannedSampledLight {
   size_t index;  // into Scene::lights
   SampledLight light;
   bool shadow_rays;
-  int layer;                       // as above
-  std::vector<uint8_t> shadowed;   // as above
-  uint32_t occluders = kAnyLight;  // as above
+  int layer;                       // as in PlannedPunctualLight
+  std::vector<uint8_t> shadowed;   // as in PlannedPunctualLight
+  uint32_t occluders = kAnyLight;  // as in PlannedPunctualLight
   PrimitiveRange primitives;       // of the light's own shape, if it is visible
   bool trace_all = false;          // trace shadow rays even where nothing can occlude them
   size_t first_pair;               // the first of its three pairs in DirectPlan::pairs
@@ -63,9 +63,9 @@ struct SideRadiance {
 };
 
 struct MeshRadiance {
-  MaterialId material;  // a mesh with a split material has a MeshRadiance for each of its parts
-  // Of the side that the vertices' normals point to, and of the other side. Flat-shaded meshes use
-  // the first only: it is the side that each triangle turns to the camera.
+  MaterialId material;  // a mesh with a split has a MeshRadiance for each of its materials
+  // The radiance of the side that the vertices' normals point to, and of the other side.
+  // Flat-shaded meshes use only the first, for the side of each triangle that faces the camera.
   std::array<SideRadiance, 2> sides;
 };
 
@@ -85,24 +85,24 @@ struct DirectPlan {
   bool eye_outside = false;            // no camera ray starts inside a sphere
   double camera_extent = 0;            // ShadowRayBatch::camera_extent
   bool components = false;             // ReflectedRadiance::diffuse and specular are computed
-  bool diffuse_light_layers = false;   // with components: as RenderSettings says
+  bool diffuse_light_layers = false;   // RenderSettings::diffuse_light_layers, if `components`
   std::vector<std::vector<MeshRadiance>> mesh_radiance;  // by mesh; empty if no mesh has any
 };
 
-// The scene with the shapes of its visible lights added. Null if the camera can see none of them
-// and none can occlude other lights.
+// Returns the scene with the shapes of its visible lights added, or null if the camera can see none
+// of them and none can occlude other lights.
 std::shared_ptr<const SceneWithLights> AddVisibleLights(const Scene& scene,
                                                         PreparedScene* prepared);
 
-// Plans everything except shadow rays (PlanShadows, shadow_plan.h, which sets `primitives`,
-// `camera`, `intersector` and `eye_outside`, too), their origins (PlanShadowOrigins), far lights,
-// and what Gouraud meshes reflect (ShadeMeshes). `shown`: from AddVisibleLights; may be null.
-// `coats`: whether some material has one.
+// Plans everything except shadow rays (PlanShadows, shadow_plan.h, which also sets `primitives`,
+// `camera`, `intersector` and `eye_outside`), their origins (PlanShadowOrigins), far lights, and
+// the radiance that Gouraud meshes reflect (ShadeMeshes). `shown` comes from AddVisibleLights and
+// may be null. `coats` says whether some material has a coat.
 DirectPlan PlanLights(const Scene& scene, const RenderSettings& settings,
                       const std::vector<Layer>& layers, const SceneWithLights* shown, bool coats,
                       PreparedScene* prepared, Explanation* why);
 
-// Then decides which lights are located relative to a hit from the hit's normal alone, on spheres
+// Afterwards decides which lights are located, on spheres, from the hit's normal alone
 // (ShadingLight::from_spheres).
 void PlanFarLights(const Scene& scene, const RenderSettings& settings, DirectPlan* plan,
                    Explanation* why);

@@ -10,10 +10,11 @@
 namespace nacre {
 namespace {
 
-// Where the patches are more of a pixel than this, samples of the whole pixel do as well.
+// If the patches are a larger share of a pixel than this, samples of the whole pixel do as well.
 constexpr double kMostShare = 0.9;
 
-// Each sample looks at all patches of its pixel. Pixels of more are left as they are.
+// Each sample is tested against all patches of its pixel. Pixels with more patches are sampled as a
+// whole.
 constexpr uint32_t kMostPatches = 128;
 
 using DustPatch = CellState::DustPatch;
@@ -35,14 +36,14 @@ void CutPolygon(const Polygon& polygon, int axis, double sign, double limit, Pol
   }
 }
 
-// The part between two limits along an axis. `room`: a buffer.
+// The part of the polygon between two limits along an axis. `room` is a buffer.
 void CutBetween(const Polygon& polygon, int axis, double low, double high, Polygon* part,
                 Polygon* room) {
   CutPolygon(polygon, axis, -1, low, room);
   CutPolygon(*room, axis, 1, high, part);
 }
 
-// The pixels of a cell that may show dust alone, and the patches found in them.
+// Finds the pixels of a cell that may show only dust, and the patches in them.
 class DustFinder {
  public:
   DustFinder(const Window& cell, double half_side) : cell_(cell), half_side_(half_side) {}
@@ -94,7 +95,7 @@ class DustFinder {
 
   bool Any() const { return !all_.empty(); }
 
-  // Sets the patches of the pixels, and what they cover.
+  // Stores the patches of the pixels, and the shares of the pixels that they cover.
   void Finish(CellState* c) {
     std::stable_sort(all_.begin(), all_.end(),
                      [](const auto& a, const auto& b) { return a.pixel < b.pixel; });
@@ -124,7 +125,7 @@ class DustFinder {
     int first, end;
   };
 
-  // The columns, or rows, whose pixels average a part of what lies between two film coordinates.
+  // The columns, or rows, whose pixels average some of the interval between two film coordinates.
   Range Reached(double low, double high, int from, int to) const {
     const auto number = [&](double at) {
       return static_cast<int>(std::clamp(std::floor(at), double(from), double(to)));
@@ -143,13 +144,13 @@ class DustFinder {
 
   const Window cell_;
   const double half_side_;
-  const double before_ = half_side_ - 0.5, after_ = half_side_ + 0.5;  // of a pixel's number
-  uint32_t counts_[kCellPixels] = {};  // more than kMostPatches: it is left as it is
+  const double before_ = half_side_ - 0.5, after_ = half_side_ + 0.5;  // from a pixel's number
+  uint32_t counts_[kCellPixels] = {};  // more than kMostPatches: sampled as a whole
   std::vector<PatchOfPixel> all_;
   Polygon whole_, in_row_, in_pixel_, room_;  // buffers
 };
 
-// Whether the point lies in the patch, but for rounding.
+// Whether the point lies in the patch, up to rounding.
 bool Holds(const DustPatch& patch, const Vec2d& point) {
   constexpr double kRounding = 1e-9;
   const double whole = patch.sides[0].cross(patch.sides[1]);
@@ -159,7 +160,7 @@ bool Holds(const DustPatch& patch, const Vec2d& point) {
   return patch.triangle ? a + b < 1 + kRounding : std::max(a, b) < 1 + kRounding;
 }
 
-// A point of the patch for one of the unit square.
+// Maps a point of the unit square to the patch.
 Vec2d PointOf(const DustPatch& patch, const Vec2d& u) {
   const bool fold = patch.triangle && u.x + u.y > 1;
   return patch.corner + patch.sides[0] * (fold ? 1 - u.x : u.x) +
@@ -202,7 +203,8 @@ void MoveToDust(const FramePlan& plan, const Window& cell,
     for (size_t ray = entry * count; ray < (entry + 1) * count; ++ray) {
       const Vec2d u((film->x[ray] - middle.x) / (2 * half_side) + 0.5,
                     (film->y[ray] - middle.y) / (2 * half_side) + 0.5);
-      // u.x chooses the patch, in proportion to the areas; what is left of it, and u.y, the place.
+      // u.x chooses the patch, in proportion to the areas; its remainder and u.y choose the place
+      // in it.
       double area = std::clamp(u.x, 0.0, 1.0) * share * 4 * half_side * half_side;
       size_t chosen = 0;
       for (; chosen + 1 < patches.size() && area >= patches[chosen].area; ++chosen) {

@@ -11,7 +11,8 @@
 namespace nacre {
 namespace {
 
-// The share of pixels whose error may exceed the tolerance: intervals are those of 95 %.
+// The share of pixels whose error may exceed the tolerance: intervals are 95 % confidence
+// intervals.
 constexpr double kAllowedShare = 0.05;
 
 // Whether none, some or all of a pixel's samples hit a shape.
@@ -95,7 +96,7 @@ PixelEvidence EvidenceOf(const CellState& c, uint32_t pixel) {
   return evidence;
 }
 
-// What the pixels of a cell know about rare features that other pixels may have (evidence.h).
+// The evidence in a cell's pixels of rare features that other pixels may have (evidence.h).
 struct Pool {
   double contrast = 0;  // mean of PixelEvidence::single of the witnesses
   double share = 0;     // of the pixels that are witnesses
@@ -107,13 +108,13 @@ bool IsInner(uint32_t pixel) {
   return at.x > 0 && at.y > 0 && at.x + 1 < kCellSize && at.y + 1 < kCellSize;
 }
 
-// Whether what is rare in the pixel and matters is known beforehand.
+// Whether all rare features of the pixel that matter are known beforehand.
 bool IsExplained(const CellState& c, uint32_t pixel) {
   return c.required_samples[pixel] > 0 && !c.has_other_texels[pixel];
 }
 
-// The error of the pixel's mean if no sample has hit this part. Only as far as it is darker or
-// brighter than everything around it; otherwise it is part of an edge.
+// The error of the pixel's mean if no sample has hit this rare feature. It counts only as far as it
+// is darker or brighter than everything around it; otherwise it is part of an edge.
 double MissingContrast(const CellState& c, const CellState::RarePart& rare) {
   double contrast = 0;
   for (size_t channel = 0; channel < 3; ++channel) {
@@ -125,8 +126,8 @@ double MissingContrast(const CellState& c, const CellState::RarePart& rare) {
   return contrast;
 }
 
-// The parts of one pixel matter together. Those that contribute less than an equal share of half
-// the tolerance are left out: all of those together cannot matter.
+// The rare features of one pixel matter together. Features that contribute less than an equal share
+// of half the tolerance are left out: all of these together cannot matter.
 void RequireSamplesOfParts(std::span<const CellState::RarePart> of_pixel, CellState* c) {
   const uint32_t pixel = of_pixel[0].pixel;
   const double tolerance = ToleranceOf(*c, pixel);
@@ -155,8 +156,8 @@ void FindKnownFeatures(CellState* c) {
   }
 }
 
-// Pools all pixels except those of the kind `left_out` and those whose rare features are known:
-// what is known is known for every pixel that has it.
+// Pools the evidence of all pixels except those of the kind `left_out` and those whose rare
+// features are known: a known feature is known in every pixel that has it.
 Pool MakePool(const CellState& c, const std::vector<PixelEvidence>& all, HitKind left_out) {
   Pool pool;
   size_t inner = 0, witnesses = 0;
@@ -174,7 +175,7 @@ Pool MakePool(const CellState& c, const std::vector<PixelEvidence>& all, HitKind
   return pool;
 }
 
-// How many samples a pixel needs to which the pool applies (evidence.h).
+// The number of samples that a pixel needs by the evidence of the pool (evidence.h).
 double RequiredSamples(const Pool& pool, double tolerance, double samples) {
   if (pool.share == 0) return 0;
   const double least = tolerance / pool.contrast;
@@ -203,7 +204,7 @@ void RequireEvidence(CellState* c) {
   for (const uint32_t pixel : c->active) {
     if (MayHideFeatures(*c, pixel)) all.push_back(EvidenceOf(*c, pixel));
   }
-  // Pixels that hit and pixels that miss both tell about mixed ones, and mixed ones about either.
+  // Pixels that miss are judged by misses and mixed pixels, all others by hits and mixed pixels.
   std::array<Pool, 3> pools;
   pools[kMisses] = MakePool(*c, all, kHits);
   pools[kHits] = MakePool(*c, all, kMisses);

@@ -42,10 +42,10 @@ inline constexpr double kByChance = 1.80;
 // sum of the fourth powers of the Poisson probabilities).
 inline constexpr double kExpectedHits = 2 * kReplicates;
 
-// To be called before a cell's first sample.
+// Must be called before a cell's first sample.
 void ClearEvidence(CellState* cell_scratch);
 
-// To be called after a level: clears BlockIntervals::narrow of active pixels that do not have
+// Must be called after a level: clears BlockIntervals::narrow of active pixels that do not have
 // enough samples for it.
 void RequireEvidence(CellState* cell_scratch);
 

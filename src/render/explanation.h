@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/explanation.h: why a frame is rendered the way it is: what `--explain` prints.
+// render/explanation.h: why a frame is rendered as it is, which `--explain` prints.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace nacre {
 
-// A decision and its reason. Work that is skipped leaves every bit as the general path has it.
+// A decision and its reason. Skipping work leaves every bit as in the general path.
 struct PlanItem {
   std::string what;  // "light \"key\" shadow rays"
   bool used = false;

@@ -16,7 +16,7 @@ void CopyTile(const AlignedArray<T>& from, const PixelRows<T>& rows) {
   }
 }
 
-// Points the channels to buffers of so many pixels at least.
+// Points the channels to buffers of at least `pixels` pixels.
 template <typename T>
 void UseBuffers(size_t pixels, std::vector<AlignedArray<T>>* buffers,
                 std::vector<std::span<T>>* channels) {
@@ -140,7 +140,7 @@ void FillBackground(const FilmPlan& plan, const Window& tile, Strip* strip) {
   size_t color = 0;
   for (const Layer& layer : plan.layers) {
     const Rgb background = IsAveraged(layer.kind) ? BackgroundOf(layer, plan) : Rgb(0, 0, 0);
-    // As of sums that are 0, to which a background of -0 is added.
+    // Computed as if from sums of 0, so that a background of -0 becomes 0.
     const Rgb mean = (Rgb(0, 0, 0) + background * plan.weight) * (1.0 / plan.spp);
     for (int c = 0; c < FloatChannels(layer.kind); ++c) {
       FillPixels(static_cast<float>(mean[c]), RowsIn(strip->window, tile, strip->colors[color++]));

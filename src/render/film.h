@@ -40,9 +40,9 @@ void PlanSums(const Scene& scene, const RenderSettings& settings, const PixelSam
 
 // The sampled pixels of a tile, one array per channel, row by row. Averaged channels are summed in
 // double and rounded to float once, however many samples there are and however their weights
-// cancel, so that the layers add up to the beauty. Of uniform sampling only hits are summed: the
-// sum of the alpha layer is their weight, and the remaining weight shows the background. Adaptive
-// sampling sums what misses see, too.
+// cancel, so that the layers add up to the beauty. Uniform sampling sums only hits: the sum of the
+// alpha layer is their weight, and the remaining weight shows the background. Adaptive sampling
+// also sums the values of misses.
 struct TileFilm {
   Window window;
   // The sampled pixels, in the order of the sums. All others of the window show the background.
@@ -50,7 +50,7 @@ struct TileFilm {
   std::vector<AlignedArray<double>> sums;    // averaged channels, in layer order
   std::vector<AlignedArray<float>> nearest;  // P and Z channels, in layer order
   std::vector<AlignedArray<uint32_t>> ids;   // id channels, in layer order
-  AlignedArray<double> nearest_distance2;    // squared, of their sample from the centre, in pixels
+  AlignedArray<double> nearest_distance2;    // of their sample from the centre, in pixels^2
 };
 
 // The index in TileFilm::sums of the alpha layer, which follows the three channels of the beauty.
@@ -61,7 +61,7 @@ struct Strip {
   Window window;
   std::vector<std::span<float>> colors;  // all float channels, in order
   std::vector<std::span<uint32_t>> ids;  // all uint channels, in order
-  // Where they are, but for colours that are in an image.
+  // The memory of the channels, except for colours that are stored in an image.
   std::vector<AlignedArray<float>> color_buffers;
   std::vector<AlignedArray<uint32_t>> id_buffers;
 };
@@ -78,15 +78,15 @@ PixelRows<T> RowsIn(const Window& strip, const Window& tile, std::span<T> channe
 // The channels of a strip and of the files written from it: float channels first, then ids.
 std::vector<ChannelSpec> StripChannels(const std::vector<Layer>& layers, PixelType color_type);
 
-// Gives the strip the plan's channels. Its colours are those rows of `image`, if there is any,
-// which has the plan's channels. Else, if its buffers were large enough, their pixels stay:
-// RenderTile's `blank` relies on it.
+// Gives the strip the plan's channels. If `image` is not null, it must have the plan's channels,
+// and its rows become the strip's colours. Otherwise the pixels of the strip's buffers stay if
+// these were large enough: RenderTile's `blank` relies on it.
 void StartStrip(const FilmPlan& plan, const Window& window, Image* image, Strip* strip);
 
 // Whether some layers hold the value of one sample, not an average.
 bool ShowsNearest(const FilmPlan& plan);
 
-// Clears the channels of a tile. `capacity`: the largest number of pixels of any tile that this
+// Clears the channels of a tile. `capacity` is the largest number of pixels of any tile that this
 // film is used for, at most kBatchCapacity.
 void StartTile(const FilmPlan& plan, const Window& tile, size_t capacity, TileFilm* film);
 

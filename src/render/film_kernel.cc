@@ -60,7 +60,7 @@ void RoundSumsT(const double* sums, const double* coverage, const Resolution& by
   }
 }
 
-// By whole vectors: the compiler's own loop stores four floats at a time.
+// Stores whole vectors: the compiler's own loop stores four floats at a time.
 void FillPixelsT(float value, const PixelRows<float>& rows) {
   const hn::ScalableTag<float> d;
   const auto filled = hn::Set(d, value);
@@ -72,7 +72,7 @@ void FillPixelsT(float value, const PixelRows<float>& rows) {
   }
 }
 
-// How many hits from `first` on, and before `end`, have consecutive rays. Rays ascend.
+// The number of hits from `first` on, before `end`, that have consecutive rays. Rays ascend.
 HWY_INLINE size_t CountConsecutive(const uint32_t* HWY_RESTRICT ray, size_t first, size_t end) {
   if (ray[end - 1] - ray[first] == end - 1 - first) return end - first;
   const hn::ScalableTag<uint32_t> d;
@@ -101,7 +101,7 @@ void FindHitSpansT(const HitRays& hits, size_t pixels, size_t row, const double*
   }
 }
 
-// Adds the values of hits to the sums of the spans' pixels. Span by span, and all channels of a
+// Adds the values of hits to the sums of the spans' pixels, span by span, and all channels of a
 // span at once, because many spans are short.
 template <size_t kChannels>
 struct ToSums {
@@ -110,7 +110,7 @@ struct ToSums {
   static constexpr size_t kSamples = 8;
   double* const* sums;
 
-  // value(c, i): a vector of the values of the hits from i on, in channel c.
+  // value(c, i) is a vector of the values in channel c of the hits from i on.
   template <class Value>
   HWY_INLINE void operator()(std::span<const HitSpan> spans, const Value& value) const {
     const D d;
@@ -168,8 +168,8 @@ struct ToSums {
   }
 };
 
-// Writes the values of hits to the spans' pixels. All channels of a vector at a time, because many
-// spans are short, and a loop for each channel would end once more.
+// Writes the values of hits to the spans' pixels, all channels of a vector at a time, because many
+// spans are short, and each channel's own loop would have an end of its own.
 template <size_t kChannels>
 struct ToRows {
   const PixelRows<float>* rows;

@@ -32,8 +32,8 @@ struct HitRays {
 };
 
 // Finds the spans of these hits. Rays are numbered sample by sample, and by the `pixels` pixels
-// within a sample. `weights`: by sample. No span crosses the end of a row of `row` pixels; `row`
-// divides `pixels`.
+// within a sample. There is a weight for each sample. No span crosses the end of a row of `row`
+// pixels; `row` divides `pixels`.
 void FindHitSpans(const HitRays& hits, size_t pixels, size_t row, const double* weights,
                   std::vector<HitSpan>* spans);
 
@@ -62,14 +62,14 @@ struct PixelRows {
 void StoreHits(const HitValues& values, std::span<const HitSpan> spans,
                const PixelRows<float>* rows);
 
-// How the sums of a channel become pixels. `weight`: the sum of the weights of a pixel's samples;
-// those that missed show the background.
+// How the sums of a channel become pixels. `weight` is the sum of the weights of a pixel's samples;
+// the samples that missed show the background.
 struct Resolution {
   double background, weight, scale;
 };
 
-// float((sum + background (weight - coverage)) scale) for each pixel of the runs, which lie in the
-// tile that the rows are of.
+// Writes float((sum + background (weight - coverage)) scale) to each pixel of the runs, which lie
+// in the tile that `rows` are of.
 void RoundSums(const double* sums, const double* coverage, const Resolution& by,
                std::span<const PixelRun> runs, const Window& tile, const PixelRows<float>& rows);
 
@@ -81,7 +81,7 @@ void FillPixels(float value, const PixelRows<float>& rows);
 void AddFloats(const float* from, double constant, double constant2, size_t begin, size_t end,
                double* to);
 
-// The same with constants for each hit.
+// AddFloats with constants for each hit.
 struct FloatsToAdd {
   const float *from, *constant, *constant2;
 };

@@ -9,13 +9,13 @@
 namespace nacre {
 namespace {
 
-// The values of a layer: an array of floats and two constants, added in double. What the lights
-// leave of a sample is rounded to float, as kernels write it; the average of samples once more. The
-// beauty never depends on which layers are rendered.
+// The values of a layer: an array of floats and two constants, which are added in double. The
+// radiance that a sample reflects is rounded to float, as kernels store it, and the average of
+// samples once more. The beauty never depends on which layers are rendered.
 struct LayerValues {
   const Soa3<float>* values = nullptr;  // null: zeros
   Rgb constant{0, 0, 0}, constant2{0, 0, 0};
-  // In place of the constants where materials are mapped.
+  // These replace the constants where materials are mapped.
   const Soa3<float>* ambient = nullptr;
   const Soa3<float>* emission = nullptr;
 };
@@ -82,7 +82,7 @@ const float* ChannelOrNull(const Soa3<float>* soa, int c) {
   return soa == nullptr ? nullptr : ChannelOf(*soa, c).data();
 }
 
-// Channel c of a layer at the hits of a run.
+// Fills in channel c of a layer at the hits of a run.
 void FillRun(const LayerValues& shown, int c, const MaterialRun& run, double* values) {
   const float* const from = ChannelOrNull(shown.values, c);
   if (shown.ambient != nullptr) {

@@ -29,9 +29,9 @@ struct LayerRoom {
   AlignedArray<uint32_t> nearest_ray{kBatchCapacity};  // by pixel, of the rays of one batch
 };
 
-// The values of an averaged layer by ray of the batch, in buffers of the room. Rays that hit
-// nothing have the value `background`, or that of the sky. `light_layer`: the number of the layer
-// among the light layers, if it is one.
+// Returns the values of an averaged layer by ray of the batch, in a buffer of the room. Rays that
+// hit nothing have the value `background`, or the radiance of the sky. `light_layer` is the number
+// of the layer among the light layers, if it is one.
 Soa3<double>& GatherLayer(const FilmPlan& plan, const Layer& layer, size_t light_layer,
                           const Rgb& background, const ShadedBatch& batch, LayerRoom* room);
 
@@ -74,8 +74,8 @@ void AddNearest(const FilmPlan& plan, const ShadedBatch& batch, const PixelOf& p
 // Adds a tile's round of samples to every layer of its film.
 void AddToFilm(const FilmPlan& plan, const ShadedBatch& batch, LayerRoom* room, TileFilm* film);
 
-// For FilmPlan::one_sample: writes the only round of a tile to the strip directly, with the bits
-// that sums would give. False, and nothing is written, if materials are mapped.
+// For FilmPlan::one_sample: writes the only round of a tile directly to the strip, with the bits
+// that sums would give. Returns false, and writes nothing, if materials are mapped.
 bool StoreOnlySamples(const FilmPlan& plan, const ShadedBatch& batch, const Window& tile,
                       LayerRoom* room, Strip* strip);
 

@@ -39,8 +39,8 @@ inline Window PixelsOver(const PixelFilter& filter, const Window& window, const 
           end(box.x, box.half_width, window.x1), end(box.y, box.half_height, window.y1)};
 }
 
-// Calls add(column, row, share) for each of these pixels with the share of its samples that lies in
-// the box. Columns and rows count from the window's corner.
+// Calls add(column, row, share) for each pixel of PixelsOver, with the share of its samples that
+// lies in the box. Columns and rows count from the window's corner.
 template <class Add>
 void ForEachShare(const PixelFilter& filter, const Window& window, const FilmBox& box,
                   const Add& add) {

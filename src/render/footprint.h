@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/footprint.h: which blocks of pixels need only one sample a pixel.
+// render/footprint.h: finds the blocks of pixels that need only one sample per pixel.
 #pragma once
 
 #include "render/cell_state.h"
@@ -12,10 +12,10 @@ namespace nacre {
 uint32_t FindEdgeFreeBlocks(const FramePlan& plan, const Window& cell, uint32_t blocks,
                             TileWork* work, CellState* cell_scratch);
 
-// Whether in a block without edges the values at the centres of the pixels are within the tolerance
-// of the pixels' means: second differences are small, and no lobe is so narrow that it may lie
-// between the centres. `first_ray`: the first of the block's rays in work->samples. `values`: the
-// beauty by ray. `hit_of_ray`: by ray, or kNoHit.
+// Whether, in a block without edges, the values at the centres of the pixels are within the
+// tolerance of the pixels' means: second differences are small, and no lobe is so narrow that it
+// may lie between the centres. `first_ray` is the first of the block's rays in work->samples,
+// `values` is the beauty by ray, and `hit_of_ray` is the index of each ray's hit, or kNoHit.
 inline constexpr uint32_t kNoHit = 0xffffffffu;
 bool IsSmooth(const FramePlan& plan, size_t first_ray, const Soa3<double>& values,
               const uint32_t* hit_of_ray, const TileWork& work);

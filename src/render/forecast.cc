@@ -33,7 +33,8 @@ std::optional<Forecast> ForecastRender(const FramePlan& plan, const RenderSettin
   RenderStats total;
   double seconds = 0;  // of all threads
   ParallelFor(count, settings.threads, [&](size_t i) {
-    // One of each `one_in` cells, at random, so that what repeats in the picture is met as it is.
+    // One cell of each `one_in` cells is chosen at random, so that regular patterns in the picture
+    // do not bias the estimate.
     const size_t number = i * one_in + HashCombine(i, one_in) % one_in;
     const int x = x0 + static_cast<int>(number % columns) * kCellSize;
     const int y = y0 + static_cast<int>(number / columns) * kCellSize;
@@ -46,7 +47,7 @@ std::optional<Forecast> ForecastRender(const FramePlan& plan, const RenderSettin
         rooms.pop_back();
       }
     }
-    // A render makes one for each thread, which is no part of what a cell takes.
+    // A render makes one for each thread, which does not count as time that a cell takes.
     if (!room) room = std::make_unique<Room>();
     const auto start = std::chrono::steady_clock::now();
     room->work.cancel = settings.cancel;

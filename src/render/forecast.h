@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/forecast.h: what a picture to a wanted error will take, told before it is rendered.
+// render/forecast.h: estimates what it takes to render a picture to a given error, beforehand.
 #pragma once
 
 #include <optional>
@@ -14,9 +14,9 @@ struct Forecast {
   double seconds;          // of rendering
 };
 
-// Renders at most one in 64 cells of adaptive sampling, spread over the window, and scales what
-// they took to all of them. None for plans without adaptive sampling, and for windows of so few
-// cells that these would tell little. Throws Cancelled.
+// Renders at most one in 64 cells of adaptive sampling, spread over the window, and scales their
+// cost to all cells. Returns nullopt for plans without adaptive sampling, and for windows with too
+// few cells for an estimate. Throws Cancelled.
 std::optional<Forecast> ForecastRender(const FramePlan& plan, const RenderSettings& settings);
 
 }  // namespace nacre

@@ -31,8 +31,8 @@ Rgb SumAmbient(const Scene& scene) {
   return sum;
 }
 
-// Why pixels that no sphere's outline reaches are sampled all the same; null if they are not.
-// (Tiles in which triangles may be visible always sample all pixels.)
+// Why pixels that lie outside the outlines of all spheres are sampled nevertheless; null if they
+// are not. (Tiles in which triangles may be visible always sample all pixels.)
 const char* WhyEveryPixel(const FramePlan& plan, const RenderSettings& settings) {
   return settings.max_error > 0       ? "adaptive sampling makes its own samples"
          : !plan.hits.trace_by_bins   ? "which pixels these are is not known without bins"
@@ -72,8 +72,8 @@ AdaptivePlan PlanAdaptiveSampling(const FramePlan& plan, const RenderSettings& s
   adaptive.mesh_glints = FindMeshGlints(scene, plan.surfaces, adaptive, plan.camera, plan.window,
                                         kCellSize + adaptive.filter_radius + kMaxRareWidth,
                                         kMaxRareWidth * kMaxRareWidth, settings.threads);
-  // One pixel beyond the cell, because the pixels around a triangle tell whether it is part of an
-  // edge or a rare feature.
+  // The bins extend one pixel beyond the cell, because the pixels around a triangle tell whether it
+  // is part of an edge or a rare feature.
   if (!scene.meshes.empty()) {
     adaptive.small_triangles =
         BinSmallTriangles(plan.surfaces.primitives, MakeProjector(plan.camera), plan.window,
@@ -106,7 +106,7 @@ AdaptivePlan PlanAdaptiveSampling(const FramePlan& plan, const RenderSettings& s
   return adaptive;
 }
 
-// Lights that are shown have materials of their own, made with the shapes.
+// Lights that are shown have materials of their own, which are made with their shapes.
 PartVersions VersionsOfLights(const FramePlan& plan, const PreparedScene& prepared) {
   return prepared.versions.Of(plan.with_lights ? SceneParts(ScenePart::kLights) : SceneParts());
 }
@@ -162,7 +162,7 @@ FramePlan MakePlan(const Scene& given, const RenderSettings& settings, PreparedS
   Explanation* const why = &plan.why;
   PixelSampler sampler = MakePixelSampler(scene.image.filter, scene.image.spp, scene.image.seed);
 
-  // Between the steps that may take long.
+  // Called between steps that may take long.
   const auto stop_if_cancelled = [&] { ThrowIfCancelled(settings.cancel); };
   stop_if_cancelled();
   PlanLayers(scene, settings, &plan.film, why);

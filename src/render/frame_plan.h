@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/frame_plan.h: how a frame is rendered, decided once before its first camera ray, and with
-// it which work can be skipped. Each stage of the work on a batch of samples has a plan of its own.
+// render/frame_plan.h: how a frame is rendered and which work can be skipped, decided once before
+// its first camera ray. Each stage of the work on a batch of samples has a plan of its own.
 // `--explain` prints the reasons.
 #pragma once
 
@@ -26,7 +26,7 @@ struct FramePlan {
   const Scene* scene = nullptr;
   std::shared_ptr<const SceneWithLights> with_lights;  // owns `scene` if lights are visible
   Window frame;                                        // all pixels: 0, 0, width, height
-  Window window;                                       // those to render
+  Window window;                                       // the pixels to render
   CameraFrame camera{};
   FilmPlan film;          // layers, image settings, sampler, camera; sky and background of `direct`
   HitsPlan hits;          // shapes, camera, image settings; shadows and readers of hits
@@ -35,15 +35,15 @@ struct FramePlan {
   SamplingPlan sampling;  // image settings; whether lights are sampled and materials textured
   AdaptivePlan adaptive;  // max_error; all of the above
   Explanation why;        // of all stages
-  RenderStats planning;   // what shading vertices and triangles took while the plan was made
+  RenderStats planning;   // cost of shading vertices and triangles while the plan was made
 };
 
-// `scene` must be valid (scene/validate.h) and outlive the plan. Throws Error: usage for a layer
-// or region that the scene does not have, bad input for shapes that a build without Embree cannot
-// trace, internal for trees that cannot be built; and Cancelled.
+// `scene` must be valid (scene/validate.h) and outlive the plan. Throws Error: usage for a layer or
+// region that the scene does not have, bad input for shapes that a build without Embree cannot
+// trace, internal for BVHs that cannot be built; and Cancelled.
 FramePlan MakePlan(const Scene& scene, const RenderSettings& settings);
 
-// The same plan, made faster with what earlier plans have left in `prepared`, whose versions must
+// Makes the same plan, faster, with what earlier plans have left in `prepared`, whose versions must
 // include all changes of the scene since. Those earlier plans must not be rendered any more.
 FramePlan MakePlan(const Scene& scene, const RenderSettings& settings, PreparedScene* prepared);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/frame_window.h: the window of the frame that is to be rendered.
+// render/frame_window.h: the window of the frame that is rendered.
 #pragma once
 
 #include "base/image.h"

@@ -22,7 +22,7 @@ PolarPoint PolarFrom(const Vec3d& center, const Vec3d& point) {
   return {to / distance, distance};
 }
 
-// A point P sees a sphere of `radius` from `distance` of its centre. At the point of the sphere
+// For a sphere of `radius`, a point P at `distance` from its centre, and the point of the sphere
 // whose normal makes `angle` with the direction from the centre to P: the angle of incidence,
 // between the normal and the direction to P; its derivative by `angle`; and the distance to P.
 struct Incidence {

@@ -11,8 +11,8 @@
 namespace nacre {
 namespace {
 
-// Adds the suns of a sky. Directions are sampled by their light, so that a sun which matters is met
-// more than once.
+// Adds the suns of a sky. Directions are sampled in proportion to their light, so that a sun that
+// matters is sampled more than once.
 void AddSuns(const ShadingSky& sky, std::vector<HighlightLight>* suns) {
   constexpr size_t kDirections = 1024, kMostSuns = 4;
   constexpr double kWidest = 0.1;     // a sun's radius, in radians

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/highlights.h: which lights cause highlights, and how wide these are: shared by highlights
-// on spheres (glints.h) and on meshes (mesh_glints.h).
+// render/highlights.h: finds the lights that cause highlights, and how wide these are, for
+// highlights on spheres (glints.h) and on meshes (mesh_glints.h).
 #pragma once
 
 #include <limits>
@@ -14,8 +14,7 @@ namespace nacre {
 
 inline constexpr double kInfiniteDistance = std::numeric_limits<double>::infinity();
 
-// All lights except ambient ones. Of a sky that is a picture its suns: the brightest small parts,
-// at most four.
+// All lights except ambient ones and skies.
 std::vector<HighlightLight> FindHighlightLights(const Scene& scene, const DirectPlan& direct);
 
 // The suns of skies that are pictures: their brightest small parts, at most four of each.

@@ -12,7 +12,7 @@ bool ReadsPositions(const PlannedPunctualLight& planned) {
   return planned.light.form != LightForm::kDirectional && planned.light.from_spheres.empty();
 }
 
-// What reads the positions of all hits; null if nothing does.
+// The reason why the positions of all hits are needed; null if there is none.
 const char* WhyAllPositions(const Scene& scene, const RenderSettings& settings,
                             const HitReaders& readers, const HitsPlan& plan) {
   const std::vector<PlannedPunctualLight>& lights = readers.direct.lights;

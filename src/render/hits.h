@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/hits.h: the second stage: the first hit of each camera ray of a tile. Spheres are found by
-// bins, triangles by a tree, and the nearer hit counts; without bins a tree finds both.
+// render/hits.h: the second stage: finds the first hit of each camera ray of a tile. Spheres are
+// found by bins, triangles by a BVH, and the nearer hit counts; without bins a BVH finds both.
 #pragma once
 
 #include <memory>
@@ -33,7 +33,7 @@ struct TraceRoom {
   std::unique_ptr<Triangles> triangles;  // made for the first such tile
 };
 
-// Finds the hits of the camera rays through `film` in a tile. `shapes`: from FindTileShapes.
+// Finds the hits of the camera rays through `film` in a tile. `shapes` comes from FindTileShapes.
 void TraceCamera(const HitsPlan& plan, const TileShapes& shapes, const FilmBatch& film,
                  TraceRoom* room, CameraHits* hits);
 

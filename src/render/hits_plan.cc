@@ -51,8 +51,8 @@ std::string DescribeShapes(const Scene& scene) {
                      CountTriangles(scene), TargetName(ActiveTarget()));
 }
 
-// What of the materials says where meshes are: their holes and sides, of those that have any. Of
-// opacity maps also the version of the textures.
+// A key of the material properties that decide where meshes exist: holes and single-sidedness, for
+// the materials that have any, and the version of the textures if there are opacity maps.
 ViewKey KeyOfSurfaces(const Scene& scene, const PreparedScene& prepared) {
   ViewKey key;
   if (scene.meshes.empty()) return key;
@@ -77,7 +77,7 @@ ViewKey KeyOfSurfaces(const Scene& scene, const PreparedScene& prepared) {
 // that have changed; else a new one.
 std::shared_ptr<Intersector> FindIntersector(const Scene& scene, const RenderSettings& settings,
                                              PreparedScene* prepared) {
-  // A camera on its way around what it looks at, and somewhat away from it.
+  // Lets a camera move around what it looks at, and somewhat away from it.
   constexpr double kOrbit = 2.5;
   const Vec3d& eye = scene.camera.position;
   const bool shells = settings.intersector == IntersectorChoice::kShells;
@@ -121,7 +121,8 @@ HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Wind
   const auto report = [&](double done) {
     if (settings.on_plan_progress) settings.on_plan_progress(done);
   };
-  // What depends on the view, too: the intersector itself depends on the shapes only.
+  // A key of results that also depend on the view: the intersector itself depends only on the
+  // shapes.
   const auto view = [&](uint64_t made, std::vector<double> numbers) {
     return ViewKey{made, prepared->versions.Of(ScenePart::kCamera | ScenePart::kImage),
                    std::move(numbers)};
@@ -139,7 +140,7 @@ HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Wind
   plan.mesh_windows = prepared->mesh_windows.Get(
       of_shapes, [&] { return FindMeshWindows(scene, camera, sample_margin); });
   plan.tile_rays = adaptive ? TileRays::kAny : TileRays::kSamples;
-  // Adaptive sampling reads footprints and outlines from the bins even if a tree traces the rays,
+  // Adaptive sampling reads footprints and outlines from the bins even if a BVH traces the rays,
   // because bits must not depend on the intersector. It bins the whole frame, because they must not
   // depend on the region either, whose bins may fit into memory where the frame's do not.
   const Window binned =

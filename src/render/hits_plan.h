@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/hits_plan.h: how rays find the scene's shapes, by trees or by bins of spheres, and which
+// render/hits_plan.h: how rays find the scene's shapes, by BVHs or by bins of spheres, and which
 // optional arrays hits have.
 #pragma once
 
@@ -24,7 +24,7 @@ struct HitsPlan {
   std::shared_ptr<Intersector> intersector;  // null: there is nothing to hit
   std::vector<Window> mesh_windows;          // where in the frame meshes may be visible
   bool binned = false;                       // spheres are binned for camera rays
-  bool trace_by_bins = false;                // camera rays use these bins, not a tree
+  bool trace_by_bins = false;                // camera rays use these bins, not a BVH
   TileRays tile_rays = TileRays::kSamples;
   bool eye_outside = false;       // no camera ray starts inside a sphere
   bool exact_directions = false;  // hits have HitBatch::normal and HitBatch::to_view
@@ -34,17 +34,18 @@ struct HitsPlan {
   std::vector<uint8_t> may_be_shadowed;  // by sphere
 };
 
-// The reason for a tree where Intersector::SpheresAreNested.
+// The reason to use a BVH if Intersector::SpheresAreNested.
 inline constexpr char kNestedSpheres[] =
     "many spheres lie within one another, where a tree of shells is faster";
 
-// Makes the intersector and the bins for camera rays, but no tree. `window`: the pixels to render
-// of the frame.
+// Makes the intersector and the bins for camera rays, but no BVH. `window` holds the pixels of the
+// frame that are rendered.
 HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Window& window,
                   const CameraFrame& camera, const PixelSampler& sampler, PreparedScene* prepared,
                   Explanation* why);
 
-// Then builds the trees that camera rays need, and, if `for_shadows`, shadow rays.
+// Afterwards builds the BVHs that camera rays need and, if `for_shadows`, those that shadow rays
+// need.
 void BuildTrees(bool for_shadows, const RenderSettings& settings, HitsPlan* plan, Explanation* why);
 
 }  // namespace nacre

@@ -10,8 +10,8 @@
 
 namespace nacre {
 
-// Errors are relative to a pixel's value, but for values below this one they are relative to it: a
-// display shows it as near black.
+// Errors are relative to a pixel's value or, if that is lower, to this value, which a display shows
+// as near black.
 inline constexpr double kDarkest = 0.05;
 
 // The largest error that a pixel may have: `max_error` times its value, which is clamped to at
@@ -41,22 +41,23 @@ struct Interval {
   double half_width2;  // squared half-width
 };
 
-// `values`: the mean of each replicate's samples. The SIMD twin, for blocks, is interval_kernel.h.
+// Measures the interval from the mean of each replicate's samples. The SIMD twin, for blocks, is
+// interval_kernel.h.
 Interval MeasureSpread(const double (&values)[kReplicates]);
 
-// For a pixel that an outline crosses. All `samples` of the pixel may miss a sliver, or the
-// replicates may have equally many hits by chance, so that they agree. So the half-width is at
-// least the effect of one more sample that differs from the mean as much as any in `range`, as the
-// background or as black. `range`: of the samples that hit, in outline pixels of the block.
-// `background`: null if it is not visible in the pixel.
+// Measures the interval of a pixel that an outline crosses. All `samples` of the pixel may miss a
+// sliver, or the replicates may have equally many hits by chance, so that they agree. So the
+// half-width is at least the effect of one more sample that differs from the mean as much as any in
+// `range`, as the background or as black. `range` is that of the samples that hit, in outline
+// pixels of the block. `background` is null if it is not visible in the pixel.
 Interval MeasureOnOutline(const double (&values)[kReplicates], const PixelRange& range,
                           const double* background, double samples);
 
-// The same for a pixel of known coverage, `covered`. `hits`: the share of each replicate's samples
-// that hit. Only the mean of the hits has an error then: the replicates' values are corrected for
-// the difference between their shares of hits and the coverage. Few hits may agree by chance, too:
-// the half-width is at least the n-th part of the range for n hits; and from a single hit nothing
-// is known about the others.
+// Measures the interval of a pixel of known coverage, `covered`. `hits` is the share of each
+// replicate's samples that hit. Only the mean of the hits has an error then: the replicates' values
+// are corrected for the difference between their shares of hits and the coverage. Few hits may
+// agree by chance, too: the half-width is at least `covered` times the n-th part of the range for n
+// hits; and a single hit says nothing about others.
 Interval MeasureCovered(const double (&values)[kReplicates], const double (&hits)[kReplicates],
                         double covered, const PixelRange& range, double background, double samples);
 

@@ -22,7 +22,7 @@ struct SpreadV {
   V mean, half_width2;
 };
 
-// The operations of MeasureSpread for the sums load(replicate).
+// The same operations as in MeasureSpread, for the sums load(replicate).
 template <class Load>
 HWY_INLINE SpreadV Spread(const Load& load, V scale) {
   const D d;

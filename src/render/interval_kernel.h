@@ -20,8 +20,9 @@ struct BlockIntervals {
   double tolerance[kBlockPixels];   // smallest of the channels
 };
 
-// `sums`: of the block's samples, by replicate and channel. `samples`: by pixel, how many each
-// replicate has; 0 gives an undefined interval. NaN is never within the tolerance.
+// `sums` are those of the block's samples, by replicate and channel. `samples` is, by pixel, the
+// number of samples of each replicate; 0 gives an undefined interval. NaN is never within the
+// tolerance.
 void MeasureBlock(const double* const (&sums)[kReplicates][3], const uint32_t* samples,
                   const ErrorBound& error, BlockIntervals* intervals);
 

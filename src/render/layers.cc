@@ -8,7 +8,7 @@
 namespace nacre {
 namespace {
 
-// Every layer that the scene has, in the order of files: those of lights are the last.
+// Every layer that the scene has, in the order of files; the lights' layers are the last.
 std::vector<Layer> AllLayers(const Scene& scene) {
   std::vector<Layer> layers = {
       {LayerKind::kBeauty, "beauty"},      {LayerKind::kAlpha, "alpha"},

@@ -16,7 +16,7 @@ enum class LayerKind : uint8_t {
   kAlpha,     // A: coverage
   kDiffuse,   // reflected by the diffuse lobes
   kSpecular,  // reflected by the specular lobes
-  kAmbient,   // of ambient lights
+  kAmbient,   // reflected from ambient lights
   kEmission,  // emitted by surfaces, and the background
   kAlbedo,    // diffuse reflectance or base colour
   kLight,     // light.<name>: diffuse and specular reflection of one light

@@ -10,7 +10,7 @@ bool HasMirroredLobe(const ShadingMaterial& material) {
   return material.turned && HasSampledLobe(material);
 }
 
-// Mirrors room.light for the run. False if the term f(l') is 0 at all hits.
+// Mirrors room.light for the run. Returns false if the term f(l') is 0 at all hits.
 bool MirrorLight(const DirectBatch& batch, const MaterialRun& run) {
   if (!HasMirroredLobe(*run.shading)) return false;
   DirectRoom& room = batch.room;

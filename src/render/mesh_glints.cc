@@ -13,7 +13,7 @@
 namespace nacre {
 namespace {
 
-// A triangle with what its shading depends on. Points are relative to the camera.
+// A triangle with all that its shading depends on. Points are relative to the camera.
 struct GlossyTriangle {
   uint32_t primitive;
   uint32_t material;
@@ -107,7 +107,7 @@ std::optional<Barycentrics> FindPeak(const Projector& projector, const GlossyTri
 }
 
 // Whether the normal may equal the half vector anywhere in the triangle: false if they differ by
-// more in the middle than they can change over the triangle. `turn`: the largest difference of a
+// more in the middle than they can change over the triangle. `turn` is the largest difference of a
 // corner's normal from their mean.
 bool MayHavePeak(const Projector& projector, const GlossyTriangle& t, const HighlightLight& light,
                  double turn) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // render/mesh_glints.h: the position and the size on the film of the highlights that small lights
-// cause on meshes: glints.h for triangles.
+// cause on meshes, as glints.h finds them on spheres.
 #pragma once
 
 #include "render/highlights.h"

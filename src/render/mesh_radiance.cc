@@ -40,8 +40,8 @@ class CornerInterpolator {
   const Vec3d& weights_;
 };
 
-// Calls set(value, to) for each array of BatchRadiance. value(side, i) is what it is filled with,
-// of entry i of a SideRadiance.
+// Calls set(value, to) for each array `to` of BatchRadiance, where value(side, i) is what entry i
+// of a SideRadiance contributes to it.
 template <class Set>
 void ForEachArray(BatchRadiance* radiance, const Set& set) {
   ReflectedRadiance& total = radiance->total;
@@ -97,7 +97,7 @@ void InterpolateRadiance(const DirectBatch& batch) {
       });
       if (found != sets.end()) {
         InterpolateHit(batch, triangle, *found, hit);
-      } else {  // SurfacePlan::black: the back of what emits in front only
+      } else {  // SurfacePlan::black: the back of a material that emits in front only
         ForEachArray(&batch.radiance,
                      [&](const auto&, Soa3<float>* to) { SetVector(Vec3d(0), hit, to); });
       }

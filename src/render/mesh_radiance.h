@@ -9,7 +9,7 @@
 
 namespace nacre {
 
-// Which side of a corner is visible, as an index into MeshRadiance::sides. `visible_normal`: from
+// The visible side of a corner, as an index into MeshRadiance::sides. `visible_normal` comes from
 // VisibleNormal.
 uint32_t SideOf(const TriangleRef& triangle, size_t corner, const Vec3d& visible_normal);
 

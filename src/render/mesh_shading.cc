@@ -27,8 +27,8 @@ struct Point {
   uint32_t side;       // index into MeshRadiance::sides
 };
 
-// For either side, by vertex, the first triangle that shows the camera this side of the vertex; or
-// kNoTriangle.
+// For both sides, by vertex: the first triangle on which the camera sees this side of the vertex,
+// or kNoTriangle.
 constexpr uint32_t kNoTriangle = 0xffffffffu;
 using SideTriangles = std::array<std::vector<uint32_t>, 2>;
 
@@ -122,7 +122,7 @@ void NumberPoints(const Point* points, size_t count, int sample, SampleNumbers* 
   }
 }
 
-// What the shading of points reads.
+// The plans that the shading of points reads.
 struct MeshShading {
   const SurfacePlan& surfaces;
   const DirectPlan& direct;

@@ -9,8 +9,8 @@
 
 namespace nacre {
 
-// Fills plan->mesh_radiance. All other members of the plan must be set. Returns the counts of its
-// lights and rays, which belong to the frame's.
+// Fills plan->mesh_radiance. All other members of the plan must be set. Returns the counts of
+// lights and rays of this shading, which belong to the frame's.
 RenderStats ShadeMeshes(const Scene& scene, const RenderSettings& settings,
                         const SurfacePlan& surfaces, DirectPlan* plan, Explanation* why);
 

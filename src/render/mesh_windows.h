@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/mesh_windows.h: where in the frame meshes may be visible.
+// render/mesh_windows.h: finds where in the frame meshes may be visible.
 #pragma once
 
 #include <vector>

@@ -16,7 +16,8 @@ struct OutlineForm {
   double xx, xy, yy, x, y, one;
 };
 
-// For a sphere whose whole outline lies in front of the camera.
+// Makes the form of a sphere whose whole outline lies in front of the camera, around a film
+// position.
 OutlineForm MakeOutlineForm(const CameraFrame& frame, const TraceSphere& sphere, double film_x,
                             double film_y);
 

@@ -45,10 +45,9 @@ double LobeRoughness(const Material& material) {
       material.model);
 }
 
-// A perfect mirror reflects only what has an extent. This notes mirrors where no light has one, if
-// there are lights.
-// `parameter`: the name of the roughness that makes materials of this trait mirrors, and whose
-// value is roughness_of(i).
+// Notes perfect mirrors where there are lights, but none with an extent: a mirror reflects only
+// what has an extent. `parameter` is the name of the roughness that makes materials of this trait
+// mirrors, and roughness_of(i) is its value.
 template <class RoughnessOf>
 void NoteMirrors(const NotedMaterials& of, const char* parameter, MaterialTrait trait,
                  const RoughnessOf& roughness_of, std::vector<std::string>* notes) {
@@ -175,8 +174,9 @@ void NoteNarrowLobes(const NotedMaterials& of, int max_samples, std::vector<std:
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     const auto* const user = std::get_if<UserModel>(&of.prepared.all[i].model);
     if (user == nullptr || user->brdf->sample || !of.used[i]) continue;
-    // A half vector within `width` of the normal is a direction of light within twice that of the
-    // mirror's: a share of at most 4 width^2 of the cosine law. Of 16 hits the error is a fourth.
+    // If the half vector is within `width` of the normal, the direction to light is within twice
+    // that of the mirror direction, where at most 4 width^2 of the cosine-distributed samples lie.
+    // With 16 hits the error is a fourth.
     const double width = UserLobeWidth(*user);
     if (4 * width * width * max_samples >= 16) continue;
     notes->push_back(fmt::format(

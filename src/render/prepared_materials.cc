@@ -124,8 +124,8 @@ double BurleyGain(const ShadingMaterial& material) {
                    return burley ? gain(matte.diffuse, matte.roughness) : 0.0;
                  },
                  [&](const MicrofacetModel& model) {
-                   // Scaled by what the lobe's albedo leaves, which vanishes at grazing angles, the
-                   // term cannot reflect more than it gets.
+                   // If the term is scaled by what the lobe's albedo leaves, which vanishes at
+                   // grazing angles, it cannot reflect more light than it receives.
                    const bool burley = model.base_form == DiffuseForm::kBurley &&
                                        model.coupling == DiffuseCoupling::kNone;
                    return burley ? gain(model.diffuse, model.base_roughness) : 0.0;

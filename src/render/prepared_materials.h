@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/prepared_materials.h: what is derived from a scene's materials, from each of them by
-// itself: where one has changed, the others' stays.
+// render/prepared_materials.h: data derived from each of a scene's materials separately, so that a
+// change of one material leaves the data of the others valid.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace nacre {
 
-// What a plan asks of all materials at once.
+// Properties that a plan needs to know of all materials at once.
 enum class MaterialTrait : uint32_t {
   kSplit = 1 << 0,
   kEmitsInFrontOnly = 1 << 1,
@@ -24,39 +24,40 @@ enum class MaterialTrait : uint32_t {
   kCoatMirror = 1 << 7,
   kUserModel = 1 << 8,
   kBurleyGain = 1 << 9,  // BurleyGain above 1
-  // PhongGain that would not be printed as 1.00, by model
+  // PhongGain, by model, if it would not be printed as 1.00.
   kPhongGain = 1 << 10,
   kModifiedPhongGain = 1 << 11,
   kBlinnPhongGain = 1 << 12,
-  // The form of Shadowing of the lobe: this bit and the three after it, in its order.
+  // The form of Shadowing of the lobe: this bit and the three bits after it, in the enum's order.
   kFirstShadowing = 1 << 13,
 };
 
-// A set of them, as bits.
+// A set of traits, as bits.
 using MaterialTraits = uint32_t;
 
 inline bool Has(MaterialTraits traits, MaterialTrait trait) {
   return (traits & static_cast<MaterialTraits>(trait)) != 0;
 }
 
-// The trait of the form of shadowing that the material's lobe has; none without a lobe.
+// The trait of the form of shadowing of the material's lobe; 0 without a lobe.
 MaterialTraits ShadowingTrait(const Material& material);
 
 struct PreparedMaterials {
   std::vector<ShadingMaterial> all;    // one per material of the scene, `black`, and coats
-  MaterialId black;                    // of the back of what emits in front only
+  MaterialId black;                    // for the backs of materials that emit in front only
   std::vector<MaterialId> coats;       // by material of the scene; invalid if it has none
-  std::vector<MaterialId> coat_slots;  // likewise, of a coat that it has or had
+  std::vector<MaterialId> coat_slots;  // the entry in `all` of a coat that the material has or had
   std::vector<MaterialTraits> traits;  // by material of the scene
-  MaterialTraits any = 0;              // what any of them has
+  MaterialTraits any = 0;              // traits of any material
   std::vector<double> phong_gains;     // PhongGain, by material of the scene
 };
 
-// `in_ambient`: the scene has ambient light. The scene must outlive what is made. What `materials`
-// was is lost, its memory used again.
+// Derives the data of all materials. `in_ambient` says whether the scene has ambient light. The
+// scene must outlive the result. The former contents of `materials` are lost, but its memory is
+// used again.
 void PrepareMaterials(const Scene& scene, bool in_ambient, int threads,
                       PreparedMaterials* materials);
-// The same where only these have changed since.
+// Derives the data of the materials that have changed since.
 void PrepareMaterials(const Scene& scene, bool in_ambient, std::span<const uint32_t> changed,
                       PreparedMaterials* materials);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/prepared_scene.h: keeps what is costly to compute from a scene from one plan to the next.
-// Each piece has a key, which holds everything that it was made from; when the scene or the
-// settings change, the pieces with another key are made again. Plans that use kept pieces give the
+// render/prepared_scene.h: keeps data that is costly to compute from a scene from one plan to the
+// next. Each piece has a key, which holds everything that it was made from; when the scene or the
+// settings change, pieces whose key has changed are made again. Plans that use kept pieces give the
 // same bits as plans made from scratch.
 #pragma once
 
@@ -35,7 +35,7 @@ class Kept {
   }
   void Forget() { key_.reset(); }
 
-  // The piece; made by make() unless it is up to date.
+  // Returns the piece, made by make() unless it is up to date.
   template <class Make>
   Value& Get(const Key& key, const Make& make) {
     if (!IsUpToDate(key)) {
@@ -61,38 +61,40 @@ struct ShapesKey {
   friend bool operator==(const ShapesKey&, const ShapesKey&) = default;
 };
 
-// The key of what depends on the shapes and on other parts of the scene.
+// The key of data that depends on the shapes and on other parts of the scene.
 struct ViewKey {
   uint64_t made = 0;  // PreparedScene::shapes_made or intersectors_made
   PartVersions parts;
-  std::vector<double> numbers;  // of the settings
+  std::vector<double> numbers;  // settings that the data depends on
   friend bool operator==(const ViewKey&, const ViewKey&) = default;
 };
 
-// The key of what is derived from each material, but for the materials themselves.
+// The key of the data derived from each material, without the materials' own versions.
 struct MaterialsKey {
   uint64_t made = 0;    // PreparedScene::shapes_made, if lights are among the shapes
-  PartVersions lights;  // likewise
+  PartVersions lights;  // kLights, under the same condition
   bool in_ambient = false;
-  const Material* first = nullptr;  // what is derived points to them
+  const Material* first = nullptr;  // the derived data points to the materials
   size_t count = 0;
   friend bool operator==(const MaterialsKey&, const MaterialsKey&) = default;
 };
 
 struct PreparedScene {
-  // Of the one scene that this object is for. Must be updated at each change of the scene.
+  // The versions of the one scene that this object is for, to be updated at each change of the
+  // scene.
   SceneVersions versions;
 
   Kept<ShapesKey, std::shared_ptr<SceneWithLights>> with_lights;
   uint64_t shapes_made = 0;            // how often with_lights was made
   uint64_t materials_with_lights = 0;  // versions.materials() of those in with_lights
 
-  // Those that have changed since versions.materials() was `materials_prepared` are prepared anew.
+  // Materials that have changed since versions.materials() was `materials_prepared` are prepared
+  // anew.
   Kept<MaterialsKey, std::shared_ptr<PreparedMaterials>> materials;
   uint64_t materials_prepared = 0;
   Kept<ViewKey, std::vector<bool>> used_materials;  // FindUsedMaterials
 
-  // For one plan only: trees need not serve other cameras.
+  // Whether there is only one plan, so that BVHs need not be valid for other cameras.
   bool for_one_plan = false;
 
   // Follows the camera, to which its coordinates are relative (Intersector::MoveTo), and changes of
@@ -103,13 +105,13 @@ struct PreparedScene {
   Kept<ViewKey, bool> eye_outside;
   Kept<ViewKey, std::vector<Window>> mesh_windows;
   Kept<ViewKey, bool> camera_bins;       // the result of BinForCamera
-  Kept<ViewKey, double> lost_to_tiles;   // TreePaysOff's, of these shapes
+  Kept<ViewKey, double> lost_to_tiles;   // `lost` of TreePaysOff, for these shapes
   Kept<ViewKey, std::monostate> lights;  // whether the intersector has the lights' occluders
 
   KeptHashes hashes;
-  Kept<ViewKey, std::monostate> shapes_hash;      // whether `hashes` has that of the shapes
-  Kept<ViewKey, std::monostate> material_hashes;  // and right ones of materials
-  uint64_t materials_hashed = 0;                  // as they were at this versions.materials()
+  Kept<ViewKey, std::monostate> shapes_hash;      // whether `hashes` has the shapes' hash
+  Kept<ViewKey, std::monostate> material_hashes;  // whether `hashes` has the materials' hashes
+  uint64_t materials_hashed = 0;                  // versions.materials() of those hashes
 
   KeptTables tables;
   PartVersions meshes_of_tangents;  // the versions that tables.tangents were made from

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/probes.h: the radiance at single places of the film, which adaptive sampling looks at
-// before a cell's first sample.
+// render/probes.h: measures the radiance at single points of the film, for adaptive sampling before
+// a cell's first sample.
 #pragma once
 
 #include "render/tile_work.h"
@@ -9,13 +9,13 @@ namespace nacre {
 
 struct Probe {
   double x, y;    // on the film, in pixels
-  uint32_t seed;  // of its samples of lights
+  uint32_t seed;  // of its light samples
   uint32_t hit = kNoPrimitive;
   Rgb radiance{0, 0, 0};
 };
 
-// Sets `hit` and `radiance` of the probes, which lie within the reach of the tile's samples, or in
-// a pixel that this ends in: there, spheres of the tile next to it alone are not seen.
+// Sets `hit` and `radiance` of the probes. They must lie where samples of the tile may lie, or in a
+// pixel in which that range ends: there, spheres that only the neighbouring tile lists are not hit.
 void TraceProbes(const FramePlan& plan, std::vector<Probe>* probes, TileWork* work,
                  StageClock* clock, RenderStats* stats);
 

@@ -113,8 +113,8 @@ void AddHighlights(const FramePlan& plan, const std::vector<Glint>& glints, Tile
   }
 }
 
-// By pixel of a cell, row by row: the share of its samples that hit features of one kind, and what
-// these add to the pixel's radiance.
+// By pixel of a cell, row by row: the share of its samples that hit features of one kind, and the
+// radiance that these add to the pixel.
 struct Shares {
   double samples[kCellSize][kCellSize] = {};
   double radiance[kCellSize][kCellSize] = {};

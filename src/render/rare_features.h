@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/rare_features.h: rare features: what only few samples of a pixel hit, known before the
+// render/rare_features.h: finds rare features, which only few samples of a pixel hit, before the
 // pixel's first sample. These are spheres, triangles (rare_triangles.h), texels (rare_texels.h) and
 // highlights (glints.h, mesh_glints.h) that are smaller than a pixel.
 #pragma once

@@ -33,7 +33,7 @@ FilmRay RayThrough(const CameraFrame& camera, double x, double y) {
   return {place, camera.forward};
 }
 
-// The point of a primitive's plane or sphere that the ray meets, relative to the camera.
+// The point where the ray hits a primitive's plane or sphere, relative to the camera.
 Vec3d MeetPrimitive(const FramePlan& plan, uint32_t primitive, const FilmRay& ray) {
   const Scene& scene = *plan.scene;
   if (!IsSphere(plan.surfaces.primitives, primitive)) {
@@ -82,13 +82,13 @@ Vec2d MapPoint(const FramePlan& plan, uint32_t primitive, const Texture& texture
                                     (uvs[triangle.Vertex(2)] - uv) * b.y);
 }
 
-// What the components of a normal map are multiplied by.
+// The vectors by which the components of a normal map are multiplied.
 struct MapFrame {
   Vec3d tangent, bitangent, normal;
 };
 
-// The frame at a point of a primitive, given how the point and (u, v) change along the film, as
-// hits have it (shading/turn_kernel.cc).
+// The frame at a point of a primitive, given how the point and (u, v) change along the film; the
+// same as that of hits (shading/turn_kernel.cc).
 MapFrame FrameAt(const FramePlan& plan, uint32_t primitive, TextureId texture, const Vec3d& point,
                  const Vec3d& to_view, const Vec3d (&point_by)[2], const Vec2d (&uv_by)[2]) {
   const TextureScene& textures = plan.surfaces.textures;
@@ -132,7 +132,7 @@ MapFrame FrameAt(const FramePlan& plan, uint32_t primitive, TextureId texture, c
   return {t * side, n.cross(t) * (n.cross(t).dot(along_v) < 0 ? -side : side), n};
 }
 
-// The components in which a frame's map makes a direction, unit.
+// The components of a unit normal with which a map in this frame gives the direction.
 Vec3d InFrame(const MapFrame& frame, const Vec3d& direction) {
   const Vec3d by_tangent = frame.bitangent.cross(frame.normal);
   const Vec3d components(direction.dot(by_tangent),
@@ -152,7 +152,7 @@ TexelFootprint FootprintOn(const TexelGrid& grid, const MappedPixel& pixel) {
           pixel.dx.y * h, pixel.dy.x * w, pixel.dy.y * h};
 }
 
-// `at`: (u, v) at an offset from the middle, in pixels.
+// at(dx, dy) is (u, v) at an offset from the middle, in pixels.
 template <class At>
 MappedPixel MapPixel(const At& at) {
   constexpr double kStep = 1.0 / 64;  // so small that a seam hardly ever lies on it
@@ -160,8 +160,9 @@ MappedPixel MapPixel(const At& at) {
   return {uv, (at(kStep, 0) - uv) / kStep, (at(0, kStep) - uv) / kStep};
 }
 
-// The offset at which (u, v) are what they would be at `offset` if they were linear: by Newton's
-// method. Where it leads elsewhere, as across a seam, `offset` itself.
+// Finds, by Newton's method, the offset at which (u, v) have the values that they would have at
+// `offset` if they were linear. Returns `offset` itself where the method leads elsewhere, as across
+// a seam.
 template <class At>
 Vec2d Aim(const MappedPixel& pixel, const At& at, const Vec2d& offset) {
   const Vec2d target = pixel.uv + pixel.dx * offset.x + pixel.dy * offset.y;
@@ -174,7 +175,7 @@ Vec2d Aim(const MappedPixel& pixel, const At& at, const Vec2d& offset) {
   return (found - offset).length() < 0.5 ? found : offset;
 }
 
-// A pixel in whose middle texels were found, and where.
+// Texels that were found by the ray through the middle of a pixel.
 struct FoundTexels {
   int x, y;
   TexelCluster cluster;
@@ -186,7 +187,7 @@ class TexelFinder {
   TexelFinder(const FramePlan& plan, std::vector<FoundTexels>* found)
       : plan_(plan), maps_(*plan.adaptive.texel_maps), found_(found) {}
 
-  // In the maps of what the ray through the middle of the pixel meets.
+  // Searches the maps of the primitive that the ray through the middle of the pixel hits.
   void SearchMaps(int x, int y, uint32_t primitive, const std::vector<TexelMap>& maps,
                   bool whole_image) {
     for (const TexelMap& map : maps) {
@@ -202,7 +203,7 @@ class TexelFinder {
     }
   }
 
-  // In the normal maps of what the ray through the middle of the pixel meets.
+  // Searches the normal maps of the primitive that the ray through the middle of the pixel hits.
   void SearchNormals(int x, int y, uint32_t primitive, const std::vector<LobeNormalMap>& maps) {
     for (const LobeNormalMap& map : maps) {
       const Texture& texture = plan_.scene->textures[map.map.texture.index];
@@ -239,7 +240,7 @@ class TexelFinder {
     }
   }
 
-  // In the sky that the pixel shows.
+  // Searches the sky that the pixel shows.
   void SearchSky(int x, int y) {
     const ShadingSky& sky = plan_.direct.sampled_lights[*plan_.direct.sky].light.sky;
     const auto on_map = [&](double dx, double dy) {
@@ -266,8 +267,8 @@ class TexelFinder {
                       TextureFootprint<double>{dx.x, dx.y, dy.x, dy.y});
   }
 
-  // The lights that the map's normals may reflect to the eye, and how. `point_at`: the point of the
-  // primitive at an offset from the pixel's middle.
+  // Finds the lobes in which the map's normals may reflect lights to the eye. point_at(dx, dy) is
+  // the point of the primitive at an offset from the pixel's middle.
   template <class PointAt>
   void FindLobes(const LobeNormalMap& map, uint32_t primitive, const MappedPixel& pixel,
                  const PointAt& point_at) {
@@ -293,7 +294,7 @@ class TexelFinder {
       const Vec3d middle = ideal(0);
       const double width =
           std::hypot(map.width, HalfVectorTurn(light, (light.position - points[0]).length()));
-      // Also if it is not finite: there are no tangents.
+      // There is also no lobe if `middle` is not finite, because there are no tangents.
       if (!(middle.z > 0 && width > 0)) return;
       lobes_.push_back({middle, (ideal(1) - middle) / kStep, (ideal(2) - middle) / kStep, width});
     };
@@ -413,8 +414,8 @@ void FindRareTexels(const FramePlan& plan, const Window& cell, TileWork* work, C
                       static_cast<uint32_t>(IndexIn(plan.frame, texels.x, texels.y))});
   }
   TraceProbes(plan, &probes, work, clock, stats);
-  // As if the texels that look alike were spread evenly over the pixel. Glints that normals make
-  // are much alike: those of several pixels count together.
+  // Shares are computed as if texels that look alike were spread evenly over the pixel. Glints of
+  // normal maps look much alike, so that those of several pixels are added up.
   struct Glints {
     double squares = 0;
     Rgb radiance{0, 0, 0};
@@ -428,7 +429,7 @@ void FindRareTexels(const FramePlan& plan, const Window& cell, TileWork* work, C
       if (of_texels == 0) return;
       c->has_other_texels[PixelAt(column, row)] |= found[i].cluster.others;
       if (found[i].of_normals) {
-        if (of_texels < 0) return;  // of filters with negative lobes
+        if (of_texels < 0) return;  // the filter has negative lobes
         glints[row][column].squares += of_texels * radiance.length2();
         glints[row][column].radiance += radiance * of_texels;
       } else {
@@ -439,7 +440,7 @@ void FindRareTexels(const FramePlan& plan, const Window& cell, TileWork* work, C
   for (int row = 0; row < kCellSize; ++row) {
     for (int column = 0; column < kCellSize; ++column) {
       const auto& [squares, radiance] = glints[row][column];
-      // Glints of this one share and radiance would have the same mean and variance.
+      // A single feature of this share and radiance has the same mean and variance.
       if (squares > 0) {
         c->rare_parts.push_back({PixelAt(column, row), radiance.length2() / squares, radiance});
       }

@@ -31,7 +31,7 @@ constexpr double kCommonArea = 2.5;
 
 struct Candidate {
   TrianglePiece piece;
-  std::optional<Rgb> radiance;  // none if it is hidden
+  std::optional<Rgb> radiance;  // nullopt if it is hidden
 };
 
 // The side of a cell with a border of one pixel.

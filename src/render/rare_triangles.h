@@ -13,7 +13,7 @@
 
 namespace nacre {
 
-// Adds to cell_scratch->rare_parts.
+// Adds rare triangles to cell_scratch->rare_parts.
 void FindRareTriangles(const FramePlan& plan, const Window& cell, TileWork* work,
                        CellState* cell_scratch, StageClock* clock, RenderStats* stats);
 

@@ -23,7 +23,7 @@ struct Worker {
   TileWork work;
   std::unique_ptr<CellState> cell;  // of adaptive sampling
   Strip strip;
-  std::vector<uint8_t> blank;  // for each tile of the strip, as RenderTile has it
+  std::vector<uint8_t> blank;  // RenderTile's `blank`, for each tile of the strip
 };
 
 class WorkerPool {
@@ -70,7 +70,7 @@ void ForEachCell(const Window& strip, const RenderOne& render_cell) {
   }
 }
 
-// Those channels of an image are floats.
+// Stores the ids of a strip in an image, whose id channels are floats.
 void StoreIds(const Strip& strip, Image* image) {
   const size_t first = IndexIn(image->data, strip.window.x0, strip.window.y0);
   for (size_t i = 0; i < strip.ids.size(); ++i) {
@@ -85,9 +85,9 @@ void StoreIds(const Strip& strip, Image* image) {
 using StripRenderer =
     std::function<void(size_t number, Worker* worker, StageClock* clock, RenderStats* stats)>;
 
-// Renders all strips in parallel and hands them to the sink, or into the image, if there is one.
-// on_progress(share) is called after each of them with the share of the strips that are finished,
-// unless it is empty.
+// Renders all strips in parallel, into the image or, if that is null, passes them to the sink.
+// on_progress(share), unless it is empty, is called after each strip with the share of the strips
+// that are finished.
 RenderStats RenderStrips(const FramePlan& plan, const RenderSettings& settings,
                          const StripRenderer& render_strip, Image* image, const StripSink& sink,
                          const std::function<void(double)>& on_progress) {
@@ -141,7 +141,7 @@ FilmPlan PlanOfFirstSamples(const FramePlan& plan, int samples) {
   return film;
 }
 
-// Render, into the image if there is one.
+// Implements Render; renders into the image if it is not null.
 RenderStats RenderWhole(const FramePlan& plan, const RenderSettings& settings, Image* image,
                         const StripSink& sink) {
   const bool adaptive = plan.adaptive.max_error > 0;
@@ -191,7 +191,7 @@ RenderStats RenderPass(const FramePlan& plan, const RenderSettings& settings, in
       clock->Charge(Stage::kFilm);
     });
   };
-  // The share of the samples of all passes.
+  // Reports the share of the samples of all passes.
   const auto on_progress = [&](double share) {
     if (settings.on_progress) {
       settings.on_progress((first + (end - first) * share) / plan.film.spp);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/render.h: from a scene to strips of pixels.
+// render/render.h: renders a scene to strips of pixels.
 #pragma once
 
 #include <functional>
@@ -36,20 +36,20 @@ struct FrameFilm {
 RenderStats RenderPass(const FramePlan& plan, const RenderSettings& settings, int end,
                        FrameFilm* film, Image* image);
 
-// Gives the image the plan's channels, all as float, and the size of its window. What it holds is
-// not cleared if it had them. Throws Cancelled if the settings say so, and leaves no channels: to
-// clear a large one takes longer than a cancelled render may.
+// Gives the image the plan's channels, all as float, and the size of the plan's window. Channels
+// that it already has are not cleared. Throws Cancelled if the settings say so, and leaves no
+// channels, because clearing a large channel takes longer than a cancelled render may.
 void FitImage(const FramePlan& plan, const RenderSettings& settings, Image* image);
 
-// Renders the whole window into an image, which is made to fit: each pixel is written once, to
-// where it belongs.
+// Renders the whole window into an image, which is made to fit. Each pixel is written once,
+// directly to its place.
 RenderStats RenderInto(const FramePlan& plan, const RenderSettings& settings, Image* image);
 
-// The same as an image of its own; `stats` may be null.
+// Renders the whole window into a new image. `stats` may be null.
 Image RenderImage(const Scene& scene, const RenderSettings& settings, RenderStats* stats = nullptr);
 Image RenderImage(const FramePlan& plan, const RenderSettings& settings, RenderStats* stats);
 
-// What is to be told of pixels that have not converged; "" if all have.
+// A message about pixels that have not converged; "" if all have.
 std::string UnsettledNote(const FramePlan& plan, const RenderStats& stats);
 
 }  // namespace nacre

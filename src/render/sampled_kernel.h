@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "shading/sampled_light.h"
+#include "shading/light_sampling.h"
 
 namespace nacre {
 

@@ -40,8 +40,8 @@ struct Components {
 // of a component's directions is the sum of theirs.
 struct SamplingStrategies {
   bool light;  // SampleLight
-  // SampleCosine or SampleUnderLayers, for the diffuse part; SampleLobe always is, for the specular
-  // part.
+  // SampleCosine or SampleUnderLayers, for the diffuse component. SampleLobe is always used, for
+  // the specular component.
   bool cosine;
 };
 
@@ -60,7 +60,7 @@ std::optional<LightPlane> PlaneOf(const SampledLight& light) {
                     triangle.edge_x.cross(triangle.edge_y).normalized()};
 }
 
-// Whether the triangle lies in the light's plane, to what is rounded of both: 2^-44 of their
+// Whether the triangle lies in the light's plane, within the rounding of both: 2^-44 of their
 // coordinates, as in scene/light_shapes.cc.
 bool LiesInPlane(const DirectPlan& plan, const LightPlane& light, uint32_t primitive) {
   if (IsSphere(plan.primitives, primitive)) return false;
@@ -75,9 +75,9 @@ bool LiesInPlane(const DirectPlan& plan, const LightPlane& light, uint32_t primi
   return true;
 }
 
-// Sets light() to 0 at hits on triangles in the plane of a flat light. They see nothing of it,
-// though by rounding some lie in front of it and, as the back of a wall that it is let into, face
-// it.
+// Sets light() to 0 at hits on triangles in the plane of a flat light. No light reaches them, but
+// rounding places some of them in front of the light, and these may face it, as the back of a wall
+// does that the light is let into.
 void HideLightInPlane(const LitBatch& lit) {
   const std::optional<LightPlane> light = PlaneOf(lit.planned.light);
   if (!light) return;
@@ -208,7 +208,7 @@ size_t FindClosedForm(const LitBatch& lit) {
   return count;
 }
 
-// Adds their diffuse reflection: the irradiance, as if all light came along the normal.
+// Adds the diffuse reflection of these hits: the irradiance, as if all light came along the normal.
 void AddClosedForm(const LitBatch& lit) {
   const SampledLight& light = lit.planned.light;
   Soa3<float>& irradiance = lit.room.directions.radiance;
@@ -273,7 +273,7 @@ void AddLobeSamples(const LitBatch& lit) {
   AddSampledLight(lit, {HasSampler(lit.planned.light), false}, {false, true});
 }
 
-// Perfect mirrors reflect the light of one direction.
+// Adds the light that perfect mirrors reflect, which comes from one direction.
 void AddMirrorReflection(const LitBatch& lit) {
   MirrorDirections({lit.hits(), lit.surface(), 0, lit.count()}, &lit.room.directions.to_light);
   FindLight(lit.planned.light, lit.hits(), &lit.room.directions);

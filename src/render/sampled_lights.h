@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/sampled_lights.h: light that a batch of hits reflects from lights with an extent.
+// render/sampled_lights.h: computes the light that a batch of hits reflects from lights with an
+// extent.
 #pragma once
 
 #include "render/direct_batch.h"
@@ -7,8 +8,8 @@
 
 namespace nacre {
 
-// Adds the reflected light of the plan's sampled lights to the batch's radiance. `numbers`: of the
-// batch's samples.
+// Adds the reflected light of the plan's sampled lights to the batch's radiance. `numbers` are
+// those of the batch's samples.
 void ShadeBySampledLights(const DirectBatch& batch, const SampleNumbers& numbers);
 
 }  // namespace nacre

@@ -30,7 +30,7 @@ void ListSpans(const TileCandidates& candidates, std::vector<PixelRun>* runs) {
   }
 }
 
-// Numbers the sampled pixels, for sampling of lights.
+// Numbers the sampled pixels, for light sampling.
 void NumberPixels(const SamplingPlan& plan, std::span<const PixelRun> runs,
                   SampleNumbers* numbers) {
   numbers->pixel_count = 0;

@@ -26,11 +26,11 @@ struct SamplingPlan {
   PixelSampler sampler;
   int tile_width = 16;        // in pixels; tiles are as high as strips
   int samples_per_round = 1;  // samples of each of a tile's pixels in one batch
-  bool every_pixel = true;    // also those in which no ray hits anything
+  bool every_pixel = true;    // also the pixels in which no ray hits anything
   bool numbered = false;      // lights are sampled: CameraSamples::numbers is filled
 };
 
-// What other stages need of samples.
+// What other stages require of samples.
 struct SamplingNeeds {
   bool sampled_lights;
   bool textured;
@@ -46,17 +46,17 @@ struct CameraSamples {
   std::vector<double> weights;           // by sample of a pixel
   std::optional<SampleNumbers> numbers;  // made for the first batch if lights are sampled
   std::vector<PixelRun> runs;            // the sampled pixels of a tile, row by row
-  PixelBatch pixels{kBatchCapacity};     // the same, prepared; not for centred samplers
+  PixelBatch pixels{kBatchCapacity};     // these pixels, prepared; not for centred samplers
 };
 
-// The numbers, which are made if there are none yet.
+// Returns the numbers, which are made if there are none yet.
 inline SampleNumbers& EnsureNumbers(CameraSamples* samples) {
   if (!samples->numbers) samples->numbers.emplace(kBatchCapacity);
   return *samples->numbers;
 }
 
 // Chooses the pixels of a tile that are sampled, before its first round: all of them, or those
-// whose rays may hit something. `shapes`: those that FindTileShapes has found.
+// whose rays may hit something. `shapes` comes from FindTileShapes.
 void EnterPixels(const SamplingPlan& plan, const Window& tile, const TileShapes& shapes,
                  CameraSamples* samples);
 

@@ -20,7 +20,7 @@ enum class IntersectorChoice : uint8_t { kAuto, kEmbree, kTiles, kShells };
 std::vector<std::string> IntersectorNames();
 // Throws Error (usage) for a name that is none of these, and for Embree where this build has none.
 IntersectorChoice ParseIntersector(const std::string& name);
-// Why all rays use a tree with this choice, whatever the scene; else null.
+// The reason why all rays use a BVH with this choice, whatever the scene; else null.
 const char* TreeAskedFor(IntersectorChoice choice);
 
 // One of `count` horizontal bands that together hold every row of the frame once (--tile).
@@ -37,29 +37,30 @@ struct RenderSettings {
   std::vector<std::string> layers;  // besides R G B A; names as in render/layers.h
   int tile_size = 0;  // width of tiles in pixels, [1, 64]; 0: the plan chooses. Changes no bit
   IntersectorChoice intersector = IntersectorChoice::kAuto;
-  // Adaptive sampling (adaptive.h) if above 0: the largest error of a pixel relative to max(|L|,
-  // 0.05), or for highlights relative to white (white_level.h); and approximately the largest
-  // number of samples of a pixel. 0: every pixel takes the scene's samples.
+  // Adaptive sampling (adaptive.h) if max_error is above 0: the largest error of a pixel relative
+  // to max(|L|, 0.05), or for highlights relative to white (white_level.h). max_samples is
+  // approximately the largest number of samples of a pixel. If max_error is 0, every pixel takes
+  // the scene's samples.
   double max_error = 0;
   int max_samples = 4096;
-  // Compute diffuse reflection of lights with an extent in closed form where possible. false: only
-  // by samples, for tests that compare the two.
+  // Whether diffuse reflection of lights with an extent is computed in closed form where possible.
+  // false: only by samples, for tests that compare the two.
   bool closed_forms = true;
-  // Locate distant lights relative to hits on spheres from the hits' normals
+  // Whether distant lights are located relative to hits on spheres from the hits' normals
   // (ShadingLight::from_spheres). false: always from the hits' positions, for tests.
   bool far_lights = true;
-  // The layer of a light shows its diffuse reflection alone, and not its specular one as well: with
-  // both components among the layers, for whoever explains a pixel.
+  // Whether the layer of a light shows only its diffuse reflection, not its specular one as well,
+  // if both components are computed: for code that explains a pixel.
   bool diffuse_light_layers = false;
-  // Take none of the shortcuts that change no bits: shadow rays are traced even where nothing can
-  // occlude them, every sample gets a position and is summed. For tests that compare shortcuts with
-  // the general path.
+  // Whether to take none of the shortcuts that change no bits: shadow rays are traced even where
+  // nothing can occlude them, every sample gets a position and is summed. For tests that compare
+  // shortcuts with the general path.
   bool general_path = false;
-  // Measure how long each stage takes (RenderStats::stage_seconds). Costs some per cent of the time
-  // of small frames. Output is always measured.
+  // Whether to measure how long each stage takes (RenderStats::stage_seconds). This costs some per
+  // cent of the time of small frames. Output is always measured.
   bool time_stages = false;
-  // Setting it to true, from any thread, ends the render: Cancelled is thrown within milliseconds,
-  // or while the plan is made at the end of one of its steps. May be null.
+  // Setting it to true, from any thread, ends the render: Cancelled is thrown within milliseconds
+  // or, while the plan is made, at the end of the current step. May be null.
   CancelPointer cancel = nullptr;
   // Called after every strip, from any thread, one call at a time, with the share of the work that
   // is done, in (0, 1]. An exception from it ends the render.

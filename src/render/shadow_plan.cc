@@ -10,7 +10,7 @@
 namespace nacre {
 namespace {
 
-// Adds the items of the lights. Of many that are alike only the first is listed.
+// Adds the items of the lights. If many are alike, only the first is listed.
 void AddItems(std::vector<PlanItem> items, Explanation* why) {
   constexpr size_t kMaxAlike = 8;
   std::map<std::pair<bool, std::string>, std::vector<PlanItem*>> alike;
@@ -50,7 +50,7 @@ void SkipUnshadowed(const OccluderLists& lists, PlannedPunctualLight* light, Pla
   light->shadowed = std::move(shadowed);
 }
 
-// Why a tree is better than these bins; empty if it is not.
+// Why a BVH is better than these bins; empty if it is not.
 std::string WhyNotBins(const LightBins& bins) {
   constexpr double kCrowd = 2000;
   constexpr size_t kLarge = 32;
@@ -64,7 +64,7 @@ std::string WhyNotBins(const LightBins& bins) {
   return {};
 }
 
-// Why the shadow rays of all lights use a tree; empty if they need not.
+// Why the shadow rays of all lights use a BVH; empty if they need not.
 std::string WhyTree(const Scene& scene, const RenderSettings& settings, const HitsPlan& hits,
                     const DirectPlan& plan) {
   if (settings.general_path) return "the general path is asked for";
@@ -74,7 +74,7 @@ std::string WhyTree(const Scene& scene, const RenderSettings& settings, const Hi
     return kNestedSpheres;
   }
   if (settings.intersector == IntersectorChoice::kTiles) return {};
-  // Measured: from here on one tree is made faster than the bins of all lights, and is smaller.
+  // Measured: above this, one BVH is built faster than the bins of all lights, and is smaller.
   constexpr double kMaxPairs = 8e6;
   const auto lights =
       std::count_if(plan.lights.begin(), plan.lights.end(),
@@ -91,17 +91,18 @@ std::string DescribeBins(const LightBins& bins) {
                      bins.end.size(), bins.entries(), bins.mean_occupancy, bins.large.size());
 }
 
-// The lights whose occluders the intersector knows. Its indices of lights are their order here.
+// The lights whose occluders the intersector knows, which it numbers in the order in which they are
+// found here.
 struct KnownLights {
   bool found = false;  // an earlier plan has found the occluders of all lights
-  uint32_t count = 0;  // the lights that this plan has come to
+  uint32_t count = 0;  // the lights that this plan has come to so far
 };
 
 bool PlanPunctualShadows(const Scene& scene, const RenderSettings& settings, const HitsPlan& hits,
                          KnownLights* known, DirectPlan* plan, Explanation* why) {
   const bool few = scene.spheres.size() <= kMaxListedSpheres;
   const std::string why_tree = WhyTree(scene, settings, hits, *plan);
-  // If the settings ask for a tree, lists still decide which rays are traced: all intersectors must
+  // If the settings ask for a BVH, lists still decide which rays are traced: all intersectors must
   // trace the same rays.
   const char* const asked_for = TreeAskedFor(settings.intersector);
   if (why_tree.empty() || (few && asked_for != nullptr && why_tree == asked_for)) {
@@ -189,8 +190,8 @@ bool OwnsTriangles(const Scene& scene, const PlannedSampledLight& light) {
          light.primitives.end == scene.spheres.size() + CountTriangles(scene);
 }
 
-// For scenes of few spheres and of no other triangles than the light's: lists instead of a tree, in
-// which rays would come by all triangles around their ends.
+// For scenes of few spheres and no triangles but the light's: plans lists instead of a BVH, in
+// which rays would visit all triangles around their ends.
 PlanItem PlanOccludingSpheres(const RenderSettings& settings, const HitsPlan& hits,
                               KnownLights* known, PlannedSampledLight* light) {
   const OccluderLists& lists = ListKnownOccluders(hits, known, light);
@@ -205,8 +206,8 @@ PlanItem PlanOccludingSpheres(const RenderSettings& settings, const HitsPlan& hi
 }
 
 // For scenes of few spheres: finds by lists on which spheres the light can be occluded. This
-// decides where diffuse reflection is in closed form, so that it must be the same for all
-// intersectors, even if they then use a tree.
+// decides where diffuse reflection is in closed form, so it must be the same for all intersectors,
+// even if they then use a BVH.
 PlanItem PlanSampledLightLists(const RenderSettings& settings, const HitsPlan& hits,
                                KnownLights* known, PlannedSampledLight* light) {
   const OccluderLists& lists = ListKnownOccluders(hits, known, light);
@@ -267,7 +268,7 @@ bool PlanShadows(const Scene& scene, const RenderSettings& settings, const HitsP
        static_cast<double>(prepared->shapes_made)}};
   KnownLights known{prepared->lights.IsUpToDate(key), 0};
   if (!known.found) {
-    prepared->lights.Forget();  // in case that an exception ends the search
+    prepared->lights.Forget();  // in case an exception ends the search
     hits.intersector->ForgetOccluders();
   }
   const bool tree_for_punctual = PlanPunctualShadows(scene, settings, hits, &known, plan, why);

@@ -9,8 +9,8 @@
 namespace nacre {
 
 // Decides for each light with shadow rays on which spheres these can be occluded, and whether
-// lists, bins or a tree find the occluders. Makes the intersector compute the lists and bins.
-// Returns whether any light needs a tree, which must then be built.
+// lists, bins or a BVH find the occluders. Makes the intersector compute the lists and bins.
+// Returns whether any light needs a BVH, which must then be built.
 bool PlanShadows(const Scene& scene, const RenderSettings& settings, const HitsPlan& hits,
                  PreparedScene* prepared, DirectPlan* plan, Explanation* why);
 

@@ -13,7 +13,7 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// One coordinate of the rays' origins, and of their directions to a light at `light`.
+// Fills one coordinate of the rays' origins, and of their directions to a light at `light`.
 HWY_INLINE void FillCoordinate(const double* HWY_RESTRICT origin, double light,
                                const uint32_t* HWY_RESTRICT from, size_t count,
                                double* HWY_RESTRICT ray_origin, double* HWY_RESTRICT direction) {

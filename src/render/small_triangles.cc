@@ -59,9 +59,9 @@ struct NarrowTriangle {
   double height;
 };
 
-// None if the triangle is not narrow, if a corner is beside or behind the camera, or if the
-// projection has no area, so that no ray hits it. `hidden`: whether no ray hits one that is not
-// narrow.
+// Returns nullopt if the triangle is not narrow, if a corner is beside or behind the camera, or if
+// the projection has no area, so that no ray hits it. `hidden` then says whether no ray can hit the
+// triangle.
 std::optional<NarrowTriangle> ProjectNarrow(const PrimitiveNumbers& numbers,
                                             const Projector& projector, uint32_t primitive,
                                             bool* hidden) {

@@ -28,21 +28,22 @@ struct SmallTriangles {
   double margin = 0;               // in pixels
   std::vector<uint32_t> end;       // of each cell's list, row by row; empty if all lists are
   HugeArray<uint32_t> primitives;  // ascending in each list
-  bool no_others = false;          // all others, in the picture or beside it, are behind the camera
+  bool no_others = false;          // triangles that are not narrow are all behind the camera
 };
 
-// `window`: the pixels to render. Cells begin at multiples of kCellSize in the frame.
+// Bins the narrow triangles. `window` holds the pixels to render. Cells begin at multiples of
+// kCellSize in the frame.
 SmallTriangles BinSmallTriangles(const PrimitiveNumbers& numbers, const Projector& projector,
                                  const Window& window, double margin, int threads);
 
 using FilmTriangle = std::array<Vec2d, 3>;  // the corners on the film, in pixels
 
-// Calls work(primitive, corners) for these triangles of a cell, in ascending order.
+// Calls work(primitive, corners) for the narrow triangles of a cell, in ascending order.
 void ForEachNarrowTriangle(const SmallTriangles& triangles, const PrimitiveNumbers& numbers,
                            const Projector& projector, const Window& cell,
                            const std::function<void(uint32_t, const FilmTriangle&)>& work);
 
-// A part of the projection of such a triangle. Film positions and sizes are in pixels. The part
+// A piece of the projection of a narrow triangle. Film positions and sizes are in pixels. The piece
 // covers the share `fill` of a box of at most kMaxRareWidth by kMaxRareWidth.
 struct TrianglePiece {
   uint32_t primitive;

@@ -30,7 +30,7 @@ struct SphereProjection {
   double outline_depth;
 };
 
-// Projects all candidates. None if there are too many to search for each pixel.
+// Projects all candidates. Returns nullopt if there are too many to search for each pixel.
 std::optional<std::vector<SphereProjection>> ProjectSpheres(const CameraFrame& frame,
                                                             const TileCandidates& candidates);
 
@@ -42,8 +42,9 @@ struct VisibleOutlines {
   const TraceSphere* only_sphere = nullptr;
 };
 
-// The square is centred at (x, y) and has sides of twice `half_side` pixels. `any` is true for
-// every outline that crosses it, unless a nearer sphere covers the square.
+// Finds the outlines in a square that is centred at (x, y) and has sides of twice `half_side`
+// pixels. `any` is true for every outline that crosses it, unless a nearer sphere covers the
+// square.
 VisibleOutlines FindVisibleOutlines(const CameraFrame& frame,
                                     const std::vector<SphereProjection>& projections, double x,
                                     double y, double half_side);

@@ -53,7 +53,7 @@ struct RenderStats {
   uint64_t hits = 0;
   uint64_t shadow_rays = 0;
   uint64_t light_batches = 0;       // lights times batches of hits
-  uint64_t unsettled_pixels = 0;    // of adaptive sampling: they have not converged
+  uint64_t unsettled_pixels = 0;    // pixels of adaptive sampling that have not converged
   PixelSampleCounts pixel_samples;  // 0 for a pixel in which adaptive sampling expects no hit
   // Sampled directions with coordinates that are not finite. They add nothing; there should be
   // none.
@@ -61,7 +61,7 @@ struct RenderStats {
   uint64_t shades = 0;  // number of evaluations of a light at a hit
   // In seconds, summed over threads. Without RenderSettings::time_stages only kOutput is measured.
   std::array<double, kStageCount> stage_seconds{};
-  double plan_seconds = 0;    // wall-clock time of making the plan, trees included
+  double plan_seconds = 0;    // wall-clock time of making the plan, including BVHs
   double render_seconds = 0;  // wall-clock time of rendering
   int threads = 0;
 

@@ -91,7 +91,7 @@ void PermuteHits(const HitsFrom& from, const HitFields& fields, size_t count,
   Permute(order, count, from.batch->to_view, &to->hits.to_view);
 }
 
-// The same where the order does not change.
+// Moves the hits to `to`, in the same order.
 void SwapHits(CameraHits* from, Surfaces* to) {
   std::swap(from->batch, to->hits);
   std::swap(from->directions, static_cast<HitDirections&>(to->surface));
@@ -124,7 +124,7 @@ void FindSegments(const SurfacePlan& plan, const double* film_x, const CameraHit
   room->segments.clear();
   for (size_t begin = 0, end; begin < count; begin = end) {
     const MaterialBand band = BandAt(plan, primitive[begin], film_x[ray[begin]]);
-    // The back of what emits in front only is another material than its front.
+    // The back of a material that emits in front only counts as another material.
     const bool has_back = plan.emits_in_front_only &&
                           plan.primitives.scene->materials[band.material.index].emits_in_front_only;
     const bool is_back = has_back && IsFromBehind(plan.primitives, hits, begin);
@@ -180,7 +180,7 @@ void SortHits(const SurfacePlan& plan, const double* film_x, CameraHits* hits, S
 }
 
 // For each lit hit whose material has a coat, adds a hit on the coat at the same position. Its
-// shading normal is the unmapped one: this must precede the look-up of normal maps.
+// shading normal is the one before normal maps, so this must precede their look-up.
 void FindCoats(const SurfacePlan& plan, Surfaces* s) {
   if (s->coats) s->coats->surfaces.hits.count = 0;
   if (!plan.coated) return;
@@ -315,7 +315,8 @@ void AttenuateBy(const Soa3<float>& by, size_t i, size_t j, Soa3<float>* to) {
   to->z[j] *= by.z[i];
 }
 
-// The same, and adds what the coat reflects of ambient light: its albedo times the radiance.
+// to[j] = left[i] to[j] + (1 - left[i]) radiance: attenuates the ambient light of hit j, and adds
+// what the coat reflects, its albedo times the radiance.
 void CoverAmbient(const Soa3<float>& left, size_t i, size_t j, const Rgb& radiance,
                   Soa3<float>* to) {
   const auto cover = [&](const AlignedArray<float>& by, double of, AlignedArray<float>* channel) {

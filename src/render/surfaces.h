@@ -28,15 +28,15 @@ struct SurfacePlan {
   bool splits = false;                         // some material depends on the film position
   bool emits_in_front_only = false;            // some material does
   bool interpolates = false;  // some mesh interpolates radiance, not normals (mesh_radiance.h)
-  bool textured = false;      // some shape's material is ShadingMaterial::textured
-  TextureScene textures;      // but for `ambient`, empty unless `textured`
+  bool textured = false;      // some shape's material has ShadingMaterial::textured
+  TextureScene textures;      // empty unless `textured`, except for `ambient`
 };
 
 // Whether the mesh interpolates radiance, not normals (mesh_radiance.h).
 bool InterpolatesRadiance(const Mesh& mesh);
 
-// `ambient`: the sum of the scene's ambient lights; whether it is black, the materials were
-// prepared for. `used`: by material of the scene.
+// `ambient` is the sum of the scene's ambient lights; the materials must have been prepared for
+// whether it is black. `used` is FindUsedMaterials, by material of the scene.
 SurfacePlan PlanSurfaces(const Scene& scene, const RenderSettings& settings,
                          const CameraFrame& camera, const Rgb& ambient,
                          std::shared_ptr<const PreparedMaterials> materials,
@@ -46,8 +46,8 @@ SurfacePlan PlanSurfaces(const Scene& scene, const RenderSettings& settings,
 // narrow for float.
 bool NeedsExactDirections(const SurfacePlan& plan);
 
-// The material of a primitive, splits resolved. `film_x`: of the sample, in pixels from the frame's
-// left edge.
+// The material of a primitive, splits resolved. `film_x` is that of the sample, in pixels from the
+// frame's left edge.
 MaterialId MaterialAt(const SurfacePlan& plan, uint32_t primitive, double film_x);
 
 // Hits [begin, end) of a batch share a material.
@@ -75,7 +75,7 @@ struct Surfaces {
 // Hits on clear coats. Each has the position of the hit below it, and a shading normal, maps and a
 // lobe of its own. The integrator shades them like other hits.
 struct CoatedHits {
-  Surfaces surfaces;  // whose Surface::base is the transmittance of the coat, per channel
+  Surfaces surfaces;  // Surface::base is the transmittance of the coat, per channel
   AlignedArray<uint32_t> below{kBatchCapacity};  // by hit on a coat: the index of the hit below
 };
 
@@ -104,7 +104,7 @@ struct SortRoom {
 };
 
 // Sorts the hits into runs and prepares their surfaces. May swap buffers with `hits`. Within a run,
-// hits stay in the order of their rays. `film_x`: by ray, read only if materials are split.
+// hits stay in the order of their rays. `film_x`, by ray, is read only if materials are split.
 void ResolveSurfaces(const SurfacePlan& plan, const double* film_x, CameraHits* hits,
                      SortRoom* room, Surfaces* surfaces);
 

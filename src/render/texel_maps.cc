@@ -13,10 +13,10 @@
 namespace nacre {
 namespace {
 
-// What a map's texels are compared by where it multiplies a parameter. Radiance is a linear
-// function of most of them, so that texels that change the mean by less than half the wanted error
-// do not matter. What is no metal among metal may be bright, too, and so may lobes of a low
-// exponent among sharp ones, beside their peaks.
+// Adds the measures by which the texels of a map that multiplies a parameter are compared. Radiance
+// is a linear function of most parameters, so that texels that change the mean by less than half
+// the wanted error do not matter. Dielectric texels among metal may be bright, too, and so may
+// lobes of a low exponent among sharp ones, beside the peaks of these.
 void AddMeasures(const MapTarget& target, const Material& material, double max_error,
                  std::vector<TexelMeasure>* measures) {
   using enum TexelMeasure::Kind;
@@ -28,7 +28,7 @@ void AddMeasures(const MapTarget& target, const Material& material, double max_e
     };
     const bool is_width = target.number == MappedNumber::kWidth;
     const bool is_exponent = is_width && std::holds_alternative<PhongMaterial>(material.model);
-    // The height of a microfacet lobe's peak is as its roughness to the power of -4.
+    // The height of a microfacet lobe's peak is proportional to its roughness to the power of -4.
     add(kPower, is_width && !is_exponent ? -4 : 1);
     if (is_exponent) add(kPower, -1);
     if (target.number == MappedNumber::kMetallic) add(kRest, 0);
@@ -81,7 +81,8 @@ double LobeWidth(const Scene& scene, const Material& material) {
       const double width = target.factor(material).x * mapped;
       const auto* phong = std::get_if<PhongMaterial>(&material.model);
       if (phong == nullptr) return width * width;
-      // Around the mirrored direction, which turns twice as fast as the half vector.
+      // A Phong lobe lies around the mirrored direction, which turns twice as fast as the half
+      // vector.
       const bool mirrored = phong->model != PhongModel::kBlinnPhong;
       return std::sqrt(2 / (width + 2)) * (mirrored ? 0.5 : 1);
     }
@@ -90,8 +91,8 @@ double LobeWidth(const Scene& scene, const Material& material) {
 }
 
 void AddNormals(const Scene& scene, const Material& material, std::vector<LobeNormalMap>* maps) {
-  // Wider lobes are not much brighter in one texel than in the others: samples find what they make,
-  // and to search for it costs more of them than it tells.
+  // Wider lobes are not much brighter in one texel than in the others: ordinary samples find their
+  // highlights, and a search would cost more than it gains.
   constexpr double kWidest = 0.2;
   const double width = LobeWidth(scene, material);
   if (!material.normal_map.texture.valid() || !(width < kWidest)) return;

@@ -25,19 +25,20 @@ struct LobeNormalMap {
 };
 
 struct TexelMaps {
-  // By material of the scene: the maps of how it looks, its coat's included, and of its opacity.
+  // By material of the scene: the maps of its appearance, including those of its coat, and of its
+  // opacity.
   std::vector<std::vector<TexelMap>> looks, opacities;
   std::vector<std::vector<LobeNormalMap>> normals;
-  std::vector<HighlightLight> suns;  // of skies, if there are such maps
+  std::vector<HighlightLight> suns;  // of skies, if there are normal maps
   bool any_looks = false, any_normals = false, any_opacity = false;
   std::vector<std::unique_ptr<const TexelExtremes>> extremes;  // by texture
-  // Of a sky that is a picture and is seen.
+  // The picture of a visible sky.
   TexelGrid sky;
   std::unique_ptr<const TexelExtremes> sky_extremes;
   std::vector<TexelMeasure> sky_measures;
 };
 
-// Null if there are none.
+// Finds the maps of the materials and of the sky; null if there are none.
 std::shared_ptr<const TexelMaps> FindTexelMaps(const Scene& scene, const DirectPlan& direct,
                                                double max_error);
 

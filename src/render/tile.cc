@@ -11,7 +11,7 @@ void ShowBackground(const FramePlan& plan, const Window& tile, Strip* strip, uin
   *blank = 1;
 }
 
-// For FilmPlan::one_sample.
+// Renders a tile if FilmPlan::one_sample.
 void RenderOnce(const FramePlan& plan, const Window& tile, TileWork* work, Strip* strip,
                 uint8_t* blank, StageClock* clock, RenderStats* stats) {
   MakeSamples(plan.sampling, tile, 0, 1, &work->samples);
@@ -44,8 +44,8 @@ void AddRounds(const FramePlan& plan, const Window& tile, int first, int end, Ti
   }
 }
 
-// Finds the shapes that the tile's rays may hit. False if the tile shows nothing but a background
-// of one colour.
+// Finds the shapes that the tile's rays may hit. Returns false if the tile shows nothing but a
+// background of one colour.
 bool EnterTile(const FramePlan& plan, const Window& tile, TileWork* work, StageClock* clock) {
   FindTileShapes(plan.hits, tile, &work->shapes);
   clock->Charge(Stage::kIntersect);

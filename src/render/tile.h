@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/tile.h: the work on one tile.
+// render/tile.h: renders one tile.
 #pragma once
 
 #include "render/tile_work.h"
@@ -7,7 +7,7 @@
 namespace nacre {
 
 // Renders all samples of the pixels of `tile`, at most kBatchCapacity pixels within the strip.
-// `blank`: 1 if the strip already holds the background in the whole tile; updated.
+// `blank` is 1 if the strip already holds the background in the whole tile, and is updated.
 void RenderTile(const FramePlan& plan, const Window& tile, TileWork* work, Strip* strip,
                 uint8_t* blank, StageClock* clock, RenderStats* stats);
 

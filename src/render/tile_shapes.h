@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/tile_shapes.h: which of the scene's shapes the rays of a tile may hit, found before any of
-// them is traced.
+// render/tile_shapes.h: finds the shapes that the rays of a tile may hit, before any of them is
+// traced.
 #pragma once
 
 #include "base/image.h"

@@ -17,9 +17,9 @@
 
 namespace nacre {
 
-// Reused from tile to tile. Each result and its room are written by one stage only, which a comment
-// names with the function that does most of it; but ResolveSurfaces swaps its buffers with those of
-// `hits` where it need not sort.
+// Reused from tile to tile. Each result and its buffers are written by only one stage, which a
+// comment names together with the function that does most of the work; but ResolveSurfaces swaps
+// its buffers with those of `hits` where it need not sort.
 struct TileWork {
   TileShapes shapes;      // FindTileShapes
   CameraSamples samples;  // samples: EnterPixels, MakeSamples; or adaptive sampling

@@ -11,7 +11,7 @@ bool IsShown(double value, const Axis& axis) {
   return std::isfinite(value) && (!axis.log || value > 0);
 }
 
-// low > high if there is nothing to show.
+// The range of the data; low > high if there is none.
 Range DataRange(const Plot& plot, Which which) {
   const Axis& axis = which == Which::kX ? plot.x : plot.y;
   Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
@@ -25,22 +25,23 @@ Range DataRange(const Plot& plot, Which which) {
   return range;
 }
 
-constexpr double kRounding = 1e-9;  // of a step: a value on a tick stays there
+constexpr double kRounding = 1e-9;  // of a step: a value on a tick must stay on it
 
-// Out to the next ticks.
+// Extends the range to the next ticks.
 Range RoundLinear(const Range& range) {
   const double step = NiceStep((range.high - range.low) / 8);
   return {step * std::floor(range.low / step + kRounding),
           step * std::ceil(range.high / step - kRounding)};
 }
 
-// Out to the next of 1, 2 and 5 times a power of ten, or, of many decades, to whole decades.
+// Extends the range to 1, 2 or 5 times a power of ten, or, if it has many decades, to whole
+// decades.
 Range RoundLogarithmic(const Range& range) {
   if (IsManyDecades(range)) {
     return {std::pow(10, std::floor(std::log10(range.low) + kRounding)),
             std::pow(10, std::ceil(std::log10(range.high) - kRounding))};
   }
-  // The largest such number below x is 10 over the smallest one above 10 / x.
+  // The largest such number up to x is 10 over the smallest one from 10 / x on.
   return {10 / NiceStep(10 / range.low), NiceStep(range.high)};
 }
 
@@ -61,7 +62,7 @@ Range RangeOf(const Plot& plot, Which which) {
   range = axis.log ? RoundLogarithmic(range) : RoundLinear(range);
   if (std::isfinite(axis.low)) range.low = axis.low;
   if (std::isfinite(axis.high)) range.high = axis.high;
-  // The end that was not told is beyond the one that was.
+  // If only one end is set and the data is beyond it, the other end is chosen past it.
   if (!(range.low < range.high)) range.high = axis.log ? 10 * range.low : range.low + 1;
   return range;
 }

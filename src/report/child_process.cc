@@ -22,7 +22,7 @@ namespace {
   throw Error(ExitCode::kInternal, program, std::generic_category().message(error));
 }
 
-// An anonymous file in memory, not inherited unless it is named to the child.
+// An anonymous file in memory. The child inherits it only if it is passed explicitly.
 class MemoryFile {
  public:
   explicit MemoryFile(const std::string& program) : program_(program) {
@@ -63,7 +63,7 @@ class MemoryFile {
   int descriptor_ = -1;
 };
 
-// The exit code, or what a shell makes of a signal.
+// The exit code, or 128 plus the number of the signal, as in a shell.
 int WaitFor(const std::string& program, pid_t child) {
   int status = 0;
   while (waitpid(child, &status, 0) < 0) {
@@ -72,8 +72,8 @@ int WaitFor(const std::string& program, pid_t child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-// The absolute folders of a list as PATH is one. An empty or relative entry means the folder that
-// one happens to stand in, which may be a stranger's.
+// The absolute folders in a list like PATH. Empty and relative entries depend on the working
+// folder, which may be someone else's, and are dropped.
 std::vector<std::string> AbsoluteFolders(std::string_view list) {
   std::vector<std::string> folders;
   while (true) {
@@ -89,8 +89,8 @@ std::string_view EnvironmentText(const char* name) {
   return value != nullptr ? value : "";
 }
 
-// The variables that are passed on to the child: where programs, libraries, fonts and their caches
-// are, and the language. All others that gnuplot and its libraries read (GNUPLOT_LIB, GNUTERM,
+// The environment of the child: where programs, libraries, fonts and their caches are, and the
+// language. Other variables that gnuplot and its libraries read (GNUPLOT_LIB, GNUTERM,
 // GIO_EXTRA_MODULES, ...) would change the diagram or name code to load.
 std::vector<std::string> ChildEnvironment() {
   std::vector<std::string> environment;
@@ -110,7 +110,7 @@ std::vector<std::string> ChildEnvironment() {
   return environment;
 }
 
-// As posix_spawn wants them: writable, and ended by a null.
+// The argument format of posix_spawn: writable strings, ended by a null.
 std::vector<char*> Pointers(std::vector<std::string>* texts) {
   std::vector<char*> pointers;
   pointers.reserve(texts->size() + 1);

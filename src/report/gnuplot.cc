@@ -16,10 +16,11 @@
 namespace nacre {
 namespace {
 
-// Okabe and Ito 2008, as the benchmarks' diagrams have them: no yellow, which is pale on white.
+// Okabe and Ito 2008 without yellow, which is pale on white; the same as in the benchmarks'
+// diagrams.
 constexpr std::array<std::string_view, 8> kColors = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                                      "#000000", "#E69F00", "#56B4E9", "#999999"};
-// Lengths of strokes and gaps; no two neighbours look alike in grey.
+// Lengths of strokes and gaps; neighbours look different in grey.
 constexpr std::array<std::string_view, 8> kDashes = {
     "solid", "(12,5)", "(3,4)", "(12,4,3,4)", "(20,5)", "(6,4)", "(3,3,3,8)", "(12,4,3,4,3,4)"};
 constexpr std::array<int, 8> kPoints = {7, 5, 9, 11, 13, 6, 4, 8};  // gnuplot's point types
@@ -31,7 +32,7 @@ set grid lw 1 lt 1 lc rgb '#dddddd'
 )";
 constexpr std::string_view kGrey = "rgb '#666666'";
 
-// Colour, dash and mark are of a number each, so that 64 curves differ.
+// Indices of the colour and of the dash and mark, combined so that 64 curves differ.
 struct Look {
   size_t color, form;
 };
@@ -47,7 +48,7 @@ std::string Number(double value) {
 
 std::string BlockName(size_t panel, size_t curve) { return fmt::format("$p{}c{}", panel, curve); }
 
-// A data block. What a logarithm cannot show is missing.
+// The data of a curve. Points that a logarithmic axis cannot show are left out.
 std::string DataBlock(const std::string& name, const Plot& plot, const Curve& curve) {
   std::string text = name + " << EOD\n";
   for (size_t i = 0; i < curve.x.size(); ++i) {
@@ -60,7 +61,7 @@ std::string DataBlock(const std::string& name, const Plot& plot, const Curve& cu
     } else if ((plot.x.log && !(x > 0)) || (plot.y.log && !(y > 0))) {
       y = kFromData;
     }
-    // A blank line breaks the curve.
+    // A blank line interrupts the curve.
     text +=
         std::isfinite(x) && std::isfinite(y) ? fmt::format("{} {}\n", Number(x), Number(y)) : "\n";
   }
@@ -69,7 +70,8 @@ std::string DataBlock(const std::string& name, const Plot& plot, const Curve& cu
 
 std::string CirclesName(size_t panel) { return fmt::format("$p{}g", panel); }
 
-// The circles of a polar plot, of equal steps. The outermost is the first one around all curves.
+// The circles of a polar plot, equally spaced. The outermost one is the smallest that encloses all
+// curves.
 struct Circles {
   double step, end;
 };
@@ -82,8 +84,8 @@ Circles CirclesOf(const Plot& plot) {
   return {step, end};
 }
 
-// Half circles as curves: gnuplot leaves circles that reach out of the plot's rectangle, as the
-// lower halves of these would, out of SVG files.
+// Draws half circles as curves. gnuplot omits circles from SVG files that reach out of the plot's
+// rectangle, as the lower halves would.
 std::string CirclesBlock(const std::string& name, const Plot& plot) {
   const auto [step, end] = CirclesOf(plot);
   std::string text = name + " << EOD\n";
@@ -100,7 +102,7 @@ std::string CirclesBlock(const std::string& name, const Plot& plot) {
 
 std::string FieldName(size_t panel) { return fmt::format("$p{}f", panel); }
 
-// Of a field, which has a logarithmic scale: what is not above its lower end is drawn as that.
+// The data of a field. Its scale is logarithmic, so values are clamped to its ends.
 std::string FieldBlock(const std::string& name, const Field& field) {
   std::string text = name + " << EOD\n";
   for (size_t i = 0; i < field.values.size(); ++i) {
@@ -166,7 +168,7 @@ std::string AxisText(char name, const Axis& axis, const Range& range) {
   return text + ")\n";
 }
 
-// Where a rule lies on the plot.
+// The position of a rule in the plot.
 double PlaceOf(const Plot& plot, const Rule& rule) {
   return rule.across == Rule::Across::kX ? PlaceOf(rule.at, plot.x, RangeOf(plot, Which::kX))
                                          : PlaceOf(rule.at, plot.y, RangeOf(plot, Which::kY));
@@ -179,7 +181,7 @@ PlotBox LineOf(const Plot& plot, const Rule& rule) {
   return {0, place - kHalfWidth, 1, place + kHalfWidth};
 }
 
-// `layout` knows of the rules' words by now.
+// To be called after RuleText, so that `layout` contains the rules' labels.
 std::string KeyText(const Plot& plot, const PlotLayout& layout) {
   const bool titled = std::any_of(plot.curves.begin(), plot.curves.end(),
                                   [](const Curve& curve) { return !curve.title.empty(); });
@@ -191,7 +193,7 @@ std::string KeyText(const Plot& plot, const PlotLayout& layout) {
   std::optional<PlotBox> room = FindKeyRoom(plot, beside_rules);
   if (!room) room = FindKeyRoom(plot, layout);
   if (!room) return fmt::format("set key outside below center horizontal height 1.5 {}\n", kLook);
-  // The corner of the room that is nearest to one of the plot's stays where it is.
+  // Anchors the legend at the corner of its box that is nearest to a corner of the plot.
   const bool right = room->x0 + room->x1 > 1;
   const bool top = room->y0 + room->y1 > 1;
   return fmt::format("set key at graph {},graph {} {} {} vertical {}\n",
@@ -199,7 +201,7 @@ std::string KeyText(const Plot& plot, const PlotLayout& layout) {
                      top ? "top" : "bottom", right ? "right" : "left", kLook);
 }
 
-// A line across the plot, and its word beside it where it hides no curve.
+// A line across the plot, with its label beside it, where it hides no curve if possible.
 std::string RuleText(const Plot& plot, const Rule& rule, PlotLayout* layout) {
   const bool vertical = rule.across == Rule::Across::kX;
   const std::string at = Number(rule.at);
@@ -219,7 +221,7 @@ std::string RuleText(const Plot& plot, const Rule& rule, PlotLayout* layout) {
                     Number((box.y0 + box.y1) / 2), kGrey);
 }
 
-// Rays under the curves and the circles' values, in place of axes.
+// Rays under the curves and values of the circles, which replace axes.
 std::string PolarText(const Plot& plot) {
   const auto [step, end] = CirclesOf(plot);
   std::string text = fmt::format(
@@ -245,7 +247,7 @@ std::string PolarText(const Plot& plot) {
     const double y = end * std::cos(rule.at * M_PI / 180);
     text +=
         fmt::format("set arrow from {},{} to 0,0 lw 2 lc {} front\n", Number(x), Number(y), kGrey);
-    // Above the ray, inside the outermost circle: the angles stand outside.
+    // Above the ray and inside the outermost circle, since the angles are outside.
     const double above = std::copysign(0.04, -rule.at);
     text += fmt::format("set label {} at {},{} center noenhanced textcolor {} font ',16' front\n",
                         GnuplotQuote(rule.label), Number(0.88 * x + above * y),

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// report/gnuplot.h: a figure as commands and data for gnuplot.
+// report/gnuplot.h: converts a figure to commands and data for gnuplot.
 #pragma once
 
 #include <string>
 
-#include "report/plot.h"
+#include "report/figure.h"
 
 namespace nacre {
 
 enum class PictureFormat : uint8_t { kSvg, kPng };
 
-// All that gnuplot needs to draw the figure to its standard output.
+// The complete input for gnuplot to draw the figure to its standard output.
 std::string GnuplotScript(const Figure& figure, PictureFormat format);
 
-// A string for gnuplot: in single quotes nothing but the quote itself is special, and that, which
-// gnuplot misreads at the start of a string, becomes an apostrophe. Control characters, line breaks
-// among them, are spelled out (base/printable.h): raw, they would end the command or the SVG file.
+// Quotes a string for gnuplot. In single quotes, only the quote itself is special; it becomes an
+// apostrophe, because gnuplot misreads it at the start of a string. Control characters, including
+// line breaks, are spelled out (base/printable.h), as they would end the command or break the SVG
+// file.
 std::string GnuplotQuote(const std::string& text);
 
 }  // namespace nacre

@@ -11,18 +11,18 @@
 namespace nacre {
 namespace {
 
-// Of the fonts that gnuplot draws with, in pixels, a little generous.
+// For the fonts that gnuplot draws with, in pixels, a little generous.
 constexpr double kGlyphWidth = 11.5;
 constexpr double kLineHeight = 31;
-constexpr double kAxesWidth = 170, kAxesHeight = 130;  // what axes and margins take
+constexpr double kAxesWidth = 170, kAxesHeight = 130;  // the size of axes and margins
 
 size_t GlyphCount(const std::string& text) {
   return static_cast<size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;  // all but continuations of UTF-8
+    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;  // not a continuation byte of UTF-8
   }));
 }
 
-// In a key, of the same fonts.
+// The width in a legend, for the same fonts.
 double WidthInKey(const std::string& text) {
   constexpr double kTextSize = 25.5;  // pixels: 19 points
   return TextWidth(Printable(text), kTextSize);
@@ -45,7 +45,7 @@ bool Has(const std::vector<std::string>& parts, const std::string& part) {
   return std::find(parts.begin(), parts.end(), part) != parts.end();
 }
 
-// Title i without the parts that all have; the first one, the model, stays.
+// Title i without the parts that all titles share, except for the first part, the model.
 std::string WithoutShared(const std::vector<std::vector<std::string>>& all, size_t i) {
   std::string title = all[i].front();
   bool left_out = false;
@@ -59,13 +59,13 @@ std::string WithoutShared(const std::vector<std::vector<std::string>>& all, size
   return title;
 }
 
-// Where the character that `at` lies in begins.
+// The start of the character that contains byte `at`.
 size_t CharacterStart(const std::string& text, size_t at) {
   while (at > 0 && at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80) --at;
   return at;
 }
 
-// With an ellipsis in place of so much of the middle that it fits. The end keeps more than the
+// Replaces as much of the middle as necessary by an ellipsis. More is kept of the end than of the
 // beginning.
 std::string WithoutMiddle(const std::string& text, double room) {
   const auto cut = [&](size_t kept) {
@@ -81,7 +81,7 @@ std::string WithoutMiddle(const std::string& text, double room) {
   return cut(fits);
 }
 
-// How far a box is from the nearest corner.
+// The distance of a box from the nearest corner.
 double DistanceToCorner(const PlotBox& box) {
   const double x = std::min(box.x0, 1 - box.x1);
   const double y = std::min(box.y0, 1 - box.y1);
@@ -125,7 +125,7 @@ std::optional<PlotBox> PlotLayout::FindRoom(double width, double height) const {
     for (int j = 0; j <= kSteps; ++j) {
       const double x = (1 - width) * j / kSteps;
       const PlotBox box{x, y, x + width, y + height};
-      // Rounding decides nothing.
+      // The tolerance keeps rounding errors from deciding.
       if (best && DistanceToCorner(box) > DistanceToCorner(*best) - 1e-9) continue;
       if (IsFree(box)) best = box;
     }
@@ -153,14 +153,14 @@ PlotBox RoomAboveRow(const PlotLayout& layout, double y, double width) {
   const double y0 = y + height > 1 ? y - height : y;
   for (double x = 0.99; x > width; x -= 0.02) {
     const PlotBox box{x - width, y0, x, y0 + height};
-    // The line itself may be a curve's, too: what matters is above it.
+    // A curve may coincide with the line itself, so only the space above it is tested.
     if (layout.IsFree({box.x0, y0 + 0.1 * height, box.x1, box.y1})) return box;
   }
   return {0.99 - width, y0, 0.99, y0 + height};
 }
 
 std::vector<std::string> KeyTitles(const Plot& plot, int width) {
-  constexpr double kBeside = 150;  // pixels: the sample of the line, and margins
+  constexpr double kBeside = 150;  // pixels for the line sample and margins
   const double room = std::max(width - kBeside, 50.0);
   std::vector<std::string> titles;
   std::vector<std::vector<std::string>> all;
@@ -180,7 +180,7 @@ std::vector<std::string> KeyTitles(const Plot& plot, int width) {
 }
 
 std::optional<PlotBox> FindKeyRoom(const Plot& plot, const PlotLayout& layout) {
-  constexpr double kSample = 12;  // glyphs that a sample of the line and its margins take
+  constexpr double kSample = 12;  // width of the line sample and its margins in glyphs
   double longest = 0;
   int lines = 0;
   for (const Curve& curve : plot.curves) {

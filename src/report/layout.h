@@ -1,52 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
-// report/layout.h: where on a plot there is room for words.
+// report/layout.h: finds free space for text in a plot.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "report/plot.h"
+#include "report/figure.h"
 
 namespace nacre {
 
-// A place on a plot: (0, 0) is its lower left corner, (1, 1) its upper right one.
+// A rectangle in a plot, with (0, 0) in its lower left corner and (1, 1) in its upper right one.
 struct PlotBox {
   double x0 = 0, y0 = 0, x1 = 1, y1 = 1;
 };
 
-// Which parts of a plot of so many pixels (axes and their labels included) are taken.
+// Which parts of a plot are occupied. Its size in pixels includes axes and their labels.
 class PlotLayout {
  public:
   PlotLayout(const Plot& plot, int width, int height);
 
-  // How much of the plot a line of text takes; glyphs are counted, not bytes.
+  // The size of a line of text relative to the plot; glyphs are counted, not bytes.
   double TextWidth(const std::string& text) const;
   double LineHeight() const;
 
   bool IsFree(const PlotBox& box) const;
   void Occupy(const PlotBox& box);
 
-  // The free box of this size nearest to a corner, those at the top first; or none.
+  // The free box of this size that is nearest to a corner, preferably at the top; nullopt if there
+  // is none.
   std::optional<PlotBox> FindRoom(double width, double height) const;
 
  private:
-  double inner_width_, inner_height_;  // pixels between the axes
+  double inner_width_, inner_height_;  // in pixels, between the axes
   std::vector<std::pair<double, double>> points_;
   std::vector<PlotBox> boxes_;
 };
 
-// Where a word of this width has room beside the vertical line at `x`, from the top down, or above
-// the horizontal line at `y`, from the right; if nowhere, at the first of these places.
+// A free place for a label of this width beside the vertical line at `x`, searched from the top, or
+// above the horizontal line at `y`, searched from the right; if there is none, the first place.
 PlotBox RoomBesideColumn(const PlotLayout& layout, double x, double width);
 PlotBox RoomAboveRow(const PlotLayout& layout, double y, double width);
 
-// The curves' titles as the key of a plot so many pixels wide has room for. Where one is too wide,
-// all leave out what they share, and what is still too wide loses its middle: the ends of titles
-// tell curves of a material apart.
+// The curves' titles shortened to fit the legend of a plot with this width in pixels. If one is too
+// wide, all lose the parts that they share, and those still too wide lose their middle, because the
+// ends of titles distinguish curves of one material.
 std::vector<std::string> KeyTitles(const Plot& plot, int width);
 
-// Where the key of the curves' titles has room between them; none: only outside.
+// A free place for the legend between the curves; nullopt: it must be outside.
 std::optional<PlotBox> FindKeyRoom(const Plot& plot, const PlotLayout& layout);
 
 }  // namespace nacre

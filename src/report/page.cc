@@ -14,9 +14,10 @@
 namespace nacre {
 namespace {
 
-constexpr int kDeflateLevel = 6;  // written once, mailed and kept: zlib's default
+constexpr int kDeflateLevel = 6;  // zlib's default, since files are written once, but mailed and
+                                  // kept
 
-// JSON inside a <script>: "</script" and "<!--" would end it or change how it is read.
+// Escapes JSON for a <script>, where "</script" and "<!--" would end it or change its parsing.
 std::string EscapeJson(const std::string& json) {
   std::string out;
   out.reserve(json.size());
@@ -30,7 +31,7 @@ std::string EscapeJson(const std::string& json) {
   return out;
 }
 
-// The tree with all of its texts, names of members too, as PrintableLines() has them.
+// The tree with PrintableLines() applied to all of its texts, including names of members.
 nlohmann::ordered_json PrintableTree(const nlohmann::ordered_json& tree) {
   if (tree.is_string()) return PrintableLines(tree.get_ref<const std::string&>());
   if (!tree.is_structured()) return tree;

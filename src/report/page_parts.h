@@ -6,11 +6,11 @@
 
 namespace nacre {
 
-std::string_view PageTemplate();  // with {{names}} of what goes in
+std::string_view PageTemplate();  // with placeholders {{name}}
 std::string_view PageStyle();
 std::string_view PageScript();
 
-// Hexadecimal digests, by which the page's policy allows these and no other style and script.
+// Hexadecimal digests, by which the page's policy allows only this style and this script.
 std::string_view PageStyleSha256();
 std::string_view PageScriptSha256();
 

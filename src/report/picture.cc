@@ -24,7 +24,7 @@ Window CellsOf(const Window& window, int factor) {
           FloorDivide(window.x1 - 1, factor) + 1, FloorDivide(window.y1 - 1, factor) + 1};
 }
 
-// The mean of what the cell has of the image, in double; of ids the middle pixel's.
+// The mean of the image's samples in a cell, computed in double; for ids, the middle pixel's value.
 float CellValue(const float* samples, const Window& window, int cell_x, int cell_y, int factor,
                 bool is_id) {
   const Window cell = Intersect(
@@ -52,8 +52,8 @@ std::vector<float> Shrink(const std::vector<float>& samples, const Window& windo
   return out;
 }
 
-// Byte by byte: all lowest ones, then the next. Neighbours' high bytes are alike, which deflates
-// better.
+// Separates the bytes of words, all lowest ones first, then the next ones. The high bytes of
+// neighbours are similar, so this deflates better.
 template <class Word>
 std::vector<uint8_t> SplitBytes(const std::vector<Word>& words) {
   std::vector<uint8_t> bytes(words.size() * sizeof(Word));
@@ -89,14 +89,14 @@ Json PackChannel(const Channel& channel, const Window& window, const Packing& pa
   return json;
 }
 
-// How the page paints it.
+// How the page draws the layer.
 std::string KindOf(const std::string& layer, const std::vector<const Channel*>& channels) {
   if (channels.size() == 3 && channels[0]->name.ends_with('R')) return "color";
   if (layer == "N" && channels.size() == 3) return "normal";
   return channels[0]->type == PixelType::kUint ? "id" : "data";
 }
 
-// R, G, B and X, Y, Z in that order, which EXR's alphabet is not.
+// Sorts R, G, B and X, Y, Z in that order, instead of EXR's alphabetical order.
 int OrderOf(const Channel& channel) {
   const size_t place = std::string("RGBXYZ").find(channel.name.back());
   return place == std::string::npos ? 6 : static_cast<int>(place);
@@ -107,11 +107,11 @@ struct LayerChannels {
   std::vector<const Channel*> channels;
 };
 
-// The beauty first.
+// The layers of an image, with the beauty first.
 std::vector<LayerChannels> LayersOf(const Image& image) {
   std::vector<LayerChannels> layers;
   for (const Channel& channel : image.channels) {
-    // Ids of objects and of materials are not parts of one colour.
+    // Ids of objects and of materials are layers of their own, as they are not parts of one colour.
     const std::string name =
         channel.type == PixelType::kUint ? channel.name : LayerOfChannel(channel.name);
     auto found = std::find_if(layers.begin(), layers.end(),
@@ -167,7 +167,8 @@ Packing ChoosePacking(const std::vector<const Image*>& images, size_t limit) {
   };
   if (fits()) return packing;
   packing.half = true;
-  // A picture of one cell always fits: there are fewer channels than bytes in any limit.
+  // This ends, since a picture of one cell always fits: any limit is larger than the number of
+  // channels.
   while (!fits() && packing.factor < 65536) ++packing.factor;
   return packing;
 }
@@ -177,7 +178,7 @@ Json PackImage(const Image& image, const std::string& name, const Packing& packi
   AddPlace(image.data, image.display, packing.factor, &json);
   const auto transfer = image.metadata.find("transfer");
   json["transfer"] = transfer == image.metadata.end() ? "linear" : transfer->second;
-  // Cells are counted from the frame's corner.
+  // Moves the window so that cells are counted from the frame's corner.
   const Window moved = {image.data.x0 - image.display.x0, image.data.y0 - image.display.y0,
                         image.data.x1 - image.display.x0, image.data.y1 - image.display.y0};
   Json layers = Json::array();

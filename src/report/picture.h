@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// report/picture.h: images as the page holds them: samples of each channel, deflated, and how small
-// they had to be made.
+// report/picture.h: encodes images for a page: the samples of each channel, deflated, and reduced
+// if necessary.
 #pragma once
 
 #include <string>
@@ -14,25 +14,25 @@
 
 namespace nacre {
 
-// What is done so that all pictures of a page fit.
+// How pictures are reduced so that all of a page fit.
 struct Packing {
-  bool half = false;  // float samples become half; else they stay what the file has
-  int factor = 1;     // pixels become means of factor x factor of them; ids the middle one's
+  bool half = false;  // float samples become half; else they keep the type in the file
+  int factor = 1;     // pixels are averaged over factor x factor; ids are sampled in the middle
 
-  // In words, or "" if nothing is.
+  // Describes the reduction, or returns "" if there is none.
   std::string InWords() const;
 };
 
-// The least that makes the images' samples fit into `limit` bytes before they are deflated.
+// The least reduction by which the images' samples fit into `limit` bytes before they are deflated.
 Packing ChoosePacking(const std::vector<const Image*>& images, size_t limit);
 
-// {name, width, height, x0, y0, factor, transfer, layers, facts}, and its samples as blobs. Samples
-// that half cannot hold (infinite, beyond 65504) keep their channel in float.
+// Returns {name, width, height, x0, y0, factor, transfer, layers, facts}, with its samples as
+// blobs. Channels with samples that half cannot hold (infinite, or beyond 65504) remain in float.
 nlohmann::ordered_json PackImage(const Image& image, const std::string& name,
                                  const Packing& packing, Page* page);
 
-// {kind, layer, type, blob, x0, y0, width, height} of a map of values in [0, 1] whose top left
-// pixel is that of `window`, in 255 steps.
+// Returns {kind, layer, type, blob, x0, y0, width, height} for a map of values in [0, 1], quantised
+// to 255 steps. Its top left pixel is that of `window`.
 nlohmann::ordered_json PackMap(const Plane& map, const Window& window, const std::string& kind,
                                const std::string& layer, const Packing& packing, Page* page);
 

@@ -50,7 +50,7 @@ std::vector<Column> ColumnsOf(const Figure& figure) {
               "install the package gnuplot-nox (scripts/setup does), or write .csv");
 }
 
-// gnuplot writes of a text's "&#x" and "]]>", which are markup in XML, what they are.
+// Escapes "&#x" and "]]>" in texts, which are markup in XML and which gnuplot writes unescaped.
 std::string EscapeLeftOut(std::string svg) {
   for (const auto& [text, escaped] : {std::pair{"&#x", "&amp;#x"}, std::pair{"]]>", "]]&gt;"}}) {
     for (size_t at = svg.find(text); at != std::string::npos; at = svg.find(text, at + 1)) {
@@ -61,11 +61,11 @@ std::string EscapeLeftOut(std::string svg) {
 }
 
 std::string Draw(const Figure& figure, PictureFormat format) {
-  // -d: the user's own settings for gnuplot stay out of it.
+  // -d: ignores the user's settings for gnuplot.
   const ChildResult result = RunChild({"gnuplot", "-d"}, GnuplotScript(figure, format));
   if (!result.found) FailMissing();
   if (result.status != 0 || result.output.empty()) {
-    constexpr size_t kEnough = 500;  // the last lines say what is wrong
+    constexpr size_t kEnough = 500;  // the last lines tell what is wrong
     const size_t begin = result.errors.size() > kEnough ? result.errors.size() - kEnough : 0;
     throw Error(
         ExitCode::kInternal, "gnuplot",
@@ -149,7 +149,7 @@ void CheckPlotter() {
 
 void WriteFigure(const std::string& path, const Figure& figure) {
   CheckFigurePath(path);
-  OutputFile file(path);  // before gnuplot works for it
+  OutputFile file(path);  // opened before gnuplot does any work
   const std::string text = HasExtension(path, ".csv")   ? FigureCsv(figure)
                            : HasExtension(path, ".svg") ? Draw(figure, PictureFormat::kSvg)
                                                         : Draw(figure, PictureFormat::kPng);

@@ -26,8 +26,8 @@ void SamplePair(const PairSampler& sampler, size_t pair, const SampleNumbers& sa
                 const uint32_t* entries, size_t count, UnitPoints* points) {
   const uint32_t* const u_bits = sampler.u_bits.data() + pair * sampler.samples;
   const uint32_t* const v_bits = sampler.v_bits.data() + pair * sampler.samples;
-  // Adding a constant and Mix64 are bijections, so that no two pixels share a shift. The pixel
-  // sampler uses the seed itself.
+  // Adding a constant and Mix64 are bijections, so pixels whose seeds differ have different shifts.
+  // The pixel sampler's shift is the seed itself.
   const uint64_t key = (pair + 1) * 0x9e3779b97f4a7c15u;
   for (size_t i = 0; i < samples.pixel_count; ++i) {
     points->shifts[i] = Mix64(samples.seeds[i] + key);

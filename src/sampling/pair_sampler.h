@@ -13,14 +13,14 @@ namespace nacre {
 
 // Each pair of dimensions is a (0,2)-sequence of its own, scrambled and shuffled independently
 // (padding), so that the few samples of a pixel are well distributed in each pair. Pairs of higher
-// dimensions of the pixel sampler's sequence would be well distributed for many samples only. As
-// there, each pixel shifts the digits by random numbers of its own.
+// dimensions of the pixel sampler's sequence would be well distributed for many samples only. As in
+// the pixel sampler, each pixel shifts the points' binary digits by random numbers of its own.
 struct PairSampler {
   size_t samples = 0;                    // per pixel
-  std::vector<uint32_t> u_bits, v_bits;  // pair by pair, the points of all samples of each
+  std::vector<uint32_t> u_bits, v_bits;  // entry pair * samples + i is the point of sample i
 };
 
-// samples in [1, 65536].
+// `samples` is the number of samples per pixel, in [1, 65536].
 PairSampler MakePairSampler(int samples, size_t pairs, uint32_t seed);
 
 // Identifies the sample of each entry: its index among the samples of its pixel, and the index of
@@ -32,7 +32,7 @@ struct SampleNumbers {
   AlignedArray<uint64_t> seeds;
 };
 
-// Points in [0, 1)^2, as 32-bit binary fractions, and as floats, which have 24 bits.
+// Points in [0, 1)^2, as 32-bit binary fractions, and as floats, which keep the upper 24 bits.
 struct UnitPoints {
   explicit UnitPoints(size_t capacity)
       : u_bits(capacity), v_bits(capacity), u(capacity), v(capacity), shifts(capacity) {}
@@ -41,7 +41,7 @@ struct UnitPoints {
   AlignedArray<uint64_t> shifts;  // per pixel: low half for u, high half for v
 };
 
-// The points of a pair for the samples entries[0..count).
+// Stores in points[0..count) the points of a pair for the samples entries[0..count).
 void SamplePair(const PairSampler& sampler, size_t pair, const SampleNumbers& samples,
                 const uint32_t* entries, size_t count, UnitPoints* points);
 

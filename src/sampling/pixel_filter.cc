@@ -12,7 +12,7 @@ using std::numbers::pi;
 
 constexpr double kGaussianCutoff = 3;  // in standard deviations
 constexpr double kBlackmanHarris[4] = {0.35875, 0.48829, 0.14128, 0.01168};
-constexpr double kMitchellZero = 8.0 / 7;  // where it becomes negative, on the paper's scale
+constexpr double kMitchellZero = 8.0 / 7;  // where the filter becomes negative, at width 4
 
 double GaussianNormalization() { return std::erf(kGaussianCutoff / std::numbers::sqrt2); }
 
@@ -21,7 +21,7 @@ double MitchellTimes6(double t) {
   return t < 1 ? (7 * t - 12) * t * t + 16.0 / 3 : ((-7.0 / 3 * t + 12) * t - 20) * t + 32.0 / 3;
 }
 
-// Its integral from 0 to t.
+// The integral of MitchellTimes6 from 0 to t.
 double MitchellIntegralTimes6(double t) {
   const auto inner = [](double s) { return ((7.0 / 4 * s - 4) * s * s + 16.0 / 3) * s; };
   const auto outer = [](double s) { return (((-7.0 / 12 * s + 4) * s - 10) * s + 32.0 / 3) * s; };
@@ -31,7 +31,7 @@ double MitchellIntegralTimes6(double t) {
 // The quantiles of the part of f between the distances `first`, at t = 0, and `last`, at t = 1.
 QuantileTable MakeQuantiles(const PixelFilter& filter, double first, double last) {
   const double mass_before = FilterIntegral(filter, first);
-  const double mass = FilterIntegral(filter, last) - mass_before;  // negative for n
+  const double mass = FilterIntegral(filter, last) - mass_before;  // negative in a negative lobe
   QuantileTable quantiles = {first};
   for (int i = 1; i < kQuantileSteps; ++i) {
     const double root = 1 - static_cast<double>(i) / kQuantileSteps;
@@ -49,7 +49,8 @@ QuantileTable MakeQuantiles(const PixelFilter& filter, double first, double last
   return quantiles;
 }
 
-// u in [0, 1) to a distance, left of the centre for u < 1/2 and right of it from there on.
+// Maps u in [0, 1) to a signed distance from the centre: to the left of it for u < 1/2, to the
+// right of it otherwise.
 double SampleDistance(const QuantileTable& quantiles, double u) {
   const double outside = 1 - std::abs(2 * u - 1);  // the fraction of the mass that is further out
   const double position = (1 - std::sqrt(outside)) * kQuantileSteps;

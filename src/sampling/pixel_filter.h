@@ -15,7 +15,7 @@ namespace nacre {
 
 // All are products f(x) f(y) of one even function, zero outside [-width / 2, width / 2]:
 //   kBox             constant
-//   kGaussian        standard deviation width / 6, so cut off at 3 of them
+//   kGaussian        standard deviation width / 6, so cut off at 3 standard deviations
 //   kBlackmanHarris  the four-term window (Harris 1978), minimum side lobes
 //   kMitchell        Mitchell and Netravali 1988, B = C = 1/3, negative outside 2/7 of the width;
 //                    the paper's filter has width 4
@@ -35,8 +35,8 @@ double FilterIntegral(const PixelFilter& filter, double x);
 
 // The inverse CDF of the distance |x|, at equal steps of t, where (1 - t)^2 is the fraction of a
 // filter part's mass that lies further out: the square keeps the interpolation accurate where the
-// filter fades to 0. Linear between entries; the fraction is met within 3e-7 (in negative lobes,
-// which begin at 0, 5e-4).
+// filter fades to 0. The table is interpolated linearly; the fraction is met within 3e-7 (in
+// negative lobes, which begin at 0, within 5e-4).
 using QuantileTable = std::vector<double>;
 inline constexpr int kQuantileSteps = 1024;
 
@@ -45,8 +45,8 @@ struct FilterSampler {
   PixelFilter filter;
   double positive_mass = 1;  // integral of p
   double negative_mass = 0;  // integral of n
-  QuantileTable positive;    // of p; empty for the box
-  QuantileTable negative;    // of n; empty where n = 0
+  QuantileTable positive;    // quantiles of p; empty for the box
+  QuantileTable negative;    // quantiles of n; empty if n = 0
 };
 
 FilterSampler MakeFilterSampler(const PixelFilter& filter);

@@ -10,7 +10,7 @@
 namespace nacre {
 namespace {
 
-// The first `count` points of a scrambled sequence.
+// Appends the first `count` points of a scrambled sequence.
 void AppendPoints(int count, uint32_t pair, PixelSampler* sampler) {
   for (int i = 0; i < count; ++i) {
     const Vec2d point = SobolSample2D(static_cast<uint32_t>(i), pair, sampler->seed);
@@ -41,7 +41,8 @@ PixelSampler MakeReplicateSampler(const PixelFilter& filter, int samples_per_pix
   const double negative = PartMass(sampler.filter, FilterPart::kNegative);
   int negative_count = 0;
   if (negative > 0) {
-    // In proportion, which is best for parts of equal variance, but never none.
+    // Samples are split in proportion to the parts' masses, which is best for parts of equal
+    // variance, but each part gets at least one.
     const double share = negative / (positive + negative);
     negative_count = std::clamp(static_cast<int>(std::lround(samples_per_pixel * share)), 1,
                                 samples_per_pixel - 1);

@@ -20,8 +20,9 @@ struct PixelSampler {
   uint32_t seed = 0;
   int samples_per_pixel = 1;
   bool centered = false;  // the only sample is the pixel's centre
-  // Samples [0, positive_count) are of the filter's positive part, the others of the negative one.
-  // The counts and weights are fixed, so that a constant image is reproduced exactly.
+  // Samples [0, positive_count) are drawn from the filter's positive part, the others from its
+  // negative part. The counts and weights are fixed, so that a constant image is reproduced
+  // exactly.
   int positive_count = 1;
   double positive_weight = 1;
   double negative_weight = 0;
@@ -29,15 +30,15 @@ struct PixelSampler {
   std::vector<uint32_t> points_x, points_y;
 };
 
-// samples_per_pixel in [1, 65536]. A single sample is the pixel's centre.
+// samples_per_pixel is in [1, 65536]. A single sample is the pixel's centre.
 PixelSampler MakePixelSampler(const PixelFilter& filter, int samples_per_pixel, uint32_t seed);
 
-// The same, but a single sample is random, too: needed where results of several samplers with
-// different seeds are compared and averaged. A filter with negative lobes needs at least two
-// samples.
+// Like MakePixelSampler, but a single sample is random, too. This is needed where results of
+// several samplers with different seeds are compared and averaged. A filter with negative lobes
+// needs at least two samples.
 PixelSampler MakeReplicateSampler(const PixelFilter& filter, int samples_per_pixel, uint32_t seed);
 
-// True if every sample weighs 1: for filters without negative lobes.
+// True if every sample has weight 1, as with filters without negative lobes.
 bool HasUnitWeights(const PixelSampler& sampler);
 
 struct PixelSample {
@@ -52,8 +53,8 @@ PixelSample SamplePixel(const PixelSampler& sampler, int x, int y, int index);
 // The weight of sample `index` of every pixel.
 double SampleWeight(const PixelSampler& sampler, int index);
 
-// The centres of the pixels, row by row: the samples of a centred sampler. The arrays are padded as
-// for SamplePixels.
+// Stores the centres of the pixels, row by row, which are the samples of a centred sampler. The
+// arrays are padded as for SamplePixels.
 void PlaceCenters(const Window& pixels, double* film_x, double* film_y);
 
 // Pixels whose samples are placed together. Not for centred samplers.
@@ -62,9 +63,9 @@ struct PixelBatch {
       : origin_x(capacity), origin_y(capacity), shift_x(capacity), shift_y(capacity) {}
 
   size_t count = 0;
-  // Column and row minus the offset of the doubles that are made of a sample's bits, and the
-  // pixel's digital shift with the exponent of those doubles: kUnitExponent of
-  // pixel_sampler_kernel.cc.
+  // origin_x and origin_y are the pixel's column and row minus kUnitOrigin, and shift_x and shift_y
+  // its digital shift with the exponent bits kUnitExponent (pixel_sampler_kernel.cc): there a
+  // sample's bits become doubles that are kUnitOrigin too large.
   AlignedArray<double> origin_x, origin_y;
   AlignedArray<uint64_t> shift_x, shift_y;
 };
@@ -72,9 +73,9 @@ struct PixelBatch {
 // Fills `pixels` with the pixels of the runs, which must not exceed its capacity.
 void PreparePixels(const PixelSampler& sampler, std::span<const PixelRun> runs, PixelBatch* pixels);
 
-// Samples [first, first + count) of each of the pixels, sample by sample: film positions x + 0.5 +
-// dx and y + 0.5 + dy, bit for bit those of SamplePixel. The arrays take pixels.count * count
-// entries, and a vector behind them (AlignedArray) may be overwritten.
+// Stores samples [first, first + count) of each of the pixels, sample by sample: film positions
+// x + 0.5 + dx and y + 0.5 + dy, bit for bit those of SamplePixel. The arrays take pixels.count *
+// count entries, and a vector behind them (AlignedArray) may be overwritten.
 void SamplePixels(const PixelSampler& sampler, const PixelBatch& pixels, int first, int count,
                   double* film_x, double* film_y);
 
@@ -84,8 +85,8 @@ struct SampledPixel {
   uint32_t sampler;
 };
 
-// Samples [first, first + count) of each of the pixels, pixel by pixel. The samplers must have the
-// same filter, and not be centred. The arrays are padded as for SamplePixels.
+// Stores samples [first, first + count) of each of the pixels, pixel by pixel. The samplers must
+// have the same filter, and not be centred. The arrays are padded as for SamplePixels.
 void SamplePixelList(const PixelSampler* samplers, std::span<const SampledPixel> pixels, int first,
                      int count, double* film_x, double* film_y);
 

@@ -34,7 +34,7 @@ HWY_INLINE V UnitFromBits(VU64 bits) {
   return hn::Sub(hn::BitCast(d, bits), hn::Set(d, kUnitOrigin));
 }
 
-// SampleDistance of pixel_filter.cc.
+// SIMD twin of SampleDistance in pixel_filter.cc.
 HWY_INLINE V Distance(const double* HWY_RESTRICT quantiles, V u) {
   const D d;
   const hn::Rebind<int32_t, D> di32;
@@ -107,7 +107,7 @@ struct Signed {
     const auto first = hn::Lt(u, share);
     const V first_u = hn::Div(u, share);
     const V second_u = hn::Div(hn::Sub(u, share), hn::Set(d, 1 - first_share));
-    // Lanes of the other region look up any entry of the table.
+    // Lanes that belong to the other region look up an arbitrary entry of the table.
     const V zero = hn::Zero(d);
     *dx = hn::IfThenElse(first, Distance(first_x, hn::IfThenElse(first, first_u, zero)),
                          Distance(second_x, hn::IfThenElse(first, zero, second_u)));
@@ -115,7 +115,7 @@ struct Signed {
   }
 };
 
-// One sample of each pixel. Whole vectors are stored.
+// Places one sample in each pixel. Whole vectors are stored.
 template <class Place>
 HWY_INLINE void SamplePlane(const Place& place, const PixelSampler& sampler, int index,
                             const PixelBatch& pixels, double* HWY_RESTRICT film_x,
@@ -141,7 +141,8 @@ HWY_INLINE void SamplePlane(const Place& place, const PixelSampler& sampler, int
   }
 }
 
-// Positive and negative samples by their own filters.
+// Places samples [first, end) of all pixels: `positive` those of the filter's positive part,
+// `negative` the others.
 template <class PositivePlace, class NegativePlace>
 HWY_INLINE void SampleAll(const PositivePlace& positive, const NegativePlace& negative,
                           const PixelSampler& sampler, const PixelBatch& pixels, int first, int end,
@@ -182,7 +183,7 @@ void SamplePixelsT(const PixelSampler& sampler, const PixelBatch& pixels, int fi
   });
 }
 
-// Mix64 of sampling/hash.h.
+// SIMD twin of Mix64 in sampling/hash.h.
 template <class DU64>
 HWY_INLINE hn::Vec<DU64> MixEach(DU64 d, hn::Vec<DU64> x) {
   x = hn::Mul(hn::Xor(x, hn::ShiftRight<30>(x)), hn::Set(d, 0xbf58476d1ce4e5b9u));
@@ -190,8 +191,8 @@ HWY_INLINE hn::Vec<DU64> MixEach(DU64 d, hn::Vec<DU64> x) {
   return hn::Xor(x, hn::ShiftRight<31>(x));
 }
 
-// The halves of the PixelSeeds of a run's pixels. Whole vectors are stored, here and below: entries
-// behind a run are overwritten by the next one, or are padding.
+// Stores the halves of the PixelSeeds of a run's pixels, with kUnitExponent. Whole vectors are
+// stored, here and below: entries behind a run are overwritten by the next one, or are padding.
 HWY_INLINE void ShiftRun(const PixelRun& run, VU64 first, uint64_t* shift_x, uint64_t* shift_y) {
   const DU64 du64;
   const DU32 du32;
@@ -200,8 +201,8 @@ HWY_INLINE void ShiftRun(const PixelRun& run, VU64 first, uint64_t* shift_x, uin
   const auto exponent = hn::Set(du64, kUnitExponent);
   const auto row = hn::Set(du64, static_cast<uint64_t>(static_cast<uint32_t>(run.y)) << 32);
   for (int i = 0; i < run.count; i += static_cast<int>(hn::Lanes(du64))) {
-    // Modulo 2^32, as in PixelSeed. Iota with a variable start would be slower: it goes through
-    // memory.
+    // Columns are modulo 2^32, as in PixelSeed. Iota with a variable start would be slower: it goes
+    // through memory.
     const auto columns = hn::Add(lane, hn::Set(du32, static_cast<uint32_t>(run.x + i)));
     const auto pixel = hn::Or(row, hn::PromoteTo(du64, columns));
     const auto shift = MixEach(du64, hn::Xor(first, pixel));
@@ -210,7 +211,7 @@ HWY_INLINE void ShiftRun(const PixelRun& run, VU64 first, uint64_t* shift_x, uin
   }
 }
 
-// Columns and rows of a run's pixels, each plus `offset`.
+// Stores the columns and rows of a run's pixels, each plus `offset`.
 HWY_INLINE void StorePixelsOfRun(const PixelRun& run, double offset, double* HWY_RESTRICT x,
                                  double* HWY_RESTRICT y) {
   const D d;
@@ -221,7 +222,7 @@ HWY_INLINE void StorePixelsOfRun(const PixelRun& run, double offset, double* HWY
     PrefetchToWrite(y + i);
     hn::StoreU(column, d, x + i);
     hn::StoreU(row, d, y + i);
-    column = hn::Add(column, hn::Set(d, static_cast<double>(hn::Lanes(d))));  // exactly
+    column = hn::Add(column, hn::Set(d, static_cast<double>(hn::Lanes(d))));  // exact
   }
 }
 
@@ -246,7 +247,7 @@ void PreparePixelsT(const PixelSampler& sampler, std::span<const PixelRun> runs,
   pixels->count = begin;
 }
 
-// Samples of one pixel, of one part of the filter.
+// Places samples [first, end) of one pixel, all from one part of the filter.
 template <class Place>
 HWY_INLINE void SampleRun(const Place& place, const PixelSampler& sampler, int x, int y,
                           size_t first, size_t end, double* film_x, double* film_y) {

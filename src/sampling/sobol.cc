@@ -89,8 +89,9 @@ uint32_t SobolBits(uint32_t index, uint32_t dimension) {
   return bits;
 }
 
-// In reversed bits, each may depend on the lower ones only, as in sums and products. The hash of
-// Laine and Karras 2011 in the better form of Vegdahl 2021, "Building a Better LK Hash".
+// The bits are reversed, so that each may depend on lower bits only, as it does in sums and
+// products. The hash is that of Laine and Karras 2011 in the better form of Vegdahl 2021, "Building
+// a Better LK Hash".
 uint32_t OwenScramble(uint32_t bits, uint32_t seed) {
   uint32_t x = ReverseBits(bits);
   x ^= x * 0x3d20adeau;

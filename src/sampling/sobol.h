@@ -11,7 +11,7 @@
 
 namespace nacre {
 
-// The number of dimensions of one sequence, and of pairs of them.
+// The number of dimensions of one sequence, and of pairs of dimensions.
 inline constexpr uint32_t kSobolDimensions = 16;
 inline constexpr uint32_t kSobolPairs = kSobolDimensions / 2;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene/camera.h: the camera, and the picture that it takes.
+// scene/camera.h: the camera and the settings of its image.
 #pragma once
 
 #include <cstdint>
@@ -25,9 +25,9 @@ struct ImageSettings {
   int height = 720;  // in [1, 65536]
   int spp = 16;      // samples per pixel, in [1, 65536]; 1 is the pixel's centre
   PixelFilter filter;
-  uint32_t seed = 0;    // of the sample pattern
-  bool shadows = true;  // false: no light casts any
-  bool culling = true;  // false: single-sided materials (Material::single_sided) have backs, too
+  uint32_t seed = 0;    // seeds the sample pattern
+  bool shadows = true;  // false: no light casts shadows
+  bool culling = true;  // false: single-sided materials (Material::single_sided) have a back, too
   friend bool operator==(const ImageSettings&, const ImageSettings&) = default;
 };
 

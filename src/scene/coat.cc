@@ -10,11 +10,14 @@
 namespace nacre {
 namespace {
 
-// What Schlick's curve reaches at grazing incidence: 1, as in KHR_materials_clearcoat, but no more
-// than gives it the average of Fresnel's equations, which is F0 + (F90 - F0) / 21 of Schlick's.
-// From an index of 1.34 down to 1 it falls to 0: a coat of the index of air is not seen.
+// F90 of Schlick's curve: 1, as in KHR_materials_clearcoat, but at most the value with which the
+// curve's average, F0 + (F90 - F0) / 21, equals that of Fresnel's equations. This limit matters
+// below an index of 1.34 and falls to 0 at an index of 1: a coat with the index of air is
+// invisible.
 double GrazingReflectance(double ior, double f0) {
-  if (ior >= 1.5) return 1;  // Schlick's average is below, and from 5 on above whatever F90 is
+  // From an index of 1.5 on, Schlick's average is below Fresnel's even with F90 = 1; from 5 on it
+  // is above, with any F90.
+  if (ior >= 1.5) return 1;
   return std::min(f0 + 21 * (AverageDielectric(ior) - f0), 1.0);
 }
 
@@ -33,8 +36,8 @@ std::optional<Material> CoatOf(const Material& material) {
   model.roughness = below->coat_roughness;
   model.metallic_roughness_map = below->coat_roughness_map;
   model.shadowing = below->shadowing;
-  // Light that the coat's microfacets block after one bounce enters it at the next one, mostly:
-  // what the coat does not reflect at once is what is below it gets.
+  // Most of the light that the coat's microfacets block after one bounce is transmitted at the next
+  // bounce, so the layers below get all that the coat does not reflect in one bounce.
   model.compensation = Compensation::kNone;
   Material coat;
   coat.name = material.name;

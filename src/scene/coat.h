@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene/coat.h: the clear coat of a material as a surface of its own, above the material's.
+// scene/coat.h: the clear coat of a material as a material of its own.
 #pragma once
 
 #include <optional>
@@ -8,10 +8,10 @@
 
 namespace nacre {
 
-// A dielectric's highlight over nothing: metallic_roughness of a black base, whose weight
-// `specular` is how much coat there is. A hit is shaded by it once more, with the coat's own
-// roughness and normal; what its albedo leaves is the share of the light that the material below
-// shows. None for materials without a coat.
+// Returns the clear coat of `material`: metallic_roughness with a black base and a dielectric
+// highlight, whose weight `specular` is the strength of the coat. Hits are shaded a second time
+// with it, with the coat's own roughness and normal, and the material below gets the share of the
+// light that the coat's albedo leaves. Returns nullopt if the material has no coat.
 std::optional<Material> CoatOf(const Material& material);
 
 }  // namespace nacre

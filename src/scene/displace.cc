@@ -14,14 +14,15 @@
 namespace nacre {
 namespace {
 
-// The unit direction at (u, v), v up: longitudes from -z, to the right as seen from outside.
+// The unit direction at (u, v), with v up. Longitudes begin at -z and grow to the right as seen
+// from outside.
 Vec3d SphereDirection(double u, double v) {
   const double phi = 2 * M_PI * u, theta = M_PI * (1 - v);
   const double ring = std::sin(theta);
   return {-ring * std::sin(phi), std::cos(theta), -ring * std::cos(phi)};
 }
 
-// For each position the first one that lies at the same place.
+// For each position, the index of the first position that equals it.
 std::vector<uint32_t> FindTwins(const std::vector<Vec3d>& positions) {
   const auto key = [&](uint32_t i) {
     return std::make_tuple(positions[i].x, positions[i].y, positions[i].z, i);
@@ -37,7 +38,8 @@ std::vector<uint32_t> FindTwins(const std::vector<Vec3d>& positions) {
   return twins;
 }
 
-// The same of triangles: a surface that is closed where positions coincide.
+// The positions and triangles of `mesh`, with each index replaced by its twin's, so that the
+// surface is closed where positions coincide.
 Mesh Welded(const Mesh& mesh, const std::vector<uint32_t>& twins) {
   Mesh welded;
   welded.positions = mesh.positions;
@@ -46,7 +48,7 @@ Mesh Welded(const Mesh& mesh, const std::vector<uint32_t>& twins) {
   return welded;
 }
 
-// Each position's value replaced by the mean of those that coincide with it.
+// Replaces each value by the mean over the positions that coincide.
 template <class T>
 void MeanOfTwins(const std::vector<uint32_t>& twins, std::vector<T>* values) {
   std::vector<T> sums(values->size(), T(0));
@@ -73,7 +75,8 @@ Mesh TessellateSphere(const Sphere& sphere, int segments) {
   mesh.positions.reserve(columns * (static_cast<size_t>(rows) + 1));
   for (int row = 0; row <= rows; ++row) {
     for (int column = 0; column <= segments; ++column) {
-      // The seam's two sides are one place, to the bit, and so is each pole.
+      // The positions on both sides of the seam are equal bit for bit, and so are those at each
+      // pole.
       const bool pole = row == 0 || row == rows;
       const double around = pole || column == segments ? 0 : static_cast<double>(column) / segments;
       const double v = static_cast<double>(row) / rows;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene/fault_list.h: collects what is wrong with a scene, so that all of it is said at once.
+// scene/fault_list.h: collects the faults of a scene, so that all of them are reported at once.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ class FaultList {
   size_t count() const { return count_; }
   const std::vector<Fault>& kept() const { return kept_; }
 
-  // The kept faults, and after them one that says how many more there are, if any.
+  // The kept faults, followed by one that says how many more there are, if any.
   std::vector<Fault> All() const;
 
  private:
@@ -31,7 +31,7 @@ class FaultList {
   size_t count_ = 0;
 };
 
-// `name` as a token of a JSON pointer (RFC 6901): ~ becomes ~0 and / becomes ~1.
+// `name` as a token of a JSON pointer (RFC 6901): ~ becomes ~0, and / becomes ~1.
 std::string PointerToken(std::string_view name);
 
 }  // namespace nacre

@@ -6,7 +6,7 @@
 
 namespace nacre {
 
-// Full support in pixels, as in PixelFilter::width.
+// The full support in pixels, as in PixelFilter::width.
 constexpr double DefaultFilterWidth(FilterKind kind) {
   switch (kind) {
     case FilterKind::kBox:

@@ -18,7 +18,8 @@ namespace {
   throw Error(ExitCode::kBadInput, std::move(where), std::move(what), std::move(hint));
 }
 
-// The parameter that an axis varies, or nullptr if it varies none.
+// Returns the parameter that an axis varies, or nullptr if it varies none. Throws Error if the axis
+// does not fit the material.
 const MaterialParameter* CheckAxis(const GridAxis& axis, const Material& material,
                                    const std::string& where) {
   if (!limits::kGridCount.Contains(axis.count)) {
@@ -47,7 +48,7 @@ void CheckSizes(double spacing_x, double spacing_y, double radius, const std::st
   }
 }
 
-// "0.1", also of a grey, or "0.9 0.6 0.2": short enough for a label.
+// "0.1" for a number or a grey, "0.9 0.6 0.2" for another colour: short enough for a label.
 std::string Text(const MaterialParameter& parameter, const Rgb& value) {
   const bool grey = value.x == value.y && value.y == value.z;
   if (!parameter.is_color || grey) return fmt::format("{:.4g}", value.x);
@@ -70,7 +71,7 @@ MaterialId AddMaterial(Material material, Scene* scene) {
   return {static_cast<uint32_t>(scene->materials.size() - 1)};
 }
 
-// Where place i of n lies when they are centred on 0.
+// The coordinate of place i of n that are centred on 0.
 double Offset(size_t i, int n, double spacing) {
   return (static_cast<double>(i) - (n - 1) / 2.0) * spacing;
 }
@@ -99,8 +100,8 @@ void AddPairSphere(const PairRow& row, const PairSide& side, const MaterialParam
   scene->spheres.push_back({center, row.radius, AddMaterial(std::move(material), scene)});
 }
 
-// The values of one side above or below its spheres, of which `first` is the leftmost centre; its
-// name at the left.
+// Labels one side's spheres with their values, above or below them, and with the side's name at the
+// left. `first` is the centre of the leftmost sphere.
 void AddPairLabels(const PairRow& row, const PairSide& side, const MaterialParameter* parameter,
                    const Vec3d& first, Label::Side align, Scene* scene) {
   const Vec3d edge(0, align == Label::Side::kAbove ? row.radius : -row.radius, 0);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene/generators.h: spheres by the dozen or the million: grids over material parameters, rows of
-// pairs to compare two materials, random clouds. What `grid`, `pair` and `cloud` in scene files and
-// the commands of those names make.
+// scene/generators.h: generators of many spheres: grids over material parameters, rows of pairs
+// that compare two materials, and random clouds. They make what `grid`, `pair` and `cloud` in scene
+// files and the commands of those names describe.
 //
-// All throw Error (kBadInput) for counts, names or sizes that make no sense; ranges of parameters
-// are left to Validate().
+// All throw Error (kBadInput) for invalid counts, names or sizes. The ranges of parameters are left
+// to Validate().
 #pragma once
 
 #include <cstdint>
@@ -16,18 +16,19 @@
 
 namespace nacre {
 
-// What varies along a row or a column: `count` places, and at each its value of one parameter of
-// the base material by name (scene/material_parameters.h).
+// One axis of a grid: `count` places along a row or a column, and at each of them a value of the
+// named parameter of the base material (scene/material_parameters.h).
 struct GridAxis {
   int count = 1;
   std::string parameter;    // empty: nothing varies
-  std::vector<Rgb> values;  // `count` of them; of a number, three equal components
+  std::vector<Rgb> values;  // `count` of them; a number has three equal components
 };
 
-// `count` values from `from` to `to`, both included, at equal distances.
+// Makes an axis of `count` evenly spaced values, from `from` to `to`, both included.
 GridAxis LinearAxis(std::string parameter, const Rgb& from, const Rgb& to, int count);
 
-// The same at equal ratios; all components of both ends are above 0.
+// Makes an axis of `count` values at equal ratios, from `from` to `to`, both included. All
+// components of both must be > 0.
 GridAxis LogarithmicAxis(std::string parameter, const Rgb& from, const Rgb& to, int count);
 
 // Spheres in a plane of constant z: rows downwards from the top, columns from left to right.
@@ -35,7 +36,7 @@ struct Grid {
   Vec3d center{0, 0, 0};
   Vec2d spacing{1, 1};  // between the centres of neighbours in x and y, > 0
   double radius = 0.4;  // > 0
-  Material material;    // what the axes do not vary
+  Material material;    // gives the parameters that no axis varies
   GridAxis rows;
   GridAxis columns;
 };
@@ -69,8 +70,8 @@ struct PairRow {
 // below, and, when stacked, the names of the sides at the left.
 void AddPair(const PairRow& row, Scene* scene);
 
-// Spheres scattered uniformly in a box. Each depends on (seed, its index) alone, by integer
-// hashing, so a cloud is the same on every machine and a longer one begins with a shorter one.
+// Spheres scattered uniformly in a box. Each depends only on the seed and its index, by integer
+// hashing, so a cloud is the same on every machine, and a longer cloud begins with the shorter one.
 struct Cloud {
   uint64_t count = 1000;  // at most 1e8
   uint32_t seed = 0;
@@ -81,7 +82,7 @@ struct Cloud {
   std::vector<MaterialId> materials;  // equally likely, not empty
 };
 
-// `threads`: as ParallelFor's; they change no bits.
+// Appends the cloud's spheres. `threads` is that of ParallelFor; the result does not depend on it.
 void AddCloud(const Cloud& cloud, int threads, Scene* scene);
 
 }  // namespace nacre

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "scene/keys.h"
 #include "scene/material_parameters.h"
 
 namespace nacre {
@@ -49,8 +50,8 @@ class Hasher {
   uint64_t state_ = 0x9e3779b97f4a7c15u;
 };
 
-// A piece of an array, in four chains side by side, eight bytes at a time: in a chain alone, each
-// product waits for the one before.
+// Hashes a piece of an array, eight bytes at a time, in four interleaved chains: in a single chain
+// each multiplication would wait for the one before.
 uint64_t HashPiece(std::span<const unsigned char> bytes) {
   constexpr size_t kChains = 4;
   std::array<Hasher, kChains> chains;
@@ -68,7 +69,8 @@ uint64_t HashPiece(std::span<const unsigned char> bytes) {
 
 constexpr size_t kSpheresAtATime = size_t{1} << 14;
 
-// Adds hash_piece(first, end) of the pieces of `count` things, on several threads.
+// Splits `count` items into pieces, computes hash_piece(first, end) of each on several threads, and
+// adds the results to `hash`.
 template <class HashPieceOf>
 void AddPieces(size_t count, size_t at_a_time, Hasher* hash, const HashPieceOf& hash_piece) {
   std::vector<uint64_t> pieces((count + at_a_time - 1) / at_a_time);
@@ -79,7 +81,7 @@ void AddPieces(size_t count, size_t at_a_time, Hasher* hash, const HashPieceOf& 
   for (const uint64_t piece : pieces) hash->Word(piece);
 }
 
-constexpr size_t kPiece = size_t{1} << 20;  // bytes of a long array
+constexpr size_t kPiece = size_t{1} << 20;  // bytes in a piece of a long array
 
 template <class T>
 std::span<const unsigned char> BytesOf(std::span<const T> values) {
@@ -87,7 +89,7 @@ std::span<const unsigned char> BytesOf(std::span<const T> values) {
   return {reinterpret_cast<const unsigned char*>(values.data()), values.size_bytes()};
 }
 
-// Long arrays.
+// Adds a long array, piece by piece on several threads.
 template <class T>
 void AddArray(std::span<const T> values, Hasher* hash) {
   const std::span<const unsigned char> bytes = BytesOf(values);
@@ -99,31 +101,36 @@ void AddArray(const std::vector<T, Allocator>& values, Hasher* hash) {
   AddArray(std::span<const T>(values), hash);
 }
 
-void Add(const Camera& camera, Hasher* hash) {
-  hash->Word(static_cast<uint64_t>(camera.projection));
-  hash->Add(camera.position);
-  hash->Add(camera.look_at);
-  hash->Add(camera.up);
-  hash->Add(camera.projection == Projection::kPerspective ? camera.fov_y_deg : camera.height);
+// Adds the values of all keys of `owner` (scene/keys.h).
+template <class Owner>
+void AddKeys(const Owner& owner, Hasher* hash) {
+  for (const SceneKey<Owner>& key : KeysFor(owner)) {
+    const Vec3d value = key.get(owner);
+    switch (key.form) {
+      case KeyForm::kNumber:
+        hash->Add(value.x);
+        break;
+      case KeyForm::kColor:
+      case KeyForm::kPoint:
+      case KeyForm::kDirection:
+        hash->Add(value);
+        break;
+      case KeyForm::kWhole:
+      case KeyForm::kBoolean:
+      case KeyForm::kChoice:
+        hash->Word(static_cast<uint64_t>(value.x));
+        break;
+    }
+  }
 }
 
-void Add(const ImageSettings& image, Hasher* hash) {
-  hash->Word(static_cast<uint64_t>(image.width));
-  hash->Word(static_cast<uint64_t>(image.height));
-  hash->Word(static_cast<uint64_t>(image.spp));
-  hash->Word(static_cast<uint64_t>(image.filter.kind));
-  hash->Add(image.filter.width);
-  hash->Word(image.seed);
-  hash->Word(image.shadows);
-  hash->Word(image.culling);
-}
-
-// The hashes of what scenes share: those that were kept, and those that are needed now.
+// The hashes of pictures and meshes that scenes share: finds those that were kept from the last
+// call, and collects those that this call uses.
 class SharedHashes {
  public:
   explicit SharedHashes(const KeptHashes* kept) : kept_(kept) {}
 
-  // That of `source`, made by add(&hasher) unless it was kept.
+  // The hash of `source`: the one that was kept, or else one that add(&hasher) computes.
   template <class Source, class AddTo>
   uint64_t Of(const std::shared_ptr<const Source>& source, const AddTo& add) {
     if (const KeptHashes::Entry* const known = Find(source.get())) return Use(*known);
@@ -151,7 +158,7 @@ class SharedHashes {
   std::vector<KeptHashes::Entry> used_;
 };
 
-// Contents, not names of files.
+// Hashes the contents of an image; its file name does not count.
 void Add(const SceneImage& image, SharedHashes* shared, Hasher* hash) {
   const MipLevel& whole = image.texels->levels[0];
   hash->Word(static_cast<uint64_t>(whole.width));
@@ -184,7 +191,7 @@ void Add(const Texture& texture, Hasher* hash) {
   hash->Word(texture.second_uvs);
 }
 
-// Nothing for a material without maps.
+// Adds nothing for a material without maps.
 void AddMaps(const Material& material, Hasher* hash) {
   const MaterialModel* const model = ModelOf(material);
   if (model == nullptr) return;
@@ -215,7 +222,7 @@ void AddSplit(const SplitMaterial& split, Hasher* hash) {
   for (const MaterialId id : split.materials) hash->Add(id);
 }
 
-// All that the table of parameters names.
+// Adds all parameters and choices of the material's model (scene/material_parameters.h).
 void AddModel(const Material& material, Hasher* hash) {
   const MaterialModel* const model = ModelOf(material);
   if (model == nullptr) return AddSplit(std::get<SplitMaterial>(material.model), hash);
@@ -229,53 +236,15 @@ void AddModel(const Material& material, Hasher* hash) {
   }
 }
 
+// Adds a kind of light, or of sky: its keys, and the contents of the mesh or picture that it refers
+// to.
 struct AddLightKind {
   SharedHashes* shared;
   Hasher* hash;
-  void Falloff(const Attenuation& a) const {
-    hash->Add(a.constant);
-    hash->Add(a.linear);
-    hash->Add(a.quadratic);
-  }
-  void operator()(const AmbientLight& light) const { hash->Add(light.radiance); }
-  void operator()(const DirectionalLight& light) const {
-    hash->Add(light.direction_of_travel);
-    hash->Add(light.irradiance);
-  }
-  void operator()(const PointLight& light) const {
-    hash->Add(light.position);
-    hash->Add(light.intensity);
-    Falloff(light.attenuation);
-  }
-  void operator()(const SpotLight& light) const {
-    hash->Add(light.position);
-    hash->Add(light.direction_of_travel);
-    hash->Add(light.intensity);
-    Falloff(light.attenuation);
-    hash->Add(light.cutoff_deg);
-    hash->Add(light.inner_deg);
-    hash->Add(light.exponent);
-    hash->Word(static_cast<uint64_t>(light.edge));
-  }
-  void operator()(const SphereAreaLight& light) const {
-    hash->Add(light.center);
-    hash->Add(light.radius);
-    hash->Add(light.radiance);
-    hash->Word(light.visible);
-  }
-  void operator()(const RectangleAreaLight& light) const {
-    hash->Add(light.center);
-    hash->Add(light.facing);
-    hash->Add(light.up);
-    hash->Add(light.width);
-    hash->Add(light.height);
-    Surface(light);
-  }
-  void operator()(const DiskAreaLight& light) const {
-    hash->Add(light.center);
-    hash->Add(light.facing);
-    hash->Add(light.radius);
-    Surface(light);
+
+  template <class Kind>
+  void operator()(const Kind& kind) const {
+    AddKeys(kind, hash);
   }
   void operator()(const MeshAreaLight& light) const {
     hash->Word(light.mesh->positions.size());
@@ -284,38 +253,18 @@ struct AddLightKind {
       AddArray(light.mesh->positions, own);
       AddArray(light.mesh->triangles, own);
     }));
-    Surface(light);
+    AddKeys(light, hash);
   }
   void operator()(const EnvironmentLight& light) const {
     hash->Word(light.sky.index());
     std::visit(*this, light.sky);
-    hash->Add(light.rotate_deg);
-    hash->Word(light.background);
-  }
-  void operator()(const ConstantSky& sky) const { hash->Add(sky.radiance); }
-  void operator()(const GradientSky& sky) const {
-    hash->Add(sky.zenith);
-    hash->Add(sky.horizon);
-    hash->Add(sky.ground);
-  }
-  void operator()(const QuadraticSky& sky) const {
-    hash->Add(sky.radiance);
-    hash->Add(sky.axis);
-    hash->Add(sky.constant);
-    hash->Add(sky.linear);
-    hash->Add(sky.quadratic);
+    AddKeys(light, hash);
   }
   void operator()(const PictureSky& sky) const {
     hash->Word(static_cast<uint64_t>(sky.picture->width));
     hash->Word(static_cast<uint64_t>(sky.picture->height));
     hash->Word(shared->Of(sky.picture, [&](Hasher* own) { AddArray(sky.picture->rgb, own); }));
-    hash->Add(sky.scale);
-  }
-  template <class Flat>
-  void Surface(const Flat& light) const {
-    hash->Add(light.radiance);
-    hash->Word(light.two_sided);
-    hash->Word(light.visible);
+    AddKeys(sky, hash);
   }
 };
 
@@ -339,7 +288,8 @@ uint64_t HashSphere(const Sphere& sphere) {
 void AddShapes(std::span<const Sphere> spheres, std::span<const Mesh> meshes, Hasher* hash) {
   hash->Word(spheres.size());
   AddPieces(spheres.size(), kSpheresAtATime, hash, [&](size_t first, size_t end) {
-    // Each by itself: in one chain each product waits for the one before.
+    // Each sphere is hashed by itself: in one chain each multiplication would wait for the one
+    // before.
     Hasher piece;
     for (size_t i = first; i < end; ++i) piece.Word(HashSphere(spheres[i]));
     return piece.state();
@@ -368,7 +318,8 @@ void AddShapes(std::span<const Sphere> spheres, std::span<const Mesh> meshes, Ha
   }
 }
 
-// Group by group, so that where one material has changed the hashes of few are joined.
+// Hashes of materials are combined in groups, so that after a change of one material few of them
+// need be combined again.
 constexpr size_t kMaterialGroup = 256;
 
 void AddMaterials(const std::vector<Material>& materials, KeptHashes* kept, Hasher* hash) {
@@ -406,8 +357,8 @@ void KeptHashes::ForgetMaterial(size_t material) {
 uint64_t HashScene(const Scene& scene, KeptHashes* kept) {
   Hasher hash;
   SharedHashes shared(kept);
-  Add(scene.camera, &hash);
-  Add(scene.image, &hash);
+  AddKeys(scene.camera, &hash);
+  AddKeys(scene.image, &hash);
   hash.Add(scene.background);
   for (const SceneImage& image : scene.images) Add(image, &shared, &hash);
   for (const Texture& texture : scene.textures) Add(texture, &hash);

@@ -12,29 +12,30 @@
 
 namespace nacre {
 
-// What is costly to hash, from one call to the next: pictures and meshes that scenes share, which
-// never change; and shapes and materials, if the caller knows that these have not changed.
+// Hashes that are costly to compute, kept from one call to the next: those of pictures and meshes
+// that scenes share, which never change, and those of shapes and materials, if the caller knows
+// that these have not changed.
 struct KeptHashes {
   struct Entry {
-    std::shared_ptr<const void> source;  // held, so that no other has its address
+    std::shared_ptr<const void> source;  // owned, so that no other object can get its address
     uint64_t hash;
   };
-  std::vector<Entry> shared;       // those of the scene that was hashed last
+  std::vector<Entry> shared;       // used by the scene that was hashed last
   std::optional<uint64_t> shapes;  // HashShapes()
-  // Of materials, and of groups of them. What is set is up to date.
+  // The hashes of materials and of groups of them. Those that are set are up to date.
   std::vector<std::optional<uint64_t>> materials, material_groups;
 
   void ForgetMaterials();
   void ForgetMaterial(size_t material);
 };
 
-// Equal for scenes that render the same picture because they hold the same values; written into
-// image headers, so that parts of one picture know each other. Not cryptographic. Names of
-// materials do not count, sample count and image size do.
-// `kept` may be null.
+// A hash of all values that determine the picture, which is equal for scenes with equal values. It
+// is written into image headers, so that parts of one picture can be recognised. Not cryptographic.
+// Names of materials do not count; sample count and image size do. `kept` is read and updated; it
+// may be null.
 uint64_t HashScene(const Scene& scene, KeptHashes* kept = nullptr);
 
-// Likewise of the spheres and meshes alone.
+// A hash of the spheres and meshes only.
 uint64_t HashShapes(std::span<const Sphere> spheres, std::span<const Mesh> meshes);
 inline uint64_t HashShapes(const Scene& scene) { return HashShapes(scene.spheres, scene.meshes); }
 

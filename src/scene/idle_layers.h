@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene/idle_layers.h: coats, sheen and emission that are known to show nothing.
+// scene/idle_layers.h: removes coats, sheen and emission that are known to contribute nothing.
 #pragma once
 
 #include <optional>
@@ -8,9 +8,9 @@
 
 namespace nacre {
 
-// Takes what shows nothing away from the material, with its maps: a coat, a sheen or an emission
-// whose factor is 0, or whose map is black. It would cost time and change no bit. Returns the
-// material as it was; nothing if it stays so.
+// Removes each coat, sheen and emission, with its maps, whose factor is 0 or whose map is black: it
+// would cost time and change no bit. Returns the original material, or nullopt if nothing was
+// removed.
 std::optional<Material> RemoveIdleLayers(const Scene& scene, Material* material);
 
 }  // namespace nacre

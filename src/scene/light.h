@@ -39,15 +39,16 @@ struct PointLight {
   Attenuation attenuation;
 };
 
-// The curve from cutoff to inner angle, over the cosine t scaled to [0, 1] in between.
+// The penumbra as a function of t, the cosine scaled to 0 at the cutoff angle and 1 at the inner
+// angle.
 enum class SpotEdge : uint8_t {
   kSmoothstep,  // t^2 (3 - 2 t)
-  kSquare,      // t^2, as glTF's KHR_lights_punctual has it
+  kSquare,      // t^2, as in glTF's KHR_lights_punctual
 };
 
-// Intensity times cos(a)^exponent within the cone (a: angle from the axis), dark at and beyond
-// cutoff_deg; between inner_deg and cutoff_deg a smooth penumbra. inner_deg == cutoff_deg is the
-// hard cone.
+// The intensity is multiplied by cos(a)^exponent within the cone, where a is the angle from the
+// axis. The light is dark at and beyond cutoff_deg, with a smooth penumbra between inner_deg and
+// cutoff_deg; inner_deg == cutoff_deg gives a hard edge.
 struct SpotLight {
   Vec3d position{0, 0, 0};
   Vec3d direction_of_travel{0, -1, 0};  // the axis, any length > 0
@@ -59,8 +60,8 @@ struct SpotLight {
   SpotEdge edge = SpotEdge::kSmoothstep;
 };
 
-// Surfaces that emit the same radiance everywhere and in all directions. `visible`: the camera sees
-// them, and they block the light of others.
+// Area lights are surfaces that emit the same radiance everywhere and in all directions. If
+// `visible`, the camera sees them, and they occlude other lights.
 
 // Emits outwards.
 struct SphereAreaLight {
@@ -91,29 +92,32 @@ struct DiskAreaLight {
 
 struct Mesh;
 
-// Triangles that emit on the side where their corners run counter-clockwise. Along a direction the
-// nearest of them is seen, by the camera and by what it shines on.
+// Triangles that emit from the side on which their corners run counter-clockwise. Along any
+// direction only the nearest triangle is seen, by the camera and by the surfaces that the light
+// shines on.
 struct MeshAreaLight {
-  // Its positions and triangles count. Shared by copies of the scene, never changed.
+  // Only its positions and triangles are used. Shared by copies of the scene, never changed.
   std::shared_ptr<const Mesh> mesh;
   Rgb radiance{1, 1, 1};
   bool two_sided = false;
   bool visible = true;
 };
 
-// What an environment looks like. Directions are unit vectors; +y is up.
+// The radiance of an environment by direction is one of the four structs that follow. Directions
+// are unit vectors, with +y up.
 struct ConstantSky {
   Rgb radiance{1, 1, 1};
 };
 
-// From the horizon's colour to the zenith's with the height y of the direction, mix(horizon,
-// zenith, y); below the horizon likewise to the ground's.
+// The colour goes from the horizon's to the zenith's with the height y of the direction,
+// mix(horizon, zenith, y), and below the horizon in the same way to the ground's, mix(horizon,
+// ground, -y).
 struct GradientSky {
   Rgb zenith{0.3, 0.5, 1}, horizon{1, 1, 1}, ground{0.2, 0.2, 0.2};
 };
 
-// radiance (constant + linear c + quadratic c^2), c the cosine of the angle from `axis`; >= 0 for
-// every c in [-1, 1].
+// The radiance is `radiance` (constant + linear c + quadratic c^2), where c is the cosine of the
+// angle from `axis`; it must be >= 0 for every c in [-1, 1].
 struct QuadraticSky {
   Rgb radiance{1, 1, 1};
   Vec3d axis{0, 1, 0};  // any length > 0
@@ -121,8 +125,8 @@ struct QuadraticSky {
 };
 
 // Linear radiance by direction, row by row from +y down to -y: the texel at (u, v) in [0, 1)^2 is
-// seen in the direction (sin 2 pi u sin pi v, cos pi v, -cos 2 pi u sin pi v). A texel has one
-// value all over.
+// seen in the direction (sin 2 pi u sin pi v, cos pi v, -cos 2 pi u sin pi v). Radiance is constant
+// over each texel.
 struct SkyPicture {
   int width = 0, height = 0;
   HugeVector<float> rgb;  // 3 width height, each >= 0

@@ -10,7 +10,7 @@
 namespace nacre {
 namespace {
 
-// 1 - cos(pi / n) is below 5e-6.
+// The number of corners of a disk's polygon: 1 - cos(pi / n) is below 5e-6.
 constexpr uint32_t kDiskCorners = 1024;
 
 template <class AreaLight>
@@ -42,11 +42,12 @@ Mesh MakeMesh(const DiskAreaLight& light) {
     mesh.positions.push_back(light.center +
                              (x * std::cos(angle) + y * std::sin(angle)) * light.radius);
   }
-  // A fan from corner to corner, of about equal pieces at each halving, has no needles.
+  // Each pass cuts off every second of the corners that are left. Its triangles are about equal in
+  // size, and none is a needle, as in a fan around one corner.
   for (uint32_t step = 1; step < kDiskCorners; step *= 2) {
     for (uint32_t i = 0; i + step < kDiskCorners; i += 2 * step) {
       const uint32_t last = (i + 2 * step) % kDiskCorners;
-      if (last == i) continue;  // the two halves meet in one line
+      if (last == i) continue;  // only two corners are left
       mesh.triangles.insert(mesh.triangles.end(), {i, i + step, last});
     }
   }
@@ -60,19 +61,21 @@ Mesh MakeMesh(const MeshAreaLight& light) {
   return mesh;
 }
 
-// How far two planes that are one may be apart for rays of the camera: its and their coordinates'
-// roundings in the shape, relative to the camera and in the depth of a hit, some 300 2^-53 of them
-// for shapes without needles.
+// An upper bound of how far apart two planes that coincide may be for rays of the camera. It covers
+// the rounding of the coordinates of camera and shapes when shapes are made, when they are taken
+// relative to the camera, and in the depth of a hit: some 300 2^-53 of the coordinates for shapes
+// without needles.
 double PlaneRounding(const std::vector<Vec3d>& positions, const Vec3d& camera) {
   double extent = 0;
   for (const Vec3d& p : positions) extent = std::max(extent, SumOfAbs(p));
   return 0x1p-44 * (extent + SumOfAbs(camera));
 }
 
-// The unit normal of a mesh whose triangles lie in one plane and face the same way; or none.
+// The unit normal of a mesh whose triangles all lie in one plane and face the same way; nullopt for
+// other meshes.
 std::optional<Vec3d> NormalOfFlat(const Mesh& mesh, double rounding) {
   Vec3d normal(0), from(0);
-  double size2 = 0;  // of the largest triangle, which says it best
+  double size2 = 0;  // of the largest triangle, whose normal is the most accurate
   const auto corner = [&](size_t i) { return mesh.positions[mesh.triangles[i]]; };
   const auto cross = [&](size_t i) {
     return (corner(i + 1) - corner(i)).cross(corner(i + 2) - corner(i));
@@ -94,8 +97,8 @@ std::optional<Vec3d> NormalOfFlat(const Mesh& mesh, double rounding) {
   return normal;
 }
 
-// A flat lamp lies in front of a surface of its plane, as one let into a floor or a ceiling: by
-// more than what rounding could hide of it, and far less than can be seen.
+// Moves a flat light in front of surfaces in its plane, as when it is let into a floor or a
+// ceiling: by more than rounding errors could hide, and by far less than can be seen.
 void LiftFromItsPlane(const Vec3d& camera, Mesh* mesh) {
   const double rounding = PlaneRounding(mesh->positions, camera);
   const std::optional<Vec3d> normal = NormalOfFlat(*mesh, rounding);
@@ -103,7 +106,7 @@ void LiftFromItsPlane(const Vec3d& camera, Mesh* mesh) {
   for (Vec3d& p : mesh->positions) p += *normal * rounding;
 }
 
-// Puts the meshes of lights, which are the last ones, where they are for the scene's camera.
+// Places the meshes of lights, which are the last ones, for the camera of `scene`.
 void MoveLightMeshes(const Scene& scene, SceneWithLights* with) {
   size_t next = scene.meshes.size();
   for (size_t i = 0; i < scene.lights.size(); ++i) {

@@ -24,9 +24,9 @@ struct LightBall {
   Vec3d center;
   double radius;
 };
-// Around a mesh that has positions.
+// A ball around the positions of a mesh, of which there is at least one.
 LightBall BallAround(const std::vector<Vec3d>& positions);
-// Around a light, if it is a visible surface.
+// A ball around an area light; nullopt if the light is not a visible surface.
 std::optional<LightBall> VisibleBall(const Light& light);
 
 // Primitives [begin, end), as Scene numbers them: spheres first, then the meshes' triangles.
@@ -36,18 +36,19 @@ struct PrimitiveRange {
   bool Contains(uint32_t primitive) const { return primitive >= begin && primitive < end; }
 };
 
-// The scene with visible lights as further spheres and meshes, after those it has, of emissive
-// black materials: those of `shown`, by light. And for each light its primitives, or none. A disk
-// is a polygon of so many corners that its edge is 5e-6 of the radius off. Flat lights lie in front
-// of surfaces of the same plane, by 2^-44 of the coordinates.
+// The scene with area lights added, after its own shapes, as spheres and meshes of black, emissive
+// materials: light i if shown[i]. primitives[i] are those of light i, or an empty range. A disk is
+// a polygon with so many corners that its edge is off by at most 5e-6 of the radius. Flat lights
+// are moved in front of surfaces in the same plane by 2^-44 of the coordinates.
 struct SceneWithLights {
   Scene scene;
   std::vector<PrimitiveRange> primitives;
 };
 SceneWithLights AddLightShapes(const Scene& scene, const std::vector<bool>& shown);
 
-// Takes over from `scene` all but shapes, and materials, which the caller does: one whose lights
-// and shapes are those that `with` was made of. Flat lights are lifted for its camera.
+// Copies everything but shapes and materials, which the caller copies, from `scene` to `with`. The
+// lights and shapes of `scene` must be those that `with` was made from. Flat lights are moved again
+// if the camera's position has changed.
 void UpdateAllButShapes(const Scene& scene, SceneWithLights* with);
 
 }  // namespace nacre

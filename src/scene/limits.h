@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene/limits.h: the ranges of the numbers in a scene, defined once: the reader of scene files,
-// Validate() and the test of the JSON Schema all use these.
+// scene/limits.h: the ranges of the numbers in a scene, defined once. The reader of scene files,
+// Validate() and the test of the JSON Schema all use them.
 #pragma once
 
 #include <cstdint>
@@ -29,16 +29,16 @@ std::string Describe(const Range& range);
 
 namespace limits {
 
-// Positions and lengths: products of four of them stay finite in double, and so do the squares in
-// float; from the size of an atom's core to a light year in metres.
+// Positions and lengths. Products of four of them stay finite in double, and so do the squares in
+// float. In metres the range goes from the size of an atom's nucleus to a tenth of a light year.
 inline constexpr Range kCoordinate{-1e15, 1e15};
 inline constexpr Range kLength{1e-15, 1e15};
 
-// Radiance, irradiance, radiant intensity: finite in float with room for a sum of many lights. As
-// float has it, 1e30 is a little more than in double: values that were floats are in the range.
+// Radiance, irradiance, radiant intensity: finite in float, with room for a sum of many lights.
+// 1e30f is a little more than 1e30, so that values that were floats are in the range.
 inline constexpr Range kRadiance{0, 1e30f};
 inline constexpr Range kUnit{0, 1};
-// Indices of refraction: of metals eta may be far below 1, and k reaches 10 or more in the red.
+// Indices of refraction. A metal's eta may be far below 1, and its k reaches 10 or more in the red.
 inline constexpr Range kIor{1, 10};
 inline constexpr Range kEta{0.001, 100};
 inline constexpr Range kExtinction{0, 100};
@@ -49,16 +49,16 @@ inline constexpr Range kSpp{1, 65536};
 inline constexpr Range kFilterWidth{0, 16, true, false};
 inline constexpr Range kSeed{0, 4294967295.0};
 
-// Exponents of cosines: of the Phong family and of spot lights.
+// Exponents of cosines, of the Phong family and of spot lights.
 inline constexpr Range kExponent{0, 1e9};
 inline constexpr Range kAttenuation{0, 1e15};
 inline constexpr Range kCutoffDeg{0, 180, true, false};
 inline constexpr Range kInnerDeg{0, 180};
-// Of a quadratic sky.
+// Terms of a quadratic sky.
 inline constexpr Range kSkyTerm{-1e6, 1e6};
 inline constexpr Range kSplitAt{0, 1, true, true};
 
-// Texture coordinates: what they are scaled by and moved by. Far from 0 they lose their digits.
+// Factors on texture coordinates, and offsets added to them. Far from 0, coordinates lose digits.
 inline constexpr Range kTextureScale{-1e6, 1e6};
 inline constexpr Range kAngleDeg{-36000, 36000};
 inline constexpr Range kDisplacedSegments{3, 4096};
@@ -71,15 +71,15 @@ inline constexpr double kMaxSamples = 1e13;
 // Spheres and triangles together: ids are 32 bits wide and the last one means none.
 inline constexpr uint64_t kMaxPrimitives = 0xfffffffeu;
 
-// Those that a file may be made into: 100 bytes of text can ask for a cloud of 1e8 spheres, and a
-// file can do so many times. 8 GB of spheres.
+// The most primitives that a file may generate: 100 bytes of text can ask for a cloud of 1e8
+// spheres, and a file can do so many times. As spheres they take 8 GB.
 inline constexpr uint64_t kMaxPrimitivesMade = 200'000'000;
 
 inline constexpr Range kCloudCount{1, 1e8};
 inline constexpr Range kGridCount{1, 1000};
 
 inline constexpr Range kCreaseAngleDeg{0, 180};
-// Meshes of spheres: at most 327 680 and 4 194 304 faces.
+// Spheres as meshes. An icosphere has at most 327 680 faces, a uv sphere 4 194 304.
 inline constexpr Range kSubdivisions{0, 7};
 inline constexpr Range kSegments{3, 2048};
 inline constexpr Range kRings{2, 1025};

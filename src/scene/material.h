@@ -17,10 +17,11 @@
 namespace nacre {
 
 // How the Phong family's coefficients are read.
-//   kClassic: the equations as the lessons write them: no 1/pi, no lobe normalisation; the
-//     light's irradiance perpendicular to it takes the place of I_l.
-//   kRadiometric: kd/pi, and lobes normalised so that ks is what they reflect of light from along
-//     the normal (brdf/phong.h); comparable with the physical models under the same light.
+//   kClassic: the equations as the lessons write them, without 1/pi and lobe normalisation; the
+//     irradiance of a surface that faces the light takes the place of I_l.
+//   kRadiometric: kd/pi, and lobes normalised so that ks is the share that they reflect of light
+//     from along the normal (brdf/phong.h); comparable with the physical models under the same
+//     light.
 enum class PhongConvention : uint8_t { kClassic, kRadiometric };
 
 enum class PhongModel : uint8_t {
@@ -34,14 +35,15 @@ struct LambertMaterial {
   TextureId albedo_map{};
 };
 
-// Rough clay, plaster, the moon: as bright at its edge as in its middle. Keeps energy (brdf/eon.h).
+// Rough clay, plaster, the moon: as bright at the edge as in the middle. Conserves energy
+// (brdf/eon.h).
 struct OrenNayarMaterial {
   Rgb albedo{0.5, 0.5, 0.5};  // each in [0, 1]
-  double roughness = 0.5;     // the model's own, in [0, 1]; 0: Lambert's
+  double roughness = 0.5;     // the model's own, in [0, 1]; 0: Lambert
   TextureId albedo_map{};
 };
 
-// Disney's diffuse term (brdf/burley.h), fitted to measurements. Makes light at grazing angles.
+// Disney's diffuse term (brdf/burley.h), fitted to measurements. Gains energy at grazing angles.
 struct BurleyMaterial {
   Rgb albedo{0.5, 0.5, 0.5};  // each in [0, 1]
   double roughness = 0.5;     // perceptual, in [0, 1]
@@ -56,30 +58,31 @@ struct PhongMaterial {
   Rgb kd{0.7, 0.7, 0.7};
   Rgb ks{0.3, 0.3, 0.3};
   double shininess = 32;      // exponent n >= 0
-  TextureId diffuse_map{};    // of color kd and color ka
-  TextureId specular_map{};   // of ks
-  TextureId shininess_map{};  // of the exponent
+  TextureId diffuse_map{};    // multiplies color
+  TextureId specular_map{};   // multiplies ks
+  TextureId shininess_map{};  // multiplies shininess
 };
 
-// The light that bounces more than once between microfacets, which a single-scattering lobe
-// loses: 59 % of it at roughness 1.
+// What replaces the light that bounces more than once between microfacets, which a
+// single-scattering lobe loses: 59 % at roughness 1.
 enum class Compensation : uint8_t {
-  kTurquin,     // scales the lobe to what the viewer lacks (Turquin 2019); not reciprocal
+  kTurquin,     // scales the lobe by what is lost towards the viewer (Turquin 2019); not reciprocal
   kKullaConty,  // adds a diffuse-like lobe (Kulla and Conty 2017); reciprocal
   kNone,        // single scattering, energy lost
 };
 
-// How much light the diffuse base gets from under the specular lobe.
+// How much light reaches the diffuse base below the specular lobe.
 enum class DiffuseCoupling : uint8_t {
-  kAlbedoScaled,     // what the dielectric's albedo leaves: a white surface reflects exactly all
-  kOneMinusFresnel,  // 1 - F(v.h), the lesson's; a white surface may reflect 1.8 times the light
-  kNone,             // all of it
+  kAlbedoScaled,     // what the dielectric's albedo leaves: a white surface reflects all light
+  kOneMinusFresnel,  // 1 - F(v.h), as in many lessons; a white surface may reflect 180 %
+  kNone,             // all light
 };
 
-// What a sheen leaves to the layers below it, and so whether a white surface reflects all light.
+// How much light a sheen of albedo E and largest colour component m leaves to the layers below it,
+// which decides whether a white surface reflects all light.
 enum class SheenScaling : uint8_t {
-  kReciprocal,  // by the darker side, of viewer and light: loses up to 14 %
-  kConserving,  // by the viewer's side alone; not reciprocal
+  kReciprocal,  // 1 - m E of viewer or light, whichever is less: loses up to 14 %
+  kConserving,  // 1 - m E of the viewer; not reciprocal
 };
 
 // How the diffuse base of a microfacet model reflects.
@@ -88,40 +91,42 @@ enum class DiffuseForm : uint8_t { kLambert, kOrenNayar, kBurley };
 // The microfacet models have a GGX lobe each. Roughness is perceptual, in [0, 1]:
 // alpha = roughness^2; below kDeltaRoughness (brdf/ggx.h) it is a perfect mirror.
 
-// Metallic-roughness as in glTF 2.0 with KHR_materials_ior and KHR_materials_specular: by metallic
-// a mix of GGX with Schlick's Fresnel from specular dielectric_f0 to specular, over a diffuse base
-// base_color / pi, and of GGX with Schlick's Fresnel from base_color to 1.
+// Metallic-roughness as in glTF 2.0 with KHR_materials_ior and KHR_materials_specular: a mix, by
+// metallic, of a dielectric and a metal. The dielectric is a GGX lobe whose Schlick Fresnel goes
+// from specular dielectric_f0 to specular, over a diffuse base base_color / pi. The metal is a GGX
+// lobe whose Schlick Fresnel goes from base_color to 1.
 struct MetallicRoughnessMaterial {
   Rgb base_color{0.8, 0.8, 0.8};  // each in [0, 1]
   double metallic = 0;            // in [0, 1]
-  // What it reflects at normal incidence where it is no metal; each in [0, 1].
+  // Reflectance of the dielectric at normal incidence; each in [0, 1].
   Rgb dielectric_f0{0.04, 0.04, 0.04};
-  double specular = 1;  // in [0, 1]: how much of that there is, at all angles
-  // What Schlick's reflectance at cosine 1/7 (81.8 degrees) is multiplied by (Kutz et al. 2021):
-  // the dip of real metals just before grazing. 1: Schlick's curve itself.
+  double specular = 1;  // in [0, 1]: strength of the dielectric's reflection at all angles
+  // Factor on the metal's Schlick reflectance at cosine 1/7 (81.8 degrees; Kutz et al. 2021): the
+  // dip of real metals just before grazing incidence. 1: Schlick's curve itself.
   Rgb f82_tint{1, 1, 1};  // each in [0, 1]
   double roughness = 0.5;
   Shadowing shadowing = Shadowing::kHeightCorrelated;
   Compensation compensation = Compensation::kTurquin;
   DiffuseCoupling diffuse_coupling = DiffuseCoupling::kAlbedoScaled;
   DiffuseForm diffuse = DiffuseForm::kLambert;
-  std::optional<double> diffuse_roughness{};  // of the base, in [0, 1]; none: the lobe's
+  std::optional<double> diffuse_roughness{};  // of the base, in [0, 1]; nullopt: `roughness`
   TextureId base_color_map{};
   TextureId metallic_roughness_map{};  // as in glTF: green multiplies roughness, blue metallic
-  TextureId specular_map{};            // of `specular`
-  TextureId specular_color_map{};      // of dielectric_f0
-  // A clear coat over all of that (CoatOf): how much of it there is, its roughness, and its index
-  // of refraction. As KHR_materials_clearcoat of glTF, but that what is below gets what the coat's
-  // albedo leaves.
+  TextureId specular_map{};            // multiplies specular
+  TextureId specular_color_map{};      // multiplies dielectric_f0
+  // The strength, roughness and index of refraction of a clear coat over all of the above (CoatOf).
+  // As glTF's KHR_materials_clearcoat, except that the layers below get what the coat's albedo
+  // leaves.
   double coat = 0;                 // in [0, 1]
   double coat_roughness = 0;       // in [0, 1]
   double coat_ior = 1.5;           // in [1, 10]
   TextureId coat_map{};            // red multiplies coat
   TextureId coat_roughness_map{};  // green multiplies coat_roughness
-  NormalMap coat_normal_map{};     // of the coat alone, which the normal map of the base is not for
-  // The fuzz of cloth (brdf/sheen.h), between the coat and the rest, as KHR_materials_sheen.
+  NormalMap coat_normal_map{};     // of the coat, which normal_map does not affect
+  // The sheen of cloth (brdf/sheen.h), between the coat and the other layers, as
+  // KHR_materials_sheen.
   Rgb sheen_color{0, 0, 0};    // each in [0, 1]; 0: none
-  double sheen_roughness = 0;  // in [0, 1]; 0: none is seen
+  double sheen_roughness = 0;  // in [0, 1]; 0: none
   SheenScaling sheen_scaling = SheenScaling::kReciprocal;
   TextureId sheen_color_map{}, sheen_roughness_map{};
 };
@@ -145,7 +150,7 @@ struct ConductorMaterial {
 
 enum class DielectricFresnel : uint8_t { kExact, kSchlick };
 
-// A clear coat of index of refraction `ior` over a diffuse base; nothing is transmitted, so a
+// A dielectric coat of index of refraction `ior` over a diffuse base. Nothing is transmitted, so a
 // black base shows the reflection of glass alone.
 struct DielectricMaterial {
   Rgb base_color{0.8, 0.8, 0.8};  // each in [0, 1]
@@ -156,13 +161,13 @@ struct DielectricMaterial {
   Compensation compensation = Compensation::kTurquin;
   DiffuseCoupling diffuse_coupling = DiffuseCoupling::kAlbedoScaled;
   DiffuseForm diffuse = DiffuseForm::kLambert;
-  std::optional<double> diffuse_roughness{};  // of the base, in [0, 1]; none: the lobe's
+  std::optional<double> diffuse_roughness{};  // of the base, in [0, 1]; nullopt: `roughness`
   TextureId base_color_map{};
   TextureId roughness_map{};
 };
 
-// Not a model of its own: chooses among other materials by where the sample lies on screen, in
-// vertical bands. materials.size() == at.size() + 1; `at` ascends in (0, 1), as fractions of the
+// Not a model of its own: chooses among other materials by the vertical band of the image that a
+// sample lies in. materials.size() == at.size() + 1; `at` ascends in (0, 1), as fractions of the
 // image width.
 struct SplitMaterial {
   std::vector<double> at;
@@ -174,27 +179,26 @@ struct UserBrdf;  // scene/user_brdf.h
 struct Material {
   std::string name;
   Rgb emission{0, 0, 0};  // radiance, >= 0
-  // Only spheres' outsides and triangles' fronts emit (from where their corners run
-  // counter-clockwise).
+  // Whether spheres emit only outwards, and triangles only from their fronts: the side from which
+  // their corners run counter-clockwise.
   bool emits_in_front_only = false;
   std::variant<LambertMaterial, PhongMaterial, MetallicRoughnessMaterial, ConductorMaterial,
                DielectricMaterial, SplitMaterial, OrenNayarMaterial, BurleyMaterial>
       model;
-  // Meshes only: triangles have fronts alone. From behind no ray meets them: none of the camera,
-  // and no light.
+  // Meshes only: triangles have only fronts. Rays of the camera and of lights pass through them
+  // from behind.
   bool single_sided = false;
-  // A reflection model of the caller's own, in the place of the model's lobes; or null. All else
-  // that the model says holds: coat, sheen, albedo, what it reflects of ambient light.
+  // A BRDF of the caller's that replaces the model's lobes, or null. All else is as the model says:
+  // coat, sheen, albedo, and the reflection of ambient light.
   std::shared_ptr<const UserBrdf> user{};
-  // Maps multiply the numbers beside them.
+  // A map multiplies the parameter that it is named after.
   TextureId emission_map{};
   NormalMap normal_map{};
   BumpMap bump_map{};
   VertexColors vertex_colors = VertexColors::kNone;
-  // Holes in meshes, as glTF's alphaMode MASK: the surface is there where opacity, times its map
-  // and the mesh's opacities, is at least the cutoff, and elsewhere nothing is, for no ray. A
-  // cutoff above 1 leaves nothing. The map is looked up in the image itself, never in a smaller
-  // copy.
+  // Holes in meshes, as glTF's alphaMode MASK: the surface exists where opacity, times its map and
+  // the mesh's opacities, is at least the cutoff; elsewhere all rays pass through. A cutoff above 1
+  // leaves no surface. The map is looked up in the full-resolution image, never in a mip level.
   double opacity = 1;           // in [0, 1]
   double opacity_cutoff = 0.5;  // >= 0
   TextureId opacity_map{};

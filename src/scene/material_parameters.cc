@@ -49,7 +49,7 @@ constexpr MaterialParameter Color(std::string_view name, const Range& range,
           meaning};
 }
 
-// `options` in the order of the enumeration.
+// `options` are in the order of the enumeration.
 template <auto kMember>
 constexpr MaterialChoice Choice(std::string_view name, std::span<const std::string_view> options,
                                 std::string_view meaning) {
@@ -62,8 +62,8 @@ constexpr MaterialChoice Choice(std::string_view name, std::span<const std::stri
           meaning};
 }
 
-// The parameter `kMember` as what a map multiplies: a colour, or by a channel of the texels a
-// number.
+// The parameter `kMember` as the target of a map: a colour is multiplied by the texel's colour, a
+// number by the given channel of the texel.
 template <auto kMember>
 constexpr MapTarget Target(MappedNumber number, int channel = 0, double most = limits::kUnit.max) {
   using Struct = decltype(StructOf(kMember));
@@ -93,7 +93,8 @@ constexpr MaterialMap Map(std::string_view name, MapUse use, std::string_view me
   return map;
 }
 
-// The roughness of a base: the lobe's unless it is set. One out of range is the lobe's fault alone.
+// The roughness of a diffuse base, which is the lobe's unless it is set. If the lobe's is out of
+// range, this returns 0, so that the fault is reported for the lobe only.
 template <class Struct>
 constexpr MaterialParameter BaseRoughness() {
   return {"diffuse_roughness",
@@ -110,7 +111,7 @@ constexpr MaterialParameter BaseRoughness() {
           "Roughness of a base that is not lambert. Absent: that of the lobe, \"roughness\"."};
 }
 
-// What several models have.
+// Descriptions that several models share.
 constexpr std::string_view kRoughnessMeaning =
     "Perceptual roughness: alpha is its square. Below 2^-20 (9.5e-7) the surface is a perfect "
     "mirror.";
@@ -340,7 +341,7 @@ constexpr std::array kDielectricChoices = {
 constexpr MaterialMap kEmissionMap = Map<&Material::emission_map>(
     "emission_map", MapUse::kColor, "Multiplies emission.",
     Target<&Material::emission>(MappedNumber::kEmission, 0, limits::kRadiance.max));
-// A map whose values go elsewhere.
+// A map without targets, which is looked up elsewhere (MaterialMap::target_count).
 template <auto kMember>
 constexpr MaterialMap Map(std::string_view name, MapUse use, std::string_view meaning) {
   MaterialMap map = Map<kMember>(name, use, meaning, MapTarget{});
@@ -447,7 +448,8 @@ bool HoldsPhong(const Material& material) {
   return phong != nullptr && phong->model == kModel;
 }
 
-// Sheets. The normalised Phong lobes are bright: more than a tenth of ks is white on the screen.
+// The default axes of `nacre grid`. The normalised Phong lobes are bright: with ks above 0.1 a
+// highlight is white on the screen.
 constexpr std::string_view kExponentAxis = "shininess=4:256:4:log";
 constexpr std::string_view kKsAxis = "ks=0:0.1:6";
 constexpr std::string_view kRoughnessAxis = "roughness=0.1:0.9:5";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene/material_parameters.h: the parameters of each material model by name, defined once. The
-// reader of scene files, the JSON Schema, the scene's hash, the axes of grids and Validate() are
-// made of it, and the maps that a model may have.
+// scene/material_parameters.h: the parameters and maps of each material model by name, defined
+// once. The reader of scene files, the JSON Schema, the scene's hash, the axes of grids and
+// Validate() are derived from these tables.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace nacre {
 
-// A number or a colour of a material. A number is passed as a grey: three equal components.
+// A number or a colour of a material. A number is passed as a grey, three equal components.
 struct MaterialParameter {
   std::string_view name;  // as in scene files: "roughness", "base_color"
   bool is_color;
@@ -26,8 +26,8 @@ struct MaterialParameter {
   std::string_view meaning;  // for people: a sentence or two
 };
 
-// One of several named options of a material, numbered from 0. A "preset" sets parameters: choices
-// are made before parameters are set.
+// A parameter with named options, numbered from 0. A "preset" sets other parameters, so choices are
+// made before parameters are set.
 struct MaterialChoice {
   std::string_view name;
   std::span<const std::string_view> options;
@@ -40,15 +40,15 @@ struct MaterialChoice {
 enum class MapUse : uint8_t {
   kColor,    // its 8- and 16-bit files are sRGB unless they say otherwise
   kData,     // numbers, never encoded; the first channel counts
-  kTwoData,  // the same; green and blue count
-  kOpacity,  // its alpha, unless it says otherwise; where surfaces are, not what they look like
+  kTwoData,  // numbers, never encoded; green and blue count
+  kOpacity,  // its alpha, unless it says otherwise; decides where surfaces are, not how they look
 };
 
-// The parameters that hits may have each their own of, of all models, by what they mean.
+// The parameters of all models that may vary by hit, by their meaning.
 enum class MappedNumber : uint8_t {
   kColor,          // albedo, the Phong family's color, base_color
   kSpecularColor,  // ks; dielectric_f0
-  kSpecular,       // the weight of that name
+  kSpecular,       // MetallicRoughnessMaterial::specular
   kWidth,          // roughness of lobes; shininess
   kMetallic,
   kSheenColor,
@@ -64,7 +64,7 @@ struct MapTarget {
   bool is_color;
   int channel;  // of the texels, for a number; colours are multiplied channel by channel
   Rgb (*factor)(const Material&);  // what the map multiplies, as MaterialParameter::get
-  double most;                     // products are kept within [0, most]
+  double most;                     // products are clamped to [0, most]
 };
 
 // A texture that multiplies parameters.
@@ -75,22 +75,22 @@ struct MaterialMap {
   void (*set)(Material&, TextureId);
   std::string_view meaning;
   MapTarget targets[2];
-  // 0: of opacity, which is looked up where rays meet meshes, and of coats, which are surfaces of
-  // their own (scene/coat.h).
+  // 0 for opacity maps, which are looked up where rays meet meshes, and for maps of coats, which
+  // are materials of their own (scene/coat.h).
   size_t target_count;
 };
 inline std::span<const MapTarget> TargetsOf(const MaterialMap& map) {
   return {map.targets, map.target_count};
 }
 
-// A map that turns normals.
+// A normal map.
 struct MaterialNormalMap {
   std::string_view name;
   NormalMap& (*of)(Material&);
   std::string_view meaning;
 };
 inline const NormalMap& NormalMapOf(const MaterialNormalMap& map, const Material& material) {
-  return map.of(const_cast<Material&>(material));  // which it only finds
+  return map.of(const_cast<Material&>(material));  // `of` does not modify it
 }
 
 struct MaterialModel {
@@ -102,7 +102,7 @@ struct MaterialModel {
   std::span<const MaterialChoice> choices;
   std::span<const MaterialMap> maps;
   std::span<const MaterialNormalMap> normal_maps;
-  // What `nacre grid` varies unless it is told: axes as people type them (scene_io/sheet_axis.h).
+  // The default axes of `nacre grid`, as people type them (scene_io/sheet_axis.h).
   std::string_view rows, columns;
 };
 
@@ -115,7 +115,7 @@ const MaterialModel* FindModel(std::string_view name);
 // The model of this material; nullptr for a split.
 const MaterialModel* ModelOf(const Material& material);
 
-// Whether its opacity makes holes in meshes that have none of their own (Mesh::opacities).
+// Whether the material's opacity may cut holes in meshes that have no Mesh::opacities.
 bool CutsHoles(const Material& material);
 
 // The parameter of this name, or nullptr.

@@ -8,7 +8,7 @@
 namespace nacre {
 namespace {
 
-// Imath's row vectors: v * matrix.
+// The matrix of rotations about x, then y, then z, for Imath's row vectors: v * matrix.
 Imath::M33d RotationMatrix(const Vec3d& degrees) {
   const Vec3d angles = degrees * (std::numbers::pi / 180);
   const Vec3d c(std::cos(angles.x), std::cos(angles.y), std::cos(angles.z));
@@ -45,7 +45,8 @@ void ApplyTransform(const Transform& transform, Mesh* mesh) {
     position = (position * transform.scale) * rotation + transform.translate;
   }
   for (Vec3d& normal : mesh->normals) {
-    // The inverse transpose of scaling is scaling by the reciprocals; that of a rotation, itself.
+    // The inverse transpose of a scaling is the scaling by the reciprocals; that of a rotation is
+    // the rotation itself.
     normal = ((normal / transform.scale) * rotation).normalized();
   }
   const Vec3d& scale = transform.scale;

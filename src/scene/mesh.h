@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene/mesh.h: work on triangle meshes: face normals, vertex normals (vertex_normals.cc),
+// scene/mesh.h: functions on triangle meshes: face normals, vertex normals (vertex_normals.cc),
 // transforms.
 #pragma once
 
@@ -11,8 +11,8 @@
 
 namespace nacre {
 
-// The coordinates that a texture is laid on the mesh by: the second ones if it asks for them and
-// the mesh has some.
+// The texture coordinates of the mesh: the second set if `second` is true and the mesh has one,
+// else the first.
 inline const std::vector<Vec2d>& UvsOf(const Mesh& mesh, bool second) {
   return second && !mesh.second_uvs.empty() ? mesh.second_uvs : mesh.uvs;
 }
@@ -32,27 +32,27 @@ enum class NormalWeighting : uint8_t {
   kUniform,  // equally, as lessons do
 };
 
-// Gives the mesh normals: unit ones, one per position, each the weighted average of the faces
-// around it; (0, 1, 0) where no face has an area or they cancel out. Positions at the same place
-// that only uvs tell apart are taken as one. Tangents, which belong to the old normals, go.
+// Gives the mesh unit normals, one per position, each the weighted average of the faces around it;
+// (0, 1, 0) where no face has an area or they cancel out. Positions at the same place that differ
+// only in uvs count as one. Tangents are removed, because they belong to the old normals.
 //
 // Faces that meet along an edge at more than crease_angle_deg are not averaged over it: positions
-// are then repeated, so that each side has normals of its own. From 180 on nothing is a crease. Of
-// more than two faces on one edge only consecutive triangles are compared. On up to `threads`
-// threads (0: as many as the machine has).
+// are repeated, so that each side has normals of its own. From 180 on, nothing is a crease. Where
+// more than two faces share an edge, only consecutive triangles are compared. Runs on up to
+// `threads` threads (0: as many as the machine has).
 void ComputeNormals(NormalWeighting weighting, double crease_angle_deg, Mesh* mesh,
                     int threads = 1);
 
-// For models that come without normals and do not say which of their edges are sharp.
+// The crease angle of models that have no normals and do not say which of their edges are sharp.
 inline constexpr double kModelCreaseAngleDeg = 45;
 
-// Puts averages of the faces, by angle, in the place of normals that are not unit vectors.
+// Replaces normals that are not unit vectors by angle-weighted averages of the faces.
 void MendNormals(Mesh* mesh);
 
 // Whether any triangle has an area.
 bool HasArea(const Mesh& mesh);
 
-// Takes those away that no ray can hit.
+// Removes the meshes that no ray can hit.
 void DropMeshesWithoutArea(Scene* scene);
 
 // Scales, then rotates about x, then y, then z by right-handed degrees, then translates.
@@ -62,7 +62,8 @@ struct Transform {
   Vec3d rotate_deg{0, 0, 0};
 };
 
-// Transforms positions, normals and tangents; a mirrored mesh keeps its outside outside.
+// Transforms positions, normals and tangents. The winding of a mirrored mesh is reversed, so that
+// its outside stays outside.
 void ApplyTransform(const Transform& transform, Mesh* mesh);
 
 }  // namespace nacre

@@ -6,10 +6,10 @@
 
 namespace nacre {
 
-// Of `count` directed edges between the same two vertices, pairs the k-th of one direction with the
-// k-th of the other: pair(i, j) with rises(i) and not rises(j). What is left over of the more
-// frequent direction has no neighbour. Asks for each edge's direction at most twice, however many
-// triangles meet there.
+// Pairs `count` directed edges between the same two vertices: the k-th of one direction with the
+// k-th of the other, by calls pair(i, j) with rises(i) and not rises(j). Surplus edges of the more
+// frequent direction have no neighbour. Each edge's direction is asked for at most twice, however
+// many triangles meet there.
 template <class Rises, class Pair>
 void PairEdges(size_t count, const Rises& rises, const Pair& pair) {
   for (size_t up = 0, down = 0;; ++up, ++down) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene/parts.h: the parts of a scene that change apart from one another. What is made of a scene
-// names the parts that it is made of, and is made again when one of them changes.
+// scene/parts.h: the parts of a scene that change independently of one another. Data derived from a
+// scene names the parts that it depends on, and is derived again when one of them changes.
 #pragma once
 
 #include <array>
@@ -19,12 +19,12 @@ enum class ScenePart : uint8_t {
   kImage,       // Scene::image
   kBackground,  // Scene::background
   kTextures,    // Scene::images and Scene::textures
-  kMaterials,   // all of them, those that shapes bring along as well
+  kMaterials,   // all materials, including those that come with shapes
   kLights,
   kShapes,  // spheres, meshes and labels
 };
 
-// A set of them.
+// A set of parts.
 class SceneParts {
  public:
   constexpr SceneParts() = default;
@@ -56,18 +56,18 @@ class SceneParts {
 
 constexpr SceneParts operator|(ScenePart a, ScenePart b) { return SceneParts(a) | SceneParts(b); }
 
-// What a change may have given other values: these parts, and of materials perhaps only some.
+// What a change of the scene may have affected: some parts, and of the materials perhaps only some.
 struct SceneChange {
   SceneChange() = default;
-  SceneChange(SceneParts all_of)  // NOLINT(google-explicit-constructor): of no single items
+  SceneChange(SceneParts all_of)  // NOLINT(google-explicit-constructor): without lists
       : parts(all_of) {}
-  SceneChange(ScenePart all_of) : parts(all_of) {}  // NOLINT(google-explicit-constructor): as above
+  SceneChange(ScenePart all_of) : parts(all_of) {}  // NOLINT(google-explicit-constructor)
 
   SceneParts parts;
-  std::vector<uint32_t> materials;  // if not empty, all that has changed of kMaterials
+  std::vector<uint32_t> materials;  // if not empty, the only materials that have changed
 };
 
-// How often each part has changed. What was made of some parts is still right while their numbers
+// Counts the changes of each part. Data derived from some parts is still valid while their counts
 // are the same.
 class PartVersions {
  public:
@@ -77,7 +77,7 @@ class PartVersions {
     }
   }
 
-  // Those of these parts; all others are 0.
+  // The counts of these parts; all others are 0.
   PartVersions Of(SceneParts parts) const {
     PartVersions some;
     for (size_t i = 0; i < kSceneParts; ++i) {
@@ -92,8 +92,8 @@ class PartVersions {
   std::array<uint64_t, kSceneParts> numbers_{};
 };
 
-// The versions of a scene that changes, and which of its materials the last changes were of, for
-// what is kept of each of them.
+// The versions of a scene that changes, and a log of the materials that the last changes affected,
+// for data that is kept per material.
 class SceneVersions {
  public:
   void Change(const SceneChange& change) {
@@ -105,20 +105,21 @@ class SceneVersions {
 
   // How often materials have changed.
   uint64_t materials() const { return materials_.count; }
-  // Which of them have changed since materials() was `then`; nothing: any of them.
+  // The materials that have changed since materials() was `then`; nullopt: any may have.
   std::optional<std::span<const uint32_t>> MaterialsSince(uint64_t then) const {
     return materials_.Since(then);
   }
 
  private:
-  // Change number first + i was of items [begins[i], begins[i + 1]); those before, of any.
+  // Change number first + i affected items [begins[i], begins[i + 1]); earlier ones may have
+  // affected any.
   struct Log {
     uint64_t count = 0, first = 0;
     std::vector<size_t> begins;
     std::vector<uint32_t> items;
 
     void Add(const std::vector<uint32_t>& changed) {
-      constexpr size_t kMost = 1024;  // whoever has not asked for so long makes all anew
+      constexpr size_t kMost = 1024;  // callers that have not asked for so long derive all again
       ++count;
       if (changed.empty() || items.size() + changed.size() > kMost) {
         begins.clear();

@@ -9,7 +9,8 @@
 namespace nacre {
 namespace {
 
-// The corners seen along the normal's largest component, counter-clockwise.
+// The corners projected along the normal's largest component, counter-clockwise, relative to the
+// first.
 std::vector<Vec2d> Flatten(std::span<const Vec3d> corners) {
   const Vec3d normal = NewellNormal(corners);
   int axis = std::abs(normal.x) > std::abs(normal.y) ? 0 : 1;
@@ -28,10 +29,10 @@ std::vector<Vec2d> Flatten(std::span<const Vec3d> corners) {
 // Twice the signed area of a triangle: positive when a, b, c turn left.
 double Turn(const Vec2d& a, const Vec2d& b, const Vec2d& c) { return (b - a).cross(c - a); }
 
-// Finds ears of what remains of a polygon. For each corner it is remembered which other one keeps
-// it from being an ear: as long as that is there, and the corner's neighbours are the same, it is
-// none, and those that were found outside need not be looked at again. n corners take n^2 steps at
-// most.
+// Finds ears in what remains of a polygon. For each corner it remembers the first other corner that
+// is not known to lie outside its triangle. As long as that one remains and the neighbours are the
+// same, the corner is no ear, and those before need not be tested again. n corners take n^2 steps
+// at most.
 class EarFinder {
  public:
   explicit EarFinder(std::vector<Vec2d> flat)
@@ -39,7 +40,7 @@ class EarFinder {
     std::iota(remaining_.begin(), remaining_.end(), 0u);
   }
   size_t size() const { return remaining_.size(); }
-  // The number of the corner at `i` of those that remain, which go around.
+  // The number of the i-th remaining corner; `i` wraps around.
   uint32_t Corner(size_t i) const { return remaining_[i % size()]; }
 
   // True if the corner at `i` of what remains is convex and its triangle holds no other corner.
@@ -53,9 +54,9 @@ class EarFinder {
          at != remaining_.end(); ++at) {
       other = *at;
       const Vec2d& p = flat_[other];
-      // Most are beyond the edge that the ear would leave.
+      // Most corners lie beyond the edge that the ear would leave, which is therefore tested first.
       if (!(Turn(c, a, p) >= 0 && Turn(a, b, p) >= 0 && Turn(b, c, p) >= 0)) continue;
-      if (p != a && p != b && p != c) return false;  // corners that touch are no others
+      if (p != a && p != b && p != c) return false;  // corners at the same point do not count
     }
     return true;
   }
@@ -68,12 +69,12 @@ class EarFinder {
  private:
   std::vector<Vec2d> flat_;
   std::vector<uint32_t> remaining_;   // in rising order
-  std::vector<uint32_t> next_other_;  // by corner: the first that has not been found outside
+  std::vector<uint32_t> next_other_;  // by corner: the first that is not known to be outside
 };
 
 }  // namespace
 
-// Relative to one corner, so that it does not cancel far from the origin.
+// Computed relative to one corner, to avoid cancellation far from the origin.
 Vec3d NewellNormal(std::span<const Vec3d> corners) {
   Vec3d sum(0, 0, 0);
   for (size_t i = 2; i < corners.size(); ++i) {
@@ -84,8 +85,8 @@ Vec3d NewellNormal(std::span<const Vec3d> corners) {
 
 void Triangulate(std::span<const Vec3d> corners, std::vector<uint32_t>* triangles) {
   if (corners.size() == 3) {
-    // What follows finds that the corner at 1 is an ear, for `Turn` is then the normal's largest
-    // component.
+    // The general case would find that the corner at 1 is an ear, because `Turn` is then the
+    // absolute value of the normal's largest component.
     const Vec3d normal = NewellNormal(corners);
     const double size = std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z);
     if (size > 0 && std::isfinite(size)) {
@@ -95,7 +96,7 @@ void Triangulate(std::span<const Vec3d> corners, std::vector<uint32_t>* triangle
   }
   EarFinder ears(Flatten(corners));
   while (ears.size() >= 3) {
-    // From 1 on, so that a convex polygon becomes a fan around its first corner.
+    // The search begins at 1, so that a convex polygon becomes a fan around its first corner.
     size_t ear = 1;
     while (ear < ears.size() && !ears.IsEar(ear)) ++ear;
     if (ear == ears.size()) ear = ears.IsEar(0) ? 0 : 1;

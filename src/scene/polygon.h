@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene/polygon.h: polygons into triangles.
+// scene/polygon.h: triangulates polygons.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 
 namespace nacre {
 
-// Newell's normal (Sutherland, Sproull and Schumacker 1974): twice the polygon's area long, by the
-// right-hand rule; 0 exactly where there is no area. Right for any simple polygon of any size, also
-// far from the origin.
+// Newell's normal (Sutherland, Sproull and Schumacker 1974), by the right-hand rule. Its length is
+// twice the polygon's area, and it is 0 exactly where there is no area. It is accurate for any
+// simple polygon of any size, also far from the origin.
 Vec3d NewellNormal(std::span<const Vec3d> corners);
 
 // Cuts a simple polygon of n >= 3 corners, convex or not, into n - 2 triangles of the same

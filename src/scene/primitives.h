@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene/primitives.h: the scene's shapes by one running number: spheres first, in scene order, then
-// the triangles of all meshes.
+// scene/primitives.h: numbers the scene's primitives consecutively: spheres first, in scene order,
+// then the triangles of all meshes.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace nacre {
 
 struct PrimitiveNumbers {
   const Scene* scene = nullptr;
-  // For each mesh the number of triangles before its own.
+  // For each mesh, the number of triangles before its own.
   std::vector<uint32_t> mesh_first_triangle;
 };
 
@@ -23,7 +23,6 @@ size_t CountTriangles(const Scene& scene);
 // `scene` must outlive the numbers.
 PrimitiveNumbers NumberPrimitives(const Scene& scene);
 
-// A triangle of the scene.
 struct TriangleRef {
   const Mesh* mesh;
   size_t number;      // of the mesh in the scene
@@ -34,17 +33,17 @@ struct TriangleRef {
 
 bool IsSphere(const PrimitiveNumbers& numbers, uint32_t primitive);
 
-// `primitive` is a triangle's.
+// `primitive` must be a triangle.
 TriangleRef TriangleOf(const PrimitiveNumbers& numbers, uint32_t primitive);
 
-// The number of the object that a primitive belongs to: that of the sphere, or the number of
-// spheres and that of the mesh.
+// The number of the object that a primitive belongs to: the index of the sphere, or the number of
+// spheres plus the index of the mesh.
 uint32_t ObjectOf(const PrimitiveNumbers& numbers, uint32_t primitive);
 
-// The unit normal of the triangle of that number, by the right-hand rule.
+// The unit normal of the triangle `primitive`, by the right-hand rule.
 Vec3d FaceNormalOf(const PrimitiveNumbers& numbers, uint32_t primitive);
 
-// The material of a primitive's shape, which may be a split one.
+// The material of the primitive's sphere or mesh, which may be a split.
 MaterialId ShapeMaterial(const PrimitiveNumbers& numbers, uint32_t primitive);
 
 }  // namespace nacre

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene/scene.h: the one scene type: plain structs, a default for every field, references as
-// typed handles. What scene_io reads, the generators make and the renderer plans from.
-// Ranges of all numbers: scene/limits.h.
+// scene/scene.h: the one scene type: plain structs, a default for every field, references as typed
+// handles. scene_io reads it, the generators make it, and the renderer plans from it. Ranges of all
+// numbers: scene/limits.h.
 //
-// World space is right-handed, +y up. All positions and lengths are doubles in world units and
-// stay as the file has them; everything in float later on is relative to the camera.
-// Colours are linear Rec. 709. Directional light: irradiance on a surface facing it. Point and
-// spot: radiant intensity. All others and the background: radiance.
+// World space is right-handed, +y up. All positions and lengths are doubles in world units and stay
+// as the file has them; everything in float later on is relative to the camera.
+// Colours are linear Rec. 709. Those of directional lights are the irradiance of a surface that
+// faces the light, those of point and spot lights radiant intensity, and those of all other lights
+// and of the background radiance.
 #pragma once
 
 #include <cstdint>

@@ -69,7 +69,7 @@ Mesh MakeMesh(const UvSphere& sphere) {
   mesh.uvs.reserve(directions.capacity());
   for (uint32_t ring = 0; ring <= rings; ++ring) {
     const double v = static_cast<double>(ring) / rings;
-    // Exact at the poles and at the seam: the positions there are the same.
+    // Exact at the poles and at the seam, so that the positions there coincide.
     const double y = ring == rings ? 1 : -std::cos(v * std::numbers::pi);
     const double around = ring == 0 || ring == rings ? 0 : std::sin(v * std::numbers::pi);
     for (uint32_t segment = 0; segment <= segments; ++segment) {
@@ -87,7 +87,7 @@ Mesh MakeMesh(const UvSphere& sphere) {
     for (uint32_t segment = 0; segment < segments; ++segment) {
       const uint32_t a = vertex(ring, segment), b = vertex(ring, segment + 1);
       const uint32_t c = vertex(ring + 1, segment + 1), d = vertex(ring + 1, segment);
-      // The pole's vertex at the left of a segment is that of its triangle.
+      // A segment's triangle at a pole uses the pole's vertex at the segment's left.
       if (ring > 0) mesh.triangles.insert(mesh.triangles.end(), {a, b, ring + 1 < rings ? c : d});
       if (ring + 1 < rings) mesh.triangles.insert(mesh.triangles.end(), {a, c, d});
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene/sphere_mesh.h: spheres as meshes, to compare interpolations and to put images on. Normals
-// are the sphere's own; faces are counter-clockwise from outside.
+// scene/sphere_mesh.h: spheres as meshes, to compare interpolations and to put images on. The
+// normals are the sphere's own; faces are counter-clockwise from outside.
 #pragma once
 
 #include "scene/shapes.h"

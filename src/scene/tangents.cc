@@ -30,7 +30,7 @@ void ForEachInParallel(size_t count, int threads, const std::function<void(size_
 // a positive factor. `hand` is -1 where `rows` mirrors, 0 if it is singular.
 struct UvRotation {
   double hand;
-  Vec2d along_u, along_v;  // parts along u and v
+  Vec2d along_u, along_v;  // components along u and v
 };
 
 UvRotation UvRotationOf(const UvRows& rows) {
@@ -63,9 +63,9 @@ class TangentMaker {
   // Texture-space data of a triangle.
   struct Face {
     Vec3d along_u{0, 0, 0};     // unit, or 0
-    bool is_degenerate = true;  // two positions are the same: nothing hits it
-    bool has_no_area = true;    // in the texture
-    bool is_upright = false;    // u', v' and the triangle turn the same way
+    bool is_degenerate = true;  // two positions are equal, so that no ray hits it
+    bool has_no_area = true;    // in texture space
+    bool is_upright = false;    // u', v' and the triangle have the same orientation
   };
 
   const Vec3d& Position(size_t corner) const { return mesh_.positions[mesh_.triangles[corner]]; }
@@ -79,9 +79,9 @@ class TangentMaker {
                       [&](size_t i) { face_normals_[i] = FaceNormal(mesh_, i); });
   }
 
-  // Numbers vertices from 0: those with equal positions, normals and coordinates alike.
+  // Gives the same number to corners whose positions, normals and coordinates are all equal.
   void WeldVertices() {
-    // Where normals are the vertices' own, vertices are compared; else corners.
+    // With smooth normals, which belong to vertices, vertices are compared; else corners.
     const size_t count = smooth_ ? mesh_.positions.size() : mesh_.triangles.size();
     using Key = std::array<double, 8>;
     const auto key_of = [&](size_t i) {
@@ -141,7 +141,8 @@ class TangentMaker {
   }
 
   // Edge k of a triangle goes from its corner k to the next one. Its neighbour is the triangle that
-  // has it the other way round; of several on one edge, ascending ones are paired.
+  // has the same edge in the opposite direction. Several triangles on one edge are paired in
+  // ascending order.
   void FindNeighbours() {
     struct Edge {
       uint32_t high;  // the vertex at its end with the higher number
@@ -151,7 +152,7 @@ class TangentMaker {
       const size_t next = corner % 3 == 2 ? corner - 2 : corner + 1;
       return std::make_pair(vertices_[corner], vertices_[next]);
     };
-    std::vector<uint32_t> begin(vertex_count_ + 1);  // of the edges by their lower vertex
+    std::vector<uint32_t> begin(vertex_count_ + 1);  // the first edge by the edges' lower vertex
     const auto for_each_edge = [&](const auto& body) {
       for (size_t corner = 0; corner < vertices_.size(); ++corner) {
         if (faces_[corner / 3].is_degenerate) continue;
@@ -211,8 +212,8 @@ class TangentMaker {
     }
   }
 
-  // Puts the triangle's corner at the vertex into the group and returns it; kNone if it is in one
-  // already or is the mirrored kind.
+  // Adds the triangle's corner at the vertex to the group and returns the corner; returns kNone if
+  // the corner belongs to a group already, or if the triangle has the other orientation.
   size_t Join(size_t triangle, uint32_t vertex, uint32_t group, bool is_upright) {
     const size_t first = 3 * triangle;
     size_t own = first;
@@ -242,7 +243,7 @@ class TangentMaker {
         members[next[groups_[corner]]++] = static_cast<uint32_t>(corner);
     }
     CornerTangents made;
-    made.tangents.resize(count + 1, Tangent{Vec3d(0), 1});  // the last one: none
+    made.tangents.resize(count + 1, Tangent{Vec3d(0), 1});  // the last one stands for none
     ForEachInParallel(count, threads_, [&](size_t group) {
       Vec3d sum(0, 0, 0);
       for (uint32_t i = begin[group]; i < begin[group + 1]; ++i) sum += Share(members[i]);
@@ -272,11 +273,11 @@ class TangentMaker {
   const int threads_;
   const bool smooth_;
   const size_t triangle_count_;
-  std::vector<Vec3d> face_normals_;  // of meshes without smooth ones
+  std::vector<Vec3d> face_normals_;  // only of meshes without smooth normals
   size_t vertex_count_ = 0;
   std::vector<uint32_t> vertices_;    // by corner
   std::vector<Face> faces_;           // by triangle
-  std::vector<uint32_t> neighbours_;  // triangles, by the edge from a corner to the next
+  std::vector<uint32_t> neighbours_;  // triangles, by the edge from a corner to the next one
   std::vector<uint32_t> groups_;      // by corner
   std::vector<bool> group_is_upright_;
 };

@@ -25,8 +25,9 @@ struct UvRows {
   bool operator==(const UvRows&) const = default;
 };
 
-// The rows of a rotation, or one and a reflection, that makes the same tangents: they depend on the
-// direction in which u' grows, across that of v_row, and on which side v' grows, not on how fast.
+// The rows of a rotation, with or without a reflection, that makes the same tangents: these depend
+// on the direction in which u' grows, perpendicular to v_row, and on the side to which v' grows,
+// but not on how fast. 0 if `rows` are singular.
 UvRows RowsOfSameTangents(const UvRows& rows);
 
 // MikkTSpace's tangents of the mesh, in world space, for the coordinates `uvs` (one per position)
@@ -38,16 +39,16 @@ UvRows RowsOfSameTangents(const UvRows& rows);
 //     in the texture joins the first group that reaches it and adds nothing to it.
 //   - The tangent is the average, by the angles at the vertex, of the triangles' directions of
 //     growing u', each projected on the plane across the normal and normalised.
-// Differences to mikktspace.c: sums are in double; exactly opposite directions are averaged, too
-// (its angular threshold of 180 degrees parts them); a corner without any tangent gets 0 in the
-// place of (1, 0, 0).
-// Takes time in proportion to the triangles. `threads` as in ParallelFor; the result does not
-// depend on it.
+// Differences from mikktspace.c: sums are in double; exactly opposite directions are averaged, too
+// (its angular threshold of 180 degrees separates them); a corner without any tangent gets 0
+// instead of (1, 0, 0).
+// The time is proportional to the number of triangles. `threads` is that of ParallelFor; the result
+// does not depend on it.
 CornerTangents MakeTangents(const Mesh& mesh, const std::vector<Vec2d>& uvs, const UvRows& rows,
                             int threads);
 
-// Mesh::tangents, which belong to the untransformed coordinates, for those that `rows` makes:
-// rotated and mirrored with them, as if u and v grew equally fast on the surface.
+// Mesh::tangents, which belong to the untransformed coordinates, rotated and mirrored for the
+// coordinates that `rows` makes, as if u and v grew equally fast on the surface.
 CornerTangents RotateTangents(const Mesh& mesh, const UvRows& rows);
 
 }  // namespace nacre

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene/texture.h: images, and how materials look into them.
+// scene/texture.h: images, and how materials look them up.
 #pragma once
 
 #include <cstdint>
@@ -13,22 +13,22 @@
 
 namespace nacre {
 
-// A decoded image file. Shared, so that scenes are copied without it.
+// A decoded image file. Copies of a scene share its texels.
 struct SceneImage {
   std::string file;  // as the scene names it
   std::shared_ptr<const MipChain> texels;
   float middle = 0.5f;       // the value that stands for 0 in a normal map: 128/255 of 8-bit files
-  bool lacks_alpha = false;  // read for its alpha, of which it has none: 1 everywhere
+  bool lacks_alpha = false;  // read for its alpha, but has none: 1 everywhere
   bool is_black = false, is_white = false;  // all of its values are 0, or 1
 };
 
 // An image on surfaces. (u, v) has its origin at the lower left corner of the image, v up. It comes
-// from the mapping, is scaled, turned and then moved (as in glTF's KHR_texture_transform, but with
-// v up), and then wrapped.
+// from the mapping, is scaled, rotated and then translated (as in glTF's KHR_texture_transform, but
+// with v up), and then wrapped.
 //
-// Mappings but kUv see an object with its axis up: a sphere in units of its radius around its
-// centre, a mesh in units of `size` around `center`. Longitudes begin behind the axis +y, at -z,
-// and go to the right as seen from outside; v is 1 at the axis' end.
+// Mappings other than kUv take `axis` as up, and positions relative to a sphere's centre in units
+// of its radius, or relative to `center` in units of `size` for meshes. If the axis is +y,
+// longitudes begin at -z and grow to the right as seen from outside; v is 1 at the end of the axis.
 struct Texture {
   std::string name;
   ImageId image;
@@ -41,11 +41,11 @@ struct Texture {
   Vec2d scale{1, 1};
   double uv_rotate_deg = 0;  // counter-clockwise
   Vec2d offset{0, 0};
-  bool second_uvs = false;  // kUv: on the meshes' second coordinates
+  bool second_uvs = false;  // kUv: uses Mesh::second_uvs
   friend bool operator==(const Texture&, const Texture&) = default;
 };
 
-// Tangent-space normals, x along growing u, y along growing v.
+// A map of tangent-space normals, x along growing u, y along growing v.
 struct NormalMap {
   TextureId texture{};
   double scale = 1;  // of x and y
@@ -57,14 +57,14 @@ struct NormalMap {
   Convention convention = Convention::kExactFlat;
 };
 
-// What the colours of a mesh's vertices multiply.
+// What is multiplied by the colours of a mesh's vertices.
 enum class VertexColors : uint8_t {
   kNone,
-  kBase,      // the base colour, or albedo
-  kEmission,  // of materials that are not lit
+  kBase,      // the base colour or albedo
+  kEmission,  // the emission, for materials that are not lit
 };
 
-// Heights, whose slope turns the normal; the surface stays where it is.
+// A map of heights whose slope tilts the shading normal; the surface stays where it is.
 struct BumpMap {
   TextureId texture{};
   double distance = 0.01;  // world units between the values 0 and 1; below 0: into the surface

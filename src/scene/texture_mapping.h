@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene/texture_mapping.h: from points on a shape to a texture's (u, v), as a scene's Texture says:
-// scalar, for work done once. The SIMD twin, for hits, is shading/coordinates_kernel.cc.
+// scene/texture_mapping.h: maps points on a shape to the (u, v) of a scene's Texture. Scalar, for
+// work done once; the SIMD twin, for hits, is shading/coordinates_kernel.cc.
 #pragma once
 
 #include "scene/texture.h"
 
 namespace nacre {
 
-// The axes of the texture's mapping, unit: z is its axis, and x points where longitudes begin or,
-// seen along an axis that is not vertical, to the right.
+// The unit axes of the texture's mapping. z is the texture's axis. x, where longitudes begin,
+// points to -z of the world if the axis is vertical, else to the right as seen with the axis
+// towards the viewer; rotate_deg then turns x and y about z.
 struct MappingFrame {
   Vec3d x, y, z;
 };
 MappingFrame FrameOf(const Texture& texture);
 
-// (u, v) of the texture are these times those of the mapping, v up, plus `offset`.
+// Maps the (u, v) of the mapping, with v up, to those of the texture: multiplies by the rows and
+// adds `offset`.
 struct UvTransform {
   Vec2d u_row, v_row;
   Vec2d offset;
@@ -25,11 +27,12 @@ struct UvTransform {
 };
 UvTransform TransformOf(const Texture& texture);
 
-// Whether v grows downwards in what texture/mapping.h gives for the mapping.
+// Whether the v that texture/mapping.h gives for the mapping grows downwards.
 bool IsUpsideDown(MappingKind mapping);
 
-// (u, v) at a point of a shape: of a sphere relative to its centre, in units of its radius; of a
-// mesh relative to texture.center, in units of texture.size. Not wrapped.
+// The texture's (u, v), not wrapped, at a point of a shape. `point` is relative to a sphere's
+// centre, in units of its radius, or relative to texture.center, in units of texture.size, for a
+// mesh.
 Vec2d MapToTexture(const Texture& texture, const Vec3d& point);
 
 }  // namespace nacre

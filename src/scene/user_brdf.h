@@ -16,8 +16,8 @@ struct UserBrdf {
   using Vectors = std::array<const double*, 3>;  // x, y and z of each
   using Values = std::array<double*, 3>;
 
-  // Unit vectors of `count` points. Light and viewer are above the surface, but for to_light where
-  // it is what is asked for: it is then null.
+  // Unit vectors at `count` points. Light and viewer are above the surface. to_light is null for
+  // `sample`, which finds it.
   struct Batch {
     size_t count;
     Vectors normal, to_view, to_light;
@@ -26,13 +26,14 @@ struct UserBrdf {
   std::string name;  // of the material, for errors
   // The BRDF f(l, v) in 1/sr, by channel, without n.l.
   std::function<void(const Batch&, const Values& rgb)> evaluate;
-  // Both or neither: unit directions to light by points (u, v) in [0, 1)^2, and their pdf per solid
-  // angle. Directions below the surface count as light that is lost.
+  // Either both or neither: `sample` maps points (u, v) in [0, 1)^2 to unit directions to light,
+  // and `pdf` gives their pdf per solid angle. Sampled directions below the surface count as lost
+  // light.
   std::function<void(const Batch&, const double* u, const double* v, const Values& to_light)>
       sample;
   std::function<void(const Batch&, double* pdf)> pdf;
 };
 
-using UserBrdfs = std::map<std::string, std::shared_ptr<const UserBrdf>>;  // by material
+using UserBrdfs = std::map<std::string, std::shared_ptr<const UserBrdf>>;  // by material name
 
 }  // namespace nacre

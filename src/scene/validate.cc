@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene/validate.cc: camera, image and materials. Shapes: validate_shapes.cc; lights:
+// scene/validate.cc: checks camera, image and materials. Shapes: validate_shapes.cc; lights:
 // validate_lights.cc.
 #include "scene/validate.h"
 
@@ -14,7 +14,7 @@
 
 namespace nacre {
 
-// In validate_shapes.cc, validate_lights.cc and validate_textures.cc.
+// Defined in validate_shapes.cc, validate_lights.cc and validate_textures.cc.
 void ValidateShapes(const Scene& scene, FaultList* faults);
 void ValidateMaterialsOfShapes(const Scene& scene, FaultList* faults);
 void ValidatePrimitives(const Scene& scene, FaultList* faults);
@@ -27,14 +27,7 @@ namespace {
 
 void ValidateCamera(const Camera& camera, FaultList* faults) {
   const size_t before = faults->count();
-  CheckPoint(camera.position, "/camera/position", faults);
-  CheckPoint(camera.look_at, "/camera/look_at", faults);
-  CheckDirection(camera.up, "/camera/up", faults);
-  if (camera.projection == Projection::kPerspective) {
-    CheckNumber(camera.fov_y_deg, limits::kFovYDeg, "/camera/fov_y_deg", faults);
-  } else {
-    CheckNumber(camera.height, limits::kLength, "/camera/height", faults);
-  }
+  CheckKeys(camera, "/camera", faults);
   if (faults->count() != before) return;
 
   const Vec3d view = camera.look_at - camera.position;
@@ -47,10 +40,7 @@ void ValidateCamera(const Camera& camera, FaultList* faults) {
 
 void ValidateImage(const ImageSettings& image, FaultList* faults) {
   const size_t before = faults->count();
-  CheckNumber(image.width, limits::kImageSide, "/image/width", faults);
-  CheckNumber(image.height, limits::kImageSide, "/image/height", faults);
-  CheckNumber(image.spp, limits::kSpp, "/image/spp", faults);
-  CheckNumber(image.filter.width, limits::kFilterWidth, "/image/filter/width", faults);
+  CheckKeys(image, "/image", faults);
   if (faults->count() != before) return;
 
   const double samples = static_cast<double>(image.width) * image.height * image.spp;
@@ -65,7 +55,8 @@ std::string MaterialPlace(const Scene& scene, size_t index) {
   return "/materials/" + (name.empty() ? std::to_string(index) : PointerToken(name));
 }
 
-// Each may have tangents of its own on every mesh of the split, as large as the mesh itself.
+// Limits memory: each material may need tangents of its own on every mesh of the split, which are
+// as large as the mesh.
 constexpr size_t kMostSplitMaterials = 64;
 
 void ValidateSplit(const Scene& scene, const Material& material, const std::string& where,

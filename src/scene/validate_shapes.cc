@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene/validate_shapes.cc: the part of Validate() that looks at spheres and meshes.
+// scene/validate_shapes.cc: the part of Validate() that checks spheres and meshes.
 #include <algorithm>
 #include <cmath>
 
@@ -15,14 +15,14 @@
 namespace nacre {
 namespace {
 
-// A normal that was stored in float and read back is unit to 1e-7; ten times that, squared away.
+// A normal that was stored in float and read back is unit to 1e-7; this is a hundred times as much.
 constexpr double kUnitLengthTolerance = 1e-5;
 
-// Of a mesh's positions or indices only the first bad one is told: the rest has the same cause.
+// Reports only the first invalid position, or index, of a mesh: the others have the same cause.
 void ValidatePositions(const Mesh& mesh, const std::string& where, FaultList* faults) {
   for (size_t i = 0; i < mesh.positions.size(); ++i) {
     if (limits::kCoordinate.Contains(mesh.positions[i]))
-      continue;  // no text made for a million others
+      continue;  // no text is formatted for a million others
     CheckPoint(mesh.positions[i], fmt::format("{}/positions/{}", where, i), faults);
     return;
   }
@@ -45,7 +45,7 @@ void ValidateNormals(const Mesh& mesh, const std::string& where, FaultList* faul
   }
 }
 
-// Only the first bad colour is told, and the first bad opacity.
+// Reports only the first invalid colour and the first invalid opacity.
 void ValidateColors(const Mesh& mesh, const std::string& where, FaultList* faults) {
   const Range& unit = limits::kUnit;
   for (size_t i = 0; i < mesh.colors.size(); ++i) {
@@ -61,7 +61,7 @@ void ValidateColors(const Mesh& mesh, const std::string& where, FaultList* fault
   }
 }
 
-// Only the first bad one is told.
+// Reports only the first invalid coordinates.
 void ValidateRange(const std::vector<Vec2d>& uvs, const std::string& where, FaultList* faults) {
   for (size_t i = 0; i < uvs.size(); ++i) {
     const auto& [u, v] = uvs[i];
@@ -169,7 +169,7 @@ void ValidateMesh(const Mesh& mesh, size_t material_count, const std::string& wh
 void ValidateShapes(const Scene& scene, FaultList* faults) {
   const size_t material_count = scene.materials.size();
   for (size_t i = 0; i < scene.spheres.size(); ++i) {
-    if (IsSound(scene.spheres[i], material_count)) continue;  // no text made for a million others
+    if (IsSound(scene.spheres[i], material_count)) continue;  // no text for a million others
     ValidateSphere(scene.spheres[i], material_count, fmt::format("/spheres/{}", i), faults);
   }
   for (size_t i = 0; i < scene.meshes.size(); ++i) {
@@ -177,7 +177,7 @@ void ValidateShapes(const Scene& scene, FaultList* faults) {
   }
 }
 
-// Spheres are hit by tests of their own, which know no holes and no sides.
+// Spheres have intersection tests of their own, without holes and without sides.
 void ValidateMaterialOfSphere(const Scene& scene, size_t index, FaultList* faults) {
   const size_t material = scene.spheres[index].material.index;
   if (material >= scene.materials.size() || !IsOfMeshes(scene.materials[material])) return;
@@ -188,13 +188,13 @@ void ValidateMaterialOfSphere(const Scene& scene, size_t index, FaultList* fault
               "make the sphere of triangles: the shapes \"uv_sphere\" and \"icosphere\"");
 }
 
-// Which of their materials shapes cannot have.
+// Reports shapes whose material they cannot have.
 void ValidateMaterialsOfShapes(const Scene& scene, FaultList* faults) {
   if (std::none_of(scene.materials.begin(), scene.materials.end(), IsOfMeshes)) return;
   for (size_t i = 0; i < scene.spheres.size(); ++i) ValidateMaterialOfSphere(scene, i, faults);
 }
 
-// How many there are, those of lights as well.
+// Checks the number of primitives, including those of lights.
 void ValidatePrimitives(const Scene& scene, FaultList* faults) {
   uint64_t primitives = scene.spheres.size() + CountTriangles(scene);
   for (const Light& light : scene.lights) {

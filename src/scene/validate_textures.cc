@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene/validate_textures.cc: the part of Validate() that looks at images, textures and the maps of
+// scene/validate_textures.cc: the part of Validate() that checks images, textures and the maps of
 // materials.
 #include <array>
 #include <utility>

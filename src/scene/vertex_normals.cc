@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene/vertex_normals.cc: ComputeNormals() and MendNormals() of mesh.h. Faces around a vertex fall
-// into groups that share a normal there; without creases there is one group.
+// scene/vertex_normals.cc: ComputeNormals() and MendNormals() of mesh.h. The faces around a vertex
+// fall into groups that share a normal there; without creases there is one group.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -18,7 +18,8 @@ double AngleBetween(const Vec3d& a, const Vec3d& b) {
   return std::atan2(a.cross(b).length(), a.dot(b));
 }
 
-// For each position the number of its place: the lowest position that it counts as one with.
+// For each position the number of its place: the lowest index of the positions that count as one
+// with it.
 std::vector<uint32_t> FindPlaces(const Mesh& mesh) {
   std::vector<uint32_t> place(mesh.positions.size());
   std::iota(place.begin(), place.end(), 0u);
@@ -37,8 +38,8 @@ std::vector<uint32_t> FindPlaces(const Mesh& mesh) {
   return place;
 }
 
-// What the face of `corner` (an index into Mesh::triangles), whose normal is `face`, adds to the
-// normal there.
+// What the face of `corner` (an index into Mesh::triangles), whose normal is `face`, contributes to
+// the normal at the corner.
 Vec3d Contribution(const Mesh& mesh, NormalWeighting weighting, size_t corner, const Vec3d& face) {
   const size_t triangle = corner / 3;
   const auto position = [&](size_t k) -> const Vec3d& {
@@ -80,8 +81,8 @@ void AddContributions(const Mesh& mesh, NormalWeighting weighting, int threads, 
   }
 }
 
-// Corners in groups that share a normal: each corner leads to another one of its group, the last
-// one to itself.
+// Groups of corners that share a normal, as a union-find forest: each corner leads to another one
+// of its group, the last one to itself.
 class Groups {
  public:
   explicit Groups(size_t corners) : parent_(corners) {
@@ -104,7 +105,7 @@ class Groups {
   std::vector<size_t> parent_;
 };
 
-// One end of an edge as a triangle sees it.
+// One end of an edge of a triangle.
 struct EdgeEnd {
   uint32_t place, other;  // of this end, and of the edge's other end
   size_t corner;          // of the triangle, at this end
@@ -126,7 +127,8 @@ std::vector<EdgeEnd> ListEdgeEnds(const Mesh& mesh, const std::vector<uint32_t>&
   return ends;
 }
 
-// Joins corners over edges that are no creases; triangles without an area go along with anything.
+// Joins corners over edges that are no creases. An edge of a triangle without area is never a
+// crease.
 Groups GroupOverEdges(const Mesh& mesh, const std::vector<uint32_t>& place,
                       double crease_angle_deg) {
   Groups groups(mesh.triangles.size());

@@ -20,8 +20,8 @@
 namespace nacre {
 namespace {
 
-// Row vectors: the order of the numbers in the file, whose vectors are columns and whose matrices
-// are stored by columns.
+// The node's matrix for row vectors. Its numbers are in the order of the file, which uses column
+// vectors and stores matrices by columns.
 Imath::M44d MatrixOf(GltfDocument* document, const gltf::Node& node, const std::string& place) {
   Imath::M44d matrix;
   if (!node.matrix.empty()) {
@@ -56,7 +56,7 @@ Imath::M44d MatrixOf(GltfDocument* document, const gltf::Node& node, const std::
   return matrix;
 }
 
-// The nodes at the top of the default scene, or, in a file without scenes, those without a parent.
+// The root nodes of the default scene, or, in a file without scenes, the nodes without a parent.
 std::vector<int> RootsOf(const GltfDocument& document) {
   const gltf::Model& model = document.model;
   if (!model.scenes.empty()) {
@@ -82,7 +82,7 @@ std::vector<int> RootsOf(const GltfDocument& document) {
   return roots;
 }
 
-// Walks the nodes from the roots, parents first, in the order of the file.
+// Visits the nodes from the roots, parents first, in the order of the file.
 class NodeWalk {
  public:
   NodeWalk(uint64_t max_triangles, GltfDocument* document, Scene* scene)
@@ -165,10 +165,10 @@ class NodeWalk {
   SceneBudget budget_;
   UniqueNames light_names_;
   std::vector<Imath::M44d> world_from_node_;        // by node
-  std::vector<bool> is_placed_;                     // whether a node is in the scene
-  std::vector<size_t> order_;                       // the nodes that are
+  std::vector<bool> is_placed_;                     // by node: whether it is in the scene
+  std::vector<size_t> order_;                       // the nodes in the scene, parents first
   std::map<int, std::vector<Imath::M44d>> joints_;  // by skin
-  std::vector<Visit> stack_;  // not recursion: nodes may be nested a million deep
+  std::vector<Visit> stack_;  // instead of recursion: nodes may nest a million deep
   bool has_camera_ = false;
 };
 

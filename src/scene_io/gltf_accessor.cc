@@ -9,7 +9,7 @@
 namespace nacre {
 namespace {
 
-// Elements that no buffer holds cost nothing in the file, so their number is bounded here.
+// Elements without a buffer (zeros) take no space in the file, so their number is limited here.
 constexpr size_t kMaxZeros = size_t{1} << 24;
 
 template <typename T>
@@ -19,7 +19,7 @@ T Load(const unsigned char* bytes) {
   return value;
 }
 
-// 0 for what is no component type of glTF.
+// The size of a component in bytes; 0 if `type` is not a component type of glTF.
 size_t ComponentSize(int type) {
   switch (type) {
     case gltf::kByte:
@@ -36,7 +36,7 @@ size_t ComponentSize(int type) {
   }
 }
 
-// Of the types that are read here.
+// The number of components of an element, for the types that nacre reads.
 size_t ComponentCount(std::string_view type) {
   if (type == "MAT4") return 16;
   return type == "SCALAR" ? 1 : static_cast<size_t>(type.back() - '0');
@@ -93,7 +93,7 @@ GltfAccessor::GltfAccessor(const GltfDocument& document, int index, std::string_
   if (accessor.isSparse) ReadSparse(document, accessor);
 }
 
-// Each comparison subtracts what is known to be smaller: no sum can wrap around.
+// The comparisons only subtract the smaller operand from the larger, so that nothing wraps around.
 GltfAccessor::Elements GltfAccessor::CheckElements(const GltfDocument& document, int view,
                                                    uint64_t offset, uint64_t count,
                                                    size_t size) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/gltf_accessor.h: the numbers that a glTF accessor stands for.
+// scene_io/gltf_accessor.h: the numbers that a glTF accessor refers to.
 #pragma once
 
 #include <array>
@@ -13,26 +13,27 @@
 
 namespace nacre {
 
-// An accessor whose every element is known to lie in its buffer. Refers to the document.
+// An accessor all of whose elements are known to lie within their buffer. Refers to the document,
+// which must outlive it.
 class GltfAccessor {
  public:
-  // Throws Error (kBadInput), in the place of the accessor, unless it is there, of the type `type`
-  // ("VEC3"), with components of a known type, and in bounds: so are its sparse values.
+  // Throws Error (kBadInput), located at the accessor, unless the accessor exists, has the type
+  // `type` ("VEC3"), has components of a known type, and lies in bounds, sparse values included.
   GltfAccessor(const GltfDocument& document, int index, std::string_view type);
 
   size_t count() const { return count_; }
-  bool is_unsigned() const;  // of unsigned integers, which can be indices
+  bool is_unsigned() const;  // unsigned integers, which can be indices
   bool is_float() const { return component_type_ == gltf::kFloat; }
 
   // Component c of an element, normalised if the accessor says so.
   double Number(size_t element, size_t c) const;
-  // The same of an element of unsigned integers, as it is written.
+  // Component c of an element of unsigned integers, never normalised.
   uint32_t Index(size_t element, size_t c = 0) const;
 
   const std::string& place() const { return place_; }
 
  private:
-  // Elements in a buffer.
+  // Where elements lie in a buffer.
   struct Elements {
     const unsigned char* first = nullptr;  // null: all are 0
     size_t stride = 0;
@@ -49,7 +50,7 @@ class GltfAccessor {
   bool normalized_;
   size_t count_;
   Elements elements_;
-  std::vector<uint32_t> replaced_;  // sparse: the elements that are, ascending
+  std::vector<uint32_t> replaced_;  // indices of the elements that sparse values replace, ascending
   Elements replacements_;
 };
 

@@ -17,7 +17,7 @@ Vec3d GltfDirection(const Imath::M44d& world_from_node, const Vec3d& direction) 
   world_from_node.multDirMatrix(direction, result);
   const double size = SumOfAbs(result);
   if (!(size > 0) || !std::isfinite(size)) return Vec3d(0);
-  // By a power of two, which rounds nothing: squares of huge components would not be finite.
+  // Scales by a power of two first, without rounding: squares of huge components would overflow.
   return (result * std::ldexp(1, -std::ilogb(size))).normalized();
 }
 
@@ -56,7 +56,7 @@ std::optional<Camera> MakeGltfCamera(int camera, size_t index, const Imath::M44d
     to->Warn("a camera that its node leaves no direction, as a scale of 0 does, is left out");
     return std::nullopt;
   }
-  // Far enough from it that adding the position does not round the direction away.
+  // The point to look at is so far away that adding the position does not round off the direction.
   result.look_at = result.position + forward * std::max(result.position.length(), 1.0);
   const std::string node = fmt::format("/nodes/{}", index);
   document.Check(node, result.position, limits::kCoordinate);

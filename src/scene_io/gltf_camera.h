@@ -11,13 +11,14 @@
 
 namespace nacre {
 
-// A direction of a node in the world, by its matrix (row vectors): of unit length, or zero where
-// the matrix leaves nothing of it or is not finite.
+// Transforms a direction of a node to the world by the node's matrix (row vectors). The result has
+// unit length, or is zero where the matrix maps the direction to zero or is not finite.
 Vec3d GltfDirection(const Imath::M44d& world_from_node, const Vec3d& direction);
 
-// The file's camera, as the node `index` with this matrix (row vectors) has it. Throws Error
-// (kBadInput) for one that is not there or has no view. None, with a warning, where the matrix
-// leaves no direction. Clipping planes are left out: nothing is clipped.
+// The camera of the file with the index `camera`, placed by the node `index`, whose matrix (row
+// vectors) is given. Throws Error (kBadInput) for a camera that does not exist or has no view.
+// Returns none, with a warning, where the matrix maps the view direction to zero. Clipping planes
+// are ignored: nothing is clipped.
 std::optional<Camera> MakeGltfCamera(int camera, size_t index, const Imath::M44d& world_from_node,
                                      GltfDocument* document);
 

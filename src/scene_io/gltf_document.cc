@@ -28,9 +28,9 @@
 namespace nacre {
 namespace {
 
-constexpr uint64_t kMaxBytes = 0xffffffffu;  // the length in a GLB header
+constexpr uint64_t kMaxBytes = 0xffffffffu;  // the largest length in a GLB header
 
-// Extensions that are supported, at least in part, or that do not change the picture.
+// Extensions that nacre supports, at least in part, or that do not change the picture.
 constexpr std::array<std::string_view, 12> kKnownExtensions = {
     "KHR_materials_clearcoat", "KHR_materials_sheen",
     "KHR_lights_punctual",     "KHR_materials_emissive_strength",
@@ -52,19 +52,19 @@ uint32_t Word(std::string_view bytes, size_t offset) {
 
 bool IsBinary(std::string_view bytes) { return bytes.starts_with("glTF"); }
 
-constexpr size_t kHeader = 12, kChunkHeader = 8;  // bytes of a binary file
+constexpr size_t kHeader = 12, kChunkHeader = 8;  // sizes in bytes in a GLB file
 constexpr uint32_t kJson = 0x4e4f534a, kBinary = 0x004e4942;
 
 [[noreturn]] void RefuseDamaged(const std::string& file, std::string what) {
   throw Error(ExitCode::kBadInput, file, std::move(what), "the file is damaged or incomplete");
 }
 
-// The bytes that a file of `size` says that it has, by its first ones: of a text all. Throws Error
-// (kBadInput) for what cannot be glTF.
+// How many of a file's `size` bytes to read, judged by `head`, its beginning: all of a text, and
+// the length in the header of a binary file. Throws Error (kBadInput) for what cannot be glTF.
 uint64_t JudgeHead(std::string_view head, uint64_t size, const std::string& file) {
   if (!IsBinary(head)) {
     const std::string_view text = WithoutByteOrderMark(head, file);
-    // The JSON of a .gltf file may have the wrong name.
+    // A .gltf file may be named .glb by mistake.
     const size_t start = text.find_first_not_of(" \t\r\n");
     if (HasExtension(file, ".glb") && (start == std::string_view::npos || text[start] != '{')) {
       throw Error(ExitCode::kBadInput, file, R"(does not begin with "glTF", as .glb files do)",
@@ -94,10 +94,11 @@ uint64_t JudgeHead(std::string_view head, uint64_t size, const std::string& file
 
 struct BinaryFile {
   std::string_view json;
-  std::optional<std::string_view> data;  // of the chunk that may follow
+  std::optional<std::string_view> data;  // the binary chunk, if there is one
 };
 
-// The chunks of a binary file whose head JudgeHead has found right, and which ends where that says.
+// Splits a binary file into chunks. `bytes` must end where the header that JudgeHead has checked
+// says.
 BinaryFile ChunksOf(std::string_view bytes, const std::string& file) {
   const uint64_t length = bytes.size();
   BinaryFile result;
@@ -109,16 +110,16 @@ BinaryFile ChunksOf(std::string_view bytes, const std::string& file) {
     const uint32_t type = Word(bytes, offset + 4);
     const std::string_view content = bytes.substr(offset + kChunkHeader, Word(bytes, offset));
     if (chunk == 0) result.json = content;
-    if (chunk == 1 && type == kBinary) result.data = content;  // others are for extensions
+    if (chunk == 1 && type == kBinary) result.data = content;  // other chunks belong to extensions
     offset += kChunkHeader + content.size();
   }
-  // Some exporters fill it up with characters 0 instead of blanks.
+  // Some exporters pad the JSON with characters 0 instead of blanks.
   result.json = result.json.substr(0, result.json.find_last_not_of('\0') + 1);
   if (result.json.empty()) RefuseDamaged(file, "its first chunk is not JSON");
   return result;
 }
 
-// `part`, which is within `bytes`, as a string of its own, in the memory of all.
+// Returns `part`, which is within `bytes`, as a string that reuses the memory of `bytes`.
 std::string Keep(std::string_view part, std::string bytes) {
   const auto offset = static_cast<size_t>(part.data() - bytes.data());
   bytes.resize(offset + part.size());
@@ -126,8 +127,8 @@ std::string Keep(std::string_view part, std::string bytes) {
   return bytes;
 }
 
-// The buffers' bytes. Each file is read once, however many buffers are in it. `binary_chunk`: of
-// the file itself; null: it has none.
+// Loads the bytes of all buffers. Each file is read once, however many buffers use it.
+// `binary_chunk` is the binary chunk of the document's own file; null if it has none.
 void ReadBuffers(const std::shared_ptr<const std::string>& binary_chunk, GltfDocument* document) {
   std::map<std::filesystem::path, std::shared_ptr<const std::string>> files;
   const auto read = [&](const std::string& uri, const std::string& place) {
@@ -151,7 +152,7 @@ void ReadBuffers(const std::shared_ptr<const std::string>& binary_chunk, GltfDoc
     const auto uri = json.find("uri");
     if (uri != json.end()) {
       buffers[i].data = read(uri->get_ref<const std::string&>(), place);
-      uri->get_ref<std::string&>().clear();  // data are kept once
+      uri->get_ref<std::string&>().clear();  // keeps the data only once
     } else if (i == 0 && binary_chunk) {
       buffers[i].data = binary_chunk;
     } else {
@@ -166,7 +167,7 @@ void ReadBuffers(const std::shared_ptr<const std::string>& binary_chunk, GltfDoc
   }
 }
 
-// The two numbers of a version, "2.0".
+// The major and minor number of a version like "2.0".
 std::optional<std::pair<unsigned, unsigned>> VersionOf(std::string_view text) {
   std::pair<unsigned, unsigned> version;
   const char* const end = text.data() + text.size();
@@ -177,7 +178,8 @@ std::optional<std::pair<unsigned, unsigned>> VersionOf(std::string_view text) {
   return version;
 }
 
-// Files of glTF 1, whose arrays are objects, would have a fault in every other place.
+// Refuses files of glTF 1, whose top-level arrays are objects, before they cause a fault
+// everywhere.
 void RefuseOldVersion(const GltfDocument& document) {
   const Json& root = document.root;
   if (!root.is_object()) return;
@@ -193,8 +195,8 @@ void RefuseOldVersion(const GltfDocument& document) {
   }
 }
 
-// The extensions of all objects in the tree but animations, which are left out as a whole; some
-// files do not list those that they use.
+// Collects the names of the extensions of all objects in the tree, since some files do not list
+// those that they use. Animations are skipped, because they are not shown at all.
 void FindExtensions(const Json& json, std::set<std::string>* names) {
   if (json.is_object()) {
     for (const auto& [name, member] : json.items()) {
@@ -209,7 +211,8 @@ void FindExtensions(const Json& json, std::set<std::string>* names) {
   }
 }
 
-// "2.x" is read as 2.0, which each of them extends, unless the file says that this is not enough.
+// Versions "2.x" are read as 2.0, which they extend, unless minVersion says that this is not
+// enough.
 void CheckVersionAndExtensions(GltfDocument* document) {
   const gltf::Model& model = document->model;
   const std::string reads = "this program reads glTF 2.0";
@@ -271,7 +274,7 @@ void GltfDocument::Check(const std::string& pointer, double value, const Range& 
 
 std::filesystem::path GltfDocument::Resolve(const std::string& uri,
                                             const std::string& pointer) const {
-  // Some exporters write names as they are, which may hold a % of their own.
+  // Some exporters write file names unencoded, with a % that is part of the name.
   std::string name = PercentDecoded(uri);
   std::error_code ignored;
   if (name != uri && !std::filesystem::exists(folder / name, ignored) &&

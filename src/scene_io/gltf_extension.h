@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/gltf_extension.h: the members of an extension, whose types nobody has checked.
+// scene_io/gltf_extension.h: typed access to an extension's members, which CheckGltfTypes skips.
 #pragma once
 
 #include <cmath>
@@ -11,15 +11,15 @@
 
 namespace nacre {
 
-// Each reads a member, or gives `otherwise` where there is none. Throws Error (kBadInput) for
-// members of wrong types.
+// Each getter reads a member, or returns `otherwise` where there is none. Throws Error (kBadInput)
+// for members of wrong types.
 class GltfExtension {
  public:
   GltfExtension(const GltfDocument& document, const Json& value, std::string place)
       : document_(document), value_(value), place_(std::move(place)) {}
 
   bool Has(const char* name) const { return value_.contains(name); }
-  const Json& Get(const char* name) const { return value_[name]; }  // one that it has
+  const Json& Get(const char* name) const { return value_[name]; }  // the member must exist
 
   double Number(const char* name, double otherwise) const {
     return Has(name) ? NumberOf(Get(name), name) : otherwise;
@@ -29,7 +29,7 @@ class GltfExtension {
     const Json& array = ArrayOf(name, 3);
     return {NumberOf(array[0], name), NumberOf(array[1], name), NumberOf(array[2], name)};
   }
-  // The fourth of a colour's numbers.
+  // The fourth number of a colour; `otherwise` if the colour has no four.
   double Alpha(const char* name, double otherwise) const {
     if (!Has(name) || !Get(name).is_array() || Get(name).size() < 4) return otherwise;
     return NumberOf(Get(name)[3], name);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-// The name as one of a layer, with room for a number.
+// Turns the name into a valid name of an EXR layer that leaves room for a number.
 std::string LayerName(const std::string& wanted) {
   std::string name = wanted.empty() ? "light" : wanted.substr(0, 48);
   for (char& c : name) {

@@ -11,10 +11,10 @@
 
 namespace nacre {
 
-// Adds a light of the file to the scene, as the node `index` with this matrix has it, under a name
-// that `names` has not returned. Intensities are taken as they are: lux as irradiance, candela as
-// radiant intensity. One that shines in a direction, of which the matrix leaves none, is left out,
-// with a warning.
+// Adds a light of the file to the scene, placed by the node `index` with this matrix (row vectors),
+// under a name that `names` has not returned before. Intensities are taken unchanged: lux as
+// irradiance, candela as radiant intensity. A light with a direction that the matrix maps to zero
+// is left out, with a warning.
 void AddGltfLight(int light, size_t index, const Imath::M44d& world_from_node,
                   GltfDocument* document, UniqueNames* names, Scene* scene);
 

@@ -41,14 +41,14 @@ Rgb EmissionOf(const GltfDocument& document, const gltf::Material& material, siz
   return factor * strength;
 }
 
-// A texture of a material: its member `name` is a TextureInfo of some kind.
+// Adds a texture that a member of a material refers to; `info` is some kind of TextureInfo.
 template <class Info>
 TextureId AddTexture(const Info& info, const std::string& place, TextureEncoding encoding,
                      GltfTextures* textures) {
   return textures->Add({info.index, info.texCoord, info.extensions, encoding}, place);
 }
 
-// The texture that an extension has as its member `name`. `glossiness`: GltfTextureUse's.
+// Adds the texture in the member `name` of an extension. `glossiness`: GltfTextureUse::glossiness.
 TextureId AddTexture(const GltfDocument& document, const GltfExtension& extension, const char* name,
                      const std::string& place, TextureEncoding encoding, GltfTextures* textures,
                      double glossiness = 0) {
@@ -63,7 +63,7 @@ TextureId AddTexture(const GltfDocument& document, const GltfExtension& extensio
       member);
 }
 
-// KHR_materials_ior and KHR_materials_specular: what a material reflects where it is no metal.
+// KHR_materials_ior and KHR_materials_specular: the specular reflectance of the dielectric part.
 void ApplyReflectance(GltfDocument* document, const gltf::Material& material, size_t index,
                       GltfTextures* textures, MetallicRoughnessMaterial* result) {
   const std::string place = fmt::format("/materials/{}/extensions/", index);
@@ -71,7 +71,7 @@ void ApplyReflectance(GltfDocument* document, const gltf::Material& material, si
     if (!is_right) document->Refuse(place + member, what);
   };
   if (const auto ior = FindExtension(*document, material, index, "KHR_materials_ior")) {
-    const double n = ior->Number("ior", 1.5);  // 0: all is reflected
+    const double n = ior->Number("ior", 1.5);  // 0: an infinite index, which reflects everything
     check(n == 0 || n >= 1, "KHR_materials_ior/ior", "is neither 0 nor at least 1");
     const double root = (n - 1) / (n + 1);
     result->dielectric_f0 = Rgb(root * root);
@@ -154,8 +154,8 @@ void ApplySheen(GltfDocument* document, const gltf::Material& material, size_t i
   if (textures->IsWhite(result->sheen_roughness_map)) result->sheen_roughness_map = {};
 }
 
-// KHR_materials_pbrSpecularGlossiness: the dielectric of a metallic-roughness material, whose
-// reflectance at normal incidence may be any colour, as metals' is. Metallic is 0 throughout.
+// KHR_materials_pbrSpecularGlossiness: becomes a metallic-roughness material with metallic 0, whose
+// reflectance at normal incidence may have any colour, as that of metals does.
 MetallicRoughnessMaterial FromSpecularGlossiness(const GltfDocument& document,
                                                  const GltfExtension& extension,
                                                  const std::string& place, GltfTextures* textures) {
@@ -183,9 +183,9 @@ MetallicRoughnessMaterial FromSpecularGlossiness(const GltfDocument& document,
   return result;
 }
 
-// alphaMode MASK: holes where the base colour's alpha is below alphaCutoff. KHR_materials_unlit has
-// the base colour's members, too.
-// `factor`: where `alpha` is from.
+// alphaMode MASK: cuts holes where the base colour's alpha is below alphaCutoff;
+// KHR_materials_unlit uses the base colour, too. `factor` is the pointer to the colour whose fourth
+// number `alpha` is.
 void ApplyMask(const GltfDocument& document, size_t index, const std::string& factor, double alpha,
                TextureId alpha_map, GltfTextures* textures, Material* result) {
   const gltf::Material& material = document.model.materials[index];
@@ -208,12 +208,13 @@ void AddCommonTextures(const GltfDocument& document, const gltf::Material& mater
                                           TextureEncoding::kLinear, textures);
   result->normal_map.scale = material.normalTexture.scale;
   document.Check(place + "/normalTexture/scale", result->normal_map.scale, limits::kNormalScale);
-  // "red [0.0 .. 1.0] to X [-1 .. 1]", says the specification: code 128 of 255 is not quite level.
+  // The specification maps "red [0.0 .. 1.0] to X [-1 .. 1]", so that code 128 of 255 is not quite
+  // 0.
   result->normal_map.convention = NormalMap::Convention::kLiteral;
 }
 
-// All references that are read, also those that are not followed because the factor beside them is
-// 0. Their types have been checked.
+// Checks all texture references that are read, even those that are not followed because their
+// factor is 0. Their types have been checked.
 void CheckTextures(const GltfDocument& document, size_t index, const GltfTextures& textures) {
   const Json& material = document.root["materials"][index];
   for (const char* texture :
@@ -324,7 +325,8 @@ std::vector<Material> MakeGltfMaterials(GltfDocument* document, Scene* scene) {
     std::string name = names.Take(document->model.materials[i].name, "#", i);
     materials.push_back(MakeMaterial(document, i, std::move(name), &textures));
   }
-  // The defaults of the specification: white, metallic 1, roughness 1, which few files mean.
+  // The default material of the specification is white, metallic 1, roughness 1, which few files
+  // intend.
   Material& otherwise = materials.emplace_back();
   otherwise.name = names.Take("default", "#", count);
   otherwise.single_sided = true;

@@ -9,8 +9,9 @@
 
 namespace nacre {
 
-// A material for each of the file's, by the same number, with unique names, and after them the one
-// of primitives that name none. Their textures and images go to the scene.
+// Returns a material for each of the file's materials, with the same index and a unique name, and
+// after them one more for primitives that name no material. Their textures and images are added to
+// the scene.
 std::vector<Material> MakeGltfMaterials(GltfDocument* document, Scene* scene);
 
 }  // namespace nacre

@@ -20,12 +20,12 @@
 namespace nacre {
 namespace {
 
-// A primitive on its way into the scene.
+// A primitive while it is converted.
 struct Primitive {
   const gltf::Primitive& source;
   std::string place;
-  // The elements of the accessors that triangles use, ascending, and three indices into them for
-  // each triangle.
+  // The indices into the accessors of the elements that triangles use, ascending; and, for each
+  // triangle, three indices into `vertices`.
   std::vector<uint32_t> vertices;
   std::vector<uint32_t> triangles;
 };
@@ -35,14 +35,14 @@ int AttributeOf(const Primitive& primitive, const char* name) {
   return found == primitive.source.attributes.end() ? -1 : found->second;
 }
 
-// Which corners, as numbered by the primitive, triangle i has.
+// The corners of triangle i, as numbered by the primitive.
 std::array<size_t, 3> CornerIndices(int mode, size_t i) {
   if (mode == gltf::kTriangleStrip) return {i, i + 1 + i % 2, i + 2 - i % 2};
   if (mode == gltf::kTriangleFan) return {i + 1, i + 2, 0};
   return {3 * i, 3 * i + 1, 3 * i + 2};
 }
 
-// How many triangles the corners make. Refuses lists that end within a triangle.
+// The number of triangles that the corners form. Refuses lists that end within a triangle.
 size_t TriangleCount(const GltfDocument& document, const Primitive& primitive, size_t corners) {
   const bool is_list = primitive.source.mode == gltf::kTriangles;
   if (corners < 3 || (is_list && corners % 3 != 0)) {
@@ -51,8 +51,8 @@ size_t TriangleCount(const GltfDocument& document, const Primitive& primitive, s
   return is_list ? corners / 3 : corners - 2;
 }
 
-// Calls set(i) for all i below `count`, on several threads. False from it: something is wrong with
-// that one. Returns the first such, or `count`.
+// Calls set(i) for all i below `count`, on several threads. set returns false if something is wrong
+// with element i. Returns the first such element, or `count`.
 template <class Set>
 size_t SetAll(size_t count, int threads, const Set& set) {
   constexpr size_t kPiece = size_t{1} << 14;
@@ -71,11 +71,11 @@ size_t SetAll(size_t count, int threads, const Set& set) {
   return first_wrong;
 }
 
-// Indices into the accessors, three a triangle.
+// Three indices into the accessors for each triangle.
 std::vector<uint32_t> ReadTriangles(const GltfDocument& document, const Primitive& primitive,
                                     size_t vertex_count, SceneBudget* budget) {
   std::vector<uint32_t> triangles;
-  // Returns the first triangle with an index that is too large, or how many there are.
+  // Returns the first triangle with an index that is too large, or the number of triangles.
   const auto fill = [&](size_t corners, const auto& index_of) {
     const size_t count = TriangleCount(document, primitive, corners);
     SpendTriangles(count, document.file, budget);
@@ -109,13 +109,13 @@ std::vector<uint32_t> ReadTriangles(const GltfDocument& document, const Primitiv
   return triangles;
 }
 
-// Keeps only what is used: primitives may share long accessors.
+// Drops unused vertices: primitives may share long accessors.
 void Compact(Primitive* primitive) {
   std::vector<uint32_t>& vertices = primitive->vertices;
   const size_t end =
       *std::max_element(primitive->triangles.begin(), primitive->triangles.end()) + size_t{1};
   if (end <= primitive->triangles.size()) {
-    // Faster than sorting, and not longer than the triangles are.
+    // Faster than sorting, and the table is not longer than the triangles.
     std::vector<uint32_t> places(end, 0);
     for (const uint32_t index : primitive->triangles) places[index] = 1;
     for (uint32_t index = 0; index < end; ++index) {
@@ -164,7 +164,8 @@ void ReadPositions(const GltfDocument& document, const Primitive& primitive,
                   "in the world each coordinate is " + Describe(limits::kCoordinate));
 }
 
-// Normals go by the inverse transpose: the cofactors, which do not mind a determinant of 0.
+// Transforms a normal by the cofactor matrix. It equals the inverse transpose up to a factor, and
+// also exists where the determinant is 0.
 Vec3d TransformNormal(const Vec3d& normal, const Imath::M44d& world_from_vertex) {
   const auto row = [&](int i) {
     return Vec3d(world_from_vertex[i][0], world_from_vertex[i][1], world_from_vertex[i][2]);
@@ -177,7 +178,7 @@ Vec3d TransformNormal(const Vec3d& normal, const Imath::M44d& world_from_vertex)
 void ReadNormals(const GltfDocument& document, const Primitive& primitive, size_t positions,
                  const GltfPlacement& placement, Mesh* mesh) {
   const int index = AttributeOf(primitive, "NORMAL");
-  if (index < 0) return;  // "flat normals", says the specification: those of the faces
+  if (index < 0) return;  // without normals, the specification requires flat shading
   const GltfAccessor accessor(document, index, "VEC3");
   CheckCount(document, accessor, positions);
   mesh->normals.resize(primitive.vertices.size());
@@ -187,18 +188,18 @@ void ReadNormals(const GltfDocument& document, const Primitive& primitive, size_
         TransformNormal(Triple(accessor, element), placement.WorldFromVertex(element));
     return true;
   });
-  MendNormals(mesh);  // some exporters write normals without a direction
+  MendNormals(mesh);  // some exporters write normals of length 0
 }
 
-// Tangents go by the matrix itself, and a mirrored node turns the sense of their bitangents round.
-// Without normals they are to be ignored, says the specification.
+// Tangents are transformed by the matrix itself; a mirroring matrix flips the sign of their
+// bitangents. The specification says to ignore tangents without normals.
 void ReadTangents(const Primitive& primitive, size_t positions, const GltfPlacement& placement,
                   GltfDocument* document, Mesh* mesh) {
   const int index = AttributeOf(primitive, "TANGENT");
   if (index < 0 || mesh->normals.empty()) return;
   const GltfAccessor accessor(*document, index, "VEC4");
   CheckCount(*document, accessor, positions);
-  // How far signed bytes, the coarsest form, can be off: the tolerance of Khronos' validator.
+  // The tolerance of Khronos' validator: the error of signed bytes, the coarsest format.
   constexpr double kTolerance = 0.00674;
   mesh->tangents.reserve(primitive.vertices.size());
   for (const uint32_t element : primitive.vertices) {
@@ -221,8 +222,8 @@ void ReadTangents(const Primitive& primitive, size_t positions, const GltfPlacem
   }
 }
 
-// Mirrored triangles turn their corners round, so that their fronts stay in front. A triangle
-// between joints of which some mirror goes by most of its corners.
+// Reverses the winding of mirrored triangles, so that their fronts stay in front. If only some of
+// the joints of a triangle mirror it, the majority of its corners decides.
 void TurnMirrored(const Primitive& primitive, const GltfPlacement& placement, Mesh* mesh) {
   if (!placement.is_skinned() && placement.WorldFromVertex(0).determinant() >= 0) return;
   std::vector<bool> mirrored;
@@ -258,7 +259,7 @@ void ReadUvs(const GltfDocument& document, const Primitive& primitive, const cha
   uvs->resize(count);
   const size_t wrong = SetAll(count, document.threads, [&](size_t i) {
     const uint32_t element = primitive.vertices[i];
-    // There (0, 0) is an image's top left.
+    // In glTF, (0, 0) is an image's top left corner.
     const Vec2d uv(accessor.Number(element, 0), 1 - accessor.Number(element, 1));
     (*uvs)[i] = uv;
     return limits::kCoordinate.Contains(uv.x) && limits::kCoordinate.Contains(uv.y);
@@ -268,8 +269,8 @@ void ReadUvs(const GltfDocument& document, const Primitive& primitive, const cha
                   fmt::format("texture coordinate {} is out of range", primitive.vertices[wrong]));
 }
 
-// Linear colours. White ones change nothing, and many exporters write them. Their alpha counts
-// where the material is a mask.
+// Reads linear vertex colours. All-white colours, which many exporters write, have no effect and
+// are dropped. Alpha counts if the material is a mask.
 void ReadColors(const GltfDocument& document, const Primitive& primitive, size_t positions,
                 Mesh* mesh) {
   const int index = AttributeOf(primitive, "COLOR_0");
@@ -300,7 +301,7 @@ void ReadColors(const GltfDocument& document, const Primitive& primitive, size_t
   if (white) mesh->colors.clear();
 }
 
-// Whether any texture of the material is on the second coordinates.
+// Whether any texture of the material uses the second texture coordinates.
 bool UsesSecondUvs(const Scene& scene, MaterialId id) {
   const Material& material = scene.materials[id.index];
   const auto second = [&](TextureId texture) {
@@ -319,7 +320,7 @@ bool UsesSecondUvs(const Scene& scene, MaterialId id) {
 MaterialId MaterialOf(const GltfDocument& document, const Primitive& primitive) {
   const auto count = static_cast<uint32_t>(document.model.materials.size());
   const int index = primitive.source.material;
-  if (index < 0) return {count};  // the default one, after all others
+  if (index < 0) return {count};  // the default material comes last
   if (static_cast<uint32_t>(index) >= count) {
     document.Refuse(primitive.place + "/material", fmt::format("there is no material {}", index),
                     fmt::format("the file has {}", count));
@@ -333,8 +334,8 @@ void WarnOfRest(const Primitive& primitive, GltfDocument* document) {
   }
 }
 
-// Refuses a primitive whose positions or indices have no data but those of an extension: one that
-// refers to a buffer view, as compressed ones do.
+// Refuses a primitive whose positions or indices have no data of their own, but an extension that
+// refers to a buffer view, as extensions for compressed meshes do.
 void RefuseCompressed(const GltfDocument& document, const Primitive& primitive) {
   const gltf::Extensions extensions = primitive.source.extensions;
   if (extensions == nullptr) return;
@@ -350,8 +351,8 @@ void RefuseCompressed(const GltfDocument& document, const Primitive& primitive) 
   }
 }
 
-// The sparse elements of its accessors, which are read whenever a node shows the primitive, whether
-// or not its triangles use them.
+// The number of sparse elements in the primitive's accessors. They are read for every node that
+// shows the primitive, whether or not its triangles use them.
 uint64_t SparseElements(const gltf::Model& model, const gltf::Primitive& primitive) {
   uint64_t count = 0;
   const auto add = [&](int accessor) {
@@ -368,7 +369,7 @@ void AddPrimitive(Primitive primitive, const std::string& name, const Imath::M44
                   SceneBudget* budget, Scene* scene) {
   const int mode = primitive.source.mode;
   const auto leave_out = [&](const char* warning) {
-    SpendTriangles(1, document->file, budget);  // nodes may visit it without end
+    SpendTriangles(1, document->file, budget);  // bounds how often nodes may show it
     document->Warn(warning);
   };
   if (mode < gltf::kTriangles) return leave_out("points and lines are not shown");

@@ -11,10 +11,11 @@
 
 namespace nacre {
 
-// Adds the primitives of a mesh that have triangles, in the world. `name` is the node's. `joints`,
-// those of the node's skin (gltf_skins.h), place meshes in the stead of its matrix; null: it has
-// none. Throws Error (kBadInput) for accessors that are not there, too short or of another type,
-// indices out of range, positions that are not finite or leave the range of coordinates.
+// Adds the primitives of a mesh that have triangles, in world space. `name` is the node's name.
+// `joints` has the matrices of the node's skin (gltf_skins.h), which then place the vertices
+// instead of the node's matrix; null if the node has no skin. Throws Error (kBadInput) for
+// accessors that do not exist, are too short or of another type, indices out of range, and
+// positions that are not finite or out of the range of coordinates.
 void AddGltfMesh(int mesh, const std::string& name, const Imath::M44d& world_from_node,
                  const std::vector<Imath::M44d>* joints, GltfDocument* document,
                  SceneBudget* budget, Scene* scene);

@@ -9,13 +9,13 @@ const Json* Find(const Json& object, const char* name) {
   return found == object.end() ? nullptr : &*found;
 }
 
-// Sets *out if the object has the member.
+// Sets *out if the object has the member `name`.
 template <typename T>
 void Get(const Json& object, const char* name, T* out) {
   if (const Json* json = Find(object, name)) *out = json->get<T>();
 }
 
-// Calls read(element, &out) for each element of the array, which may be missing.
+// Calls read(element, &out) for each element of the array `name`, which may be missing.
 template <typename T, typename Read>
 void GetAll(const Json& object, const char* name, std::vector<T>* out, const Read& read) {
   const Json* const array = Find(object, name);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // scene_io/gltf_model.h: the parts of a glTF 2.0 document that nacre shows, as plain structs. The
-// members have the names, units and defaults of the specification; an index below 0 is none.
+// members have the names, units and defaults of the specification; an index below 0 means none.
 #pragma once
 
 #include <cstddef>
@@ -27,18 +27,19 @@ enum ComponentType : int {
 // Values of primitive.mode.
 enum Mode : int { kPoints = 0, kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6 };
 
-// Values of a sampler's filters and wraps that differ from the defaults.
+// Values of a sampler's filters and wrap modes that differ from the defaults.
 inline constexpr int kNearest = 9728, kLinear = 9729;
 inline constexpr int kClampToEdge = 33071, kMirroredRepeat = 33648;
 
-// The member "extensions" of an object, in the document's JSON tree; null: there is none.
+// The member "extensions" of an object in the document's JSON tree; null if it has none.
 using Extensions = const Json*;
-// The extension of this name, or null.
+// The extension with this name, or null.
 const Json* FindExtension(Extensions extensions, const char* name);
 
 struct Buffer {
   uint64_t byteLength = 0;
-  std::shared_ptr<const std::string> data;  // at least byteLength bytes; null: the file has none
+  std::shared_ptr<const std::string> data;  // at least byteLength bytes; null: a buffer without
+                                            // data
 };
 
 struct BufferView {
@@ -105,7 +106,7 @@ struct Sampler {
 
 struct TextureInfo {
   int index = -1, texCoord = 0;
-  double scale = 1;  // of a normal texture
+  double scale = 1;  // for normal textures
   Extensions extensions = nullptr;
 };
 
@@ -128,8 +129,8 @@ struct Material {
 
 struct Camera {
   std::string type;  // "perspective" or "orthographic"
-  double yfov = 0;   // of a perspective camera, radians
-  double ymag = 0;   // of an orthographic one, half the height of its view
+  double yfov = 0;   // for perspective cameras: radians
+  double ymag = 0;   // for orthographic cameras: half the view's height
 };
 
 // KHR_lights_punctual.
@@ -137,12 +138,12 @@ struct Light {
   std::string name, type;
   std::vector<double> color = {1, 1, 1};
   double intensity = 1;
-  double range = 0;                                                    // 0: without an end
-  double innerConeAngle = 0, outerConeAngle = 0.78539816339744830962;  // of a spot, radians
+  double range = 0;                                                    // 0: unlimited
+  double innerConeAngle = 0, outerConeAngle = 0.78539816339744830962;  // for spot lights: radians
 };
 
 struct Skin {
-  std::vector<int> joints;  // nodes
+  std::vector<int> joints;  // indices of nodes
   int inverseBindMatrices = -1;
 };
 
@@ -151,16 +152,16 @@ struct Scene {
 };
 
 struct Model {
-  std::string version, minVersion;  // of "asset"; minVersion may be empty
+  std::string version, minVersion;  // from "asset"; minVersion may be empty
   std::vector<std::string> extensionsUsed, extensionsRequired;
-  int scene = -1;  // the default one
+  int scene = -1;  // the default scene
   bool hasAnimations = false;
   std::vector<Scene> scenes;
   std::vector<Node> nodes;
   std::vector<Mesh> meshes;
   std::vector<Accessor> accessors;
   std::vector<BufferView> bufferViews;
-  std::vector<Buffer> buffers;  // without data
+  std::vector<Buffer> buffers;  // their data is not loaded yet
   std::vector<Image> images;
   std::vector<Texture> textures;
   std::vector<Sampler> samplers;
@@ -170,8 +171,8 @@ struct Model {
   std::vector<Skin> skins;
 };
 
-// `root`, which CheckGltfTypes (gltf_types.h) has found no fault with, as structs. They refer to
-// the extensions in it.
+// Converts `root`, which must have passed CheckGltfTypes (gltf_types.h), to structs. They point to
+// the extensions in it, so `root` must outlive them.
 Model ReadModel(const Json& root);
 
 }  // namespace nacre::gltf

@@ -9,15 +9,15 @@
 namespace nacre {
 namespace {
 
-constexpr size_t kMaxInfluences = 16;  // sets of four joints
+constexpr size_t kMaxInfluences = 16;  // in sets of four joints
 
 int SkinAttribute(const gltf::Primitive& primitive, const char* name, size_t set) {
   const auto found = primitive.attributes.find(fmt::format("{}_{}", name, set));
   return found == primitive.attributes.end() ? -1 : found->second;
 }
 
-// Element i of an accessor of matrices, which are stored by columns as row vectors want them by
-// rows. The last row of the file's matrix, which is 0, 0, 0, 1, is not read.
+// Reads matrix i of an accessor. The file stores it by columns, which is by rows for row vectors.
+// The last row of the file's matrix, which is 0, 0, 0, 1, is not read.
 Imath::M44d ReadAffine(const GltfAccessor& accessor, size_t i) {
   Imath::M44d matrix;
   for (int row = 0; row < 4; ++row) {
@@ -39,7 +39,7 @@ std::vector<Imath::M44d> JointMatrices(const GltfDocument& document, int skin,
     document.Refuse(place, "there is no such skin", fmt::format("the file has {}", skins.size()));
   }
   const gltf::Skin& source = skins[static_cast<size_t>(skin)];
-  std::optional<GltfAccessor> inverse_bind;  // the identity if there is none
+  std::optional<GltfAccessor> inverse_bind;  // nullopt: the identity
   if (source.inverseBindMatrices >= 0) {
     inverse_bind.emplace(document, source.inverseBindMatrices, "MAT4");
     if (!inverse_bind->is_float()) {
@@ -117,16 +117,16 @@ Imath::M44d GltfPlacement::WorldFromVertex(size_t vertex) const {
                           fmt::format("weight {} of element {}", weight, vertex),
                           "weights are 0 or more");
       }
-      if (weight == 0) continue;  // then the joint's number means nothing
+      if (weight == 0) continue;  // then the joint's index is meaningless
       sum += MatrixOf(influences, vertex, c) * weight;
       total += weight;
     }
   }
-  // The usual viewers take a vertex without weights for one that hangs on its first joint.
+  // Like the usual viewers, attaches a vertex without weights to its first joint.
   if (total == 0) return MatrixOf(influences_.front(), vertex, 0);
   sum /= total;
   for (int row = 0; row < 3; ++row) sum[row][3] = 0;
-  sum[3][3] = 1;  // but for rounding it is
+  sum[3][3] = 1;  // equal to 1 except for rounding
   return sum;
 }
 

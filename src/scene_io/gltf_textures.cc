@@ -16,7 +16,7 @@
 namespace nacre {
 namespace {
 
-// The suffix that decides who decodes the bytes.
+// The file name suffix by which the decoder is chosen.
 std::string SuffixOf(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG")) return ".png";
   return bytes.starts_with("\xff\xd8") ? ".jpg" : ".image";
@@ -27,14 +27,15 @@ Wrap WrapOf(int gl_constant) {
   return gl_constant == gltf::kMirroredRepeat ? Wrap::kMirror : Wrap::kRepeat;
 }
 
-// Nearest if it says so for large texels; without mip levels if it says so for small ones.
+// The nearest texel if the sampler magnifies so; no mip levels if it minifies by kLinear.
 TextureFilter FilterOf(const gltf::Sampler& sampler) {
   if (sampler.magFilter == gltf::kNearest) return TextureFilter::kNearest;
   return sampler.minFilter == gltf::kLinear ? TextureFilter::kBilinear : TextureFilter::kTrilinear;
 }
 
-// KHR_texture_transform, whose v points down, in coordinates whose v points up:
-//   u' = ox + sx c u + sy s (1 - v)      c, s: of the rotation
+// KHR_texture_transform, in which v points down, converted to coordinates in which v points up.
+// With c and s, the cosine and sine of the rotation:
+//   u' = ox + sx c u + sy s (1 - v)
 //   v' = 1 - (oy - sx s u + sy c (1 - v))
 struct UvChange {
   Vec2d offset{0, 0}, scale{1, 1};
@@ -48,8 +49,8 @@ struct UvChange {
   }
 };
 
-// Here, not when the scene is validated: of its numbers few are the file's own. `place`: of the
-// extension.
+// Checks the range here rather than in the validation of the scene, which would report converted
+// numbers that are not in the file. `place` is the pointer to the extension.
 void ApplyTransform(const GltfDocument& document, const UvChange& change, const std::string& place,
                     Texture* texture) {
   const Range& range = limits::kTextureScale;
@@ -69,8 +70,8 @@ void ApplyTransform(const GltfDocument& document, const UvChange& change, const 
   check("offset", change.offset, texture->offset, ", with what the scale adds to it");
 }
 
-// Throws Error (kBadInput) for images that are not there, out of bounds, or outside the folder, and
-// for malformed data URIs.
+// Locates an image. Throws Error (kBadInput) for images that do not exist, are out of bounds, or
+// lie outside the folder, and for malformed data URIs.
 GltfImage FindImage(const GltfDocument& document, int image) {
   const gltf::Model& model = document.model;
   const std::string place = fmt::format("/images/{}", image);
@@ -107,7 +108,7 @@ GltfImage FindImage(const GltfDocument& document, int image) {
     document.Refuse(place, "reaches beyond its buffer");
   }
   if (view.byteLength == 0) document.Refuse(place, "has no bytes");
-  // Buffers that are one file share their data.
+  // Buffers of the same file share their data, and so their key.
   return {.file = {},
           .data = data,
           .bytes = std::string_view(*data).substr(view.byteOffset, view.byteLength),
@@ -144,7 +145,7 @@ void GltfTextures::WantAhead(int texture, TextureEncoding encoding) {
   if (image < 0) return;
   try {
     ahead_.Want(FileOf(FindImage(document_, image)), Reading(encoding));
-  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): its user will throw it again
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): Add will throw it again
   }
 }
 

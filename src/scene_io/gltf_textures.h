@@ -16,49 +16,50 @@
 
 namespace nacre {
 
-// Where an image of the file is: a file of its own, or bytes within.
+// Where an image of the file is stored: in a file of its own, or in bytes of the document.
 struct GltfImage {
-  std::filesystem::path file;               // resolved; empty: `bytes` hold it
-  std::shared_ptr<const std::string> data;  // of the buffer or the data URI
-  std::string_view bytes;                   // in `data`: encoded (PNG, JPEG...)
-  std::string key;  // the same for images that are one file, or the same bytes of one buffer
+  std::filesystem::path file;               // resolved path; empty: the image is in `bytes`
+  std::shared_ptr<const std::string> data;  // the buffer or data URI that holds `bytes`
+  std::string_view bytes;                   // view into `data`, encoded (PNG, JPEG...)
+  std::string key;  // equal for images that are one file, or the same bytes of one buffer
 };
 
-// What a material says of one of its textures.
+// How a material uses one of its textures.
 struct GltfTextureUse {
   int texture = -1;  // below 0: none
   int tex_coord = 0;
   gltf::Extensions extensions = nullptr;
   TextureEncoding encoding = TextureEncoding::kLinear;
-  double glossiness = 0;  // TextureReading's
+  double glossiness = 0;  // TextureReading::glossiness
 };
 
-// Adds textures and their images to a scene, each image once for each reading, however many of the
-// document's images are the same file or bytes.
+// Adds textures and their images to a scene. Each image is read once per way of reading it
+// (TextureReading), however many of the document's images are the same file or bytes.
 class GltfTextures {
  public:
   GltfTextures(GltfDocument* document, Scene* scene)
       : document_(*document), scene_(*scene), texels_(document->bytes) {}
 
-  // The texture as it is used, in nacre's coordinates: v up. None where `use` has none, and, with a
-  // warning, where nacre cannot show it. `place`: of the use, for errors. Throws Error (kBadInput)
-  // for images that are missing or broken, or more than TexelBudget allows.
+  // Adds the texture as it is used and returns its id, in nacre's texture coordinates (v up).
+  // Returns none where `use` has no texture, and, with a warning, where nacre cannot show it.
+  // `place` locates the use in errors. Throws Error (kBadInput) for images that are missing or
+  // broken, or exceed the TexelBudget.
   TextureId Add(const GltfTextureUse& use, const std::string& place);
 
   // Throws Error (kBadInput) if the file has no such texture.
   void CheckIndex(int texture, const std::string& place) const;
 
-  // Before all that: decodes the images that most materials have, several at a time.
+  // Decodes the images that most materials have on several threads. To be called before Add.
   void DecodeAhead();
 
-  // Whether it is a texture that changes nothing: all of its texels are 1.
+  // Whether the texture has no effect because all of its texels are 1.
   bool IsWhite(TextureId texture) const;
 
  private:
   ImageId AddImage(int image, const TextureReading& reading);
   ImageId DecodeImage(int image, const TextureReading& reading);
   void WantAhead(int texture, TextureEncoding encoding);
-  // The image as a file: its own, or a temporary one.
+  // A file that holds the image: its own, or a temporary one.
   std::filesystem::path FileOf(const GltfImage& image);
   TextureReading Reading(TextureEncoding encoding, double glossiness = 0) const {
     return {.encoding = encoding,
@@ -73,7 +74,8 @@ class GltfTextures {
   TexelBudget texels_;
   TexturesAhead ahead_;
   std::map<std::string, std::unique_ptr<const TemporaryFile>> files_;  // by GltfImage::key
-  // By reading, and by index in the document or by GltfImage::key.
+  // By reading, together with the image's index in the document (images_) or GltfImage::key
+  // (decoded_).
   std::map<std::pair<int, std::string>, ImageId> images_;
   std::map<std::pair<std::string, std::string>, ImageId> decoded_;
 };

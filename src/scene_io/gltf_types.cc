@@ -15,7 +15,7 @@ namespace nacre {
 namespace {
 
 enum class Kind : uint8_t {
-  kIndex,  // a whole number that an int can hold
+  kIndex,  // a whole number that fits an int
   kSize,   // a whole number of bytes or elements
   kNumber,
   kText,
@@ -23,21 +23,21 @@ enum class Kind : uint8_t {
   kIndices,  // an array of kIndex
   kTexts,    // an array of kText
   kNumbers,  // an array of `length` numbers
-  kObject,   // of which the table has more
-  kObjects,  // an array of such
-  kTexture,  // an object of which the table has more as kTextureInfo
+  kObject,   // whose members are in the table
+  kObjects,  // an array of such objects
+  kTexture,  // an object whose members are in the table under kTextureInfo
 };
 
-// The place of all textures that materials and their extensions refer to.
+// The table's name for the texture infos of materials and their extensions.
 constexpr std::string_view kTextureInfo = "textureInfo";
 
 struct Member {
-  // Where: the names on the way, arrays left out. In an extension it is the extension's name and
-  // the names on the way from there.
+  // The names on the path to the object, without array indices. In an extension, the path starts
+  // with the extension's name.
   std::string_view object;
-  std::string_view name;  // empty: every one
+  std::string_view name;  // empty: any name
   Kind kind;
-  size_t length = 0;  // of kNumbers; of kObjects the most that there may be
+  size_t length = 0;  // for kNumbers; for kObjects, the maximum, 0: the default of MostOf
   bool is_required = false;
 };
 
@@ -165,7 +165,7 @@ constexpr std::array kMembers = {
     Member{"KHR_texture_transform", "texCoord", Kind::kIndex},
 };
 
-// JSON has one kind of number, so that 3.0 and 3e0 are as whole as 3: they become it.
+// JSON has only one type of number: 3.0 and 3e0 are as whole as 3, and are converted to it.
 bool IsWhole(Json* json, double max) {
   if (!json->is_number()) return false;
   const auto number = json->get<double>();
@@ -181,8 +181,8 @@ bool AllOf(Json* json, bool (*is_right)(Json*)) {
          std::all_of(json->begin(), json->end(), [&](Json& element) { return is_right(&element); });
 }
 
-// Upper bound on the objects of an array: "{}," takes three bytes of text, and the struct that it
-// becomes up to a kilobyte.
+// Upper bound on the number of objects in an array: "{}," takes three bytes of text, and becomes a
+// struct of up to a kilobyte.
 size_t MostOf(const Member& member) {
   constexpr size_t kMostObjects = size_t{1} << 20;
   return member.length > 0 ? member.length : kMostObjects;
@@ -253,7 +253,8 @@ const Member* FindMember(std::string_view object, std::string_view name) {
 void CheckObject(const std::string& pointer, const std::string& place, Json* object,
                  FaultList* faults);
 
-// Those that are not in the table are read where they are used, as objects.
+// Extensions that are not in the table are only checked to be objects; their members are checked
+// where they are used (GltfExtension).
 void CheckExtensions(const std::string& pointer, Json* extensions, FaultList* faults) {
   if (!extensions->is_object()) {
     faults->Add(pointer, "is not an object");
@@ -269,7 +270,7 @@ void CheckExtensions(const std::string& pointer, Json* extensions, FaultList* fa
   }
 }
 
-// `object` is found at `pointer`; `place` is where that is in the table.
+// Checks the members of `object`, which is at `pointer` in the file and under `place` in the table.
 void CheckObject(const std::string& pointer, const std::string& place, Json* object,
                  FaultList* faults) {
   for (auto& [name, json] : object->items()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/gltf_types.h: whether the members of a glTF file have the types that they should.
+// scene_io/gltf_types.h: checks that the members of a glTF file have the types that they should.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace nacre {
 
-// Adds a fault for each member that is read here and has another type than glTF 2.0 gives it, as
-// negative offsets, indices that are not whole numbers or arrays of a wrong length, and for each
-// that is missing where it is required. Whole numbers that are written as 3.0 or 3e0 become
-// integers. What is not read here (animations, extras, unknown extensions) may be anything.
+// Adds a fault for each member that nacre reads and that violates its type in glTF 2.0 (negative
+// offsets, indices that are not whole numbers and arrays of a wrong length included), and for each
+// required member that is missing. Whole numbers that are written as 3.0 or 3e0 become integers.
+// What is not read (animations, extras, unknown extensions) may be anything.
 void CheckGltfTypes(Json* root, FaultList* faults);
 
 }  // namespace nacre

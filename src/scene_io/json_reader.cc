@@ -12,7 +12,7 @@
 namespace nacre {
 namespace {
 
-// "a string", "an object".
+// The kind of a value in words: "a string", "an object".
 std::string_view KindOf(const Json& json) {
   switch (json.type()) {
     case Json::value_t::null:
@@ -125,7 +125,8 @@ void AddFileFaults(const Error& error, const JsonValue& value) {
 
 void FaultUnknownName(const JsonValue& value, std::string_view kind, const std::string& word,
                       const std::vector<std::string>& names) {
-  // No hint for what is only counted: there may be a million, of a million names.
+  // No hint for faults that are only counted: there may be a million, each with a million names to
+  // compare.
   const bool is_kept = value.faults->count() < FaultList::kMaxKept;
   const std::string nearest = is_kept ? NearestName(word, names) : std::string();
   std::string hint;

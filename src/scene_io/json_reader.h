@@ -19,61 +19,64 @@
 
 namespace nacre {
 
-// Where a value is in the file: a chain of steps, each on the stack of the function that takes it,
-// spelled out as a JSON pointer only for a fault.
+// The location of a value in the file: a linked list of steps, each on the stack of the function
+// that takes it. It is turned into a JSON pointer only if there is a fault.
 struct JsonPath {
   static constexpr size_t kNoIndex = static_cast<size_t>(-1);
 
-  const JsonPath* parent = nullptr;  // nullptr: this is the whole file
-  std::string_view name;             // of a member of an object,
-  size_t index = kNoIndex;           // or the place in an array
+  const JsonPath* parent = nullptr;  // nullptr: the root of the file
+  std::string_view name;             // name of an object's member,
+  size_t index = kNoIndex;           // or index in an array
 
   JsonPath Member(std::string_view member) const { return {this, member, kNoIndex}; }
   JsonPath Element(size_t element) const { return {this, {}, element}; }
   std::string ToString() const;
 };
 
-// A value together with its place and where to report: what the Read functions take. It may outlive
-// neither the tree nor the JsonValue or JsonObject of the value around it.
+// A value together with its location and the list for its faults: the argument of the Read
+// functions. It must not outlive the tree, nor the JsonValue or JsonObject of the value that
+// contains it.
 struct JsonValue {
   const Json& json;
   JsonPath path;
   FaultList* faults;
 
   void AddFault(std::string what, std::string hint = {}) const;
-  // Faults "expected a number, got a string", with the hint, unless `is_right`; returns is_right.
+  // Unless `is_right`, adds the fault "expected a number, got a string", with the hint. Returns
+  // is_right.
   bool Expect(bool is_right, std::string_view expected, std::string_view hint = {}) const;
 };
 
-// Each returns whether it set *out. Colours are [r, g, b] or one number for grey.
+// Each returns whether it set *out. A colour is [r, g, b] or one number for grey.
 bool ReadNumber(const JsonValue& value, const Range& range, double* out);
 bool ReadWhole(const JsonValue& value, const Range& range, int64_t* out);
 bool ReadColor(const JsonValue& value, const Range& range, Rgb* out);
 bool ReadPoint(const JsonValue& value, const Range& range, Vec3d* out);
 bool ReadText(const JsonValue& value, std::string* out);
 
-// Reports what is wrong with the file that the value names, or in it.
+// Adds the faults of `error`, which is about the file that the value names, at the value's
+// location.
 void AddFileFaults(const Error& error, const JsonValue& value);
 
-// Reports that `word` is none of the names, with the nearest one or all of them as the hint.
+// Adds the fault that `word` is not among `names`. The hint is the nearest name, or all of them.
 void FaultUnknownName(const JsonValue& value, std::string_view kind, const std::string& word,
                       const std::vector<std::string>& names);
 
-// An object of the file. Remembers which members were asked for; RefuseOthers(), to be called
-// last, makes faults of the rest.
+// An object of the file. Remembers which members were asked for; RefuseOthers(), to be called last,
+// adds a fault for each of the rest.
 class JsonObject {
  public:
-  // Faults if the value is no object, and then behaves like an empty one.
+  // Adds a fault if the value is not an object, and then behaves like an empty one.
   explicit JsonObject(const JsonValue& value, std::string_view hint = {});
   JsonObject(const JsonObject&) = delete;
   JsonObject& operator=(const JsonObject&) = delete;
 
-  // The member, or nullptr if there is none.
+  // The member with this name, or nullptr if there is none.
   const Json* Find(std::string_view name);
-  // The same, but its absence is a fault.
+  // The member with this name. If there is none, adds a fault and returns nullptr.
   const Json* Require(std::string_view name, std::string_view hint = {});
 
-  // Each sets *out if the member is there and right, and returns whether it did.
+  // Each sets *out if the member is present and valid, and returns whether it did.
   bool Number(std::string_view name, const Range& range, double* out);
   bool Color(std::string_view name, const Range& range, Rgb* out);
   bool Point(std::string_view name, Vec3d* out);
@@ -86,7 +89,7 @@ class JsonObject {
     if (is_set) *out = static_cast<Int>(whole);
     return is_set;
   }
-  // A name out of `names`; sets *out to its position there.
+  // Reads one of `names` and sets *out to its index there.
   bool Choice(std::string_view name, std::span<const std::string_view> names, size_t* out);
 
   void RefuseOthers();

@@ -18,7 +18,7 @@
 namespace nacre {
 namespace {
 
-// "3:14", counted from 1, of the last of the first `bytes_read` bytes of the text.
+// The line and column of the last one of the first `bytes_read` bytes, counted from 1: "3:14".
 std::string LineAndColumn(std::string_view text, size_t bytes_read) {
   const size_t offset = bytes_read > 0 ? bytes_read - 1 : 0;
   const std::string_view before = text.substr(0, std::min(offset, text.size()));
@@ -27,7 +27,7 @@ std::string LineAndColumn(std::string_view text, size_t bytes_read) {
   return fmt::format("{}:{}", line, before.size() - line_start + 1);
 }
 
-// Walks through the text. Its place is shared with the tree's builder, which may move on.
+// Iterates over the text. The position is shared with TreeBuilder, which may advance it.
 struct SharedIterator {
   using iterator_category = std::input_iterator_tag;
   using value_type = char;
@@ -45,8 +45,8 @@ struct SharedIterator {
   bool operator==(const SharedIterator& other) const { return *at == *other.at; }
 };
 
-// Builds the tree from the parser's events: its own builder reports neither repeated names nor
-// where a number is that overflows.
+// Builds the tree from the parser's events. The parser's own builder reports neither repeated names
+// nor the location of a number that overflows.
 class TreeBuilder : public nlohmann::json_sax<Json> {
  public:
   TreeBuilder(std::string_view text, const std::string& file, FaultList* faults,
@@ -92,7 +92,8 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
 
   bool parse_error(size_t bytes_read, const std::string& token,
                    const nlohmann::json::exception& error) override {
-    // The parser's message quotes what it has read before, and it has not read plain spheres.
+    // The parser's message quotes the text before the error, but the parser has not seen plain
+    // spheres.
     if (spheres_ != nullptr && !spheres_->runs.empty()) {
       FaultList ignored;
       ParseJson(text_, file_, &ignored);  // throws
@@ -107,7 +108,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
     std::string_view message = error.what();
     const size_t start = message.find(": ", message.find("column"));
     if (start != std::string_view::npos) message.remove_prefix(start + 2);
-    // "; last read: '...'": the whole of a string, for example.
+    // The message may quote all of a long string: "; last read: '...'".
     const size_t quoted = message.find("last read: '");
     std::string shown(message.substr(0, quoted));
     if (quoted != std::string_view::npos) shown += Excerpt(message.substr(quoted));
@@ -118,7 +119,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
  private:
   static constexpr std::string_view kShapes = "shapes";
 
-  // What to do about what the parser says of the text that it has read so many bytes of.
+  // The hint for the parser's message after `bytes_read` bytes of the text.
   std::string HintFor(std::string_view message, size_t bytes_read) const {
     if (message.find("surrogate") != std::string_view::npos) {
       return R"(half a character: give both of its \u escapes, or the character itself)";
@@ -136,15 +137,16 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
   }
 
   struct Level {
-    Json* value;       // an object or array; stays where it is while it is the last in its parent
+    Json* value;       // object or array; does not move while it is the last element of its parent
     size_t plain = 0;  // elements of an array that are in spheres_ instead
-    std::string name;  // of the member that comes next, in an object
-    std::unordered_set<std::string> names;  // of the members so far, once they are many
+    std::string name;  // in an object: the name of the next member
+    std::unordered_set<std::string> names;  // in a large object: the names of its members so far
   };
 
-  // Whether the innermost object has a member of this name; notes it.
+  // Whether the innermost object already has a member with this name; remembers the name.
   static bool IsRepeated(const std::string& name, Level* level) {
-    // In a small object, as a million spheres are, looking is faster than remembering.
+    // In a small object, of which a million may occur as spheres, comparing all names is faster
+    // than a set.
     constexpr size_t kFew = 16;
     const auto& members = level->value->get_ref<const Json::object_t&>();
     if (members.size() <= kFew) {
@@ -157,7 +159,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
     return !level->names.insert(name).second;
   }
 
-  // The pointer to the innermost open object or array.
+  // The JSON pointer to the innermost open object or array.
   std::string Pointer() const {
     std::string pointer;
     for (size_t i = 0; i + 1 < levels_.size(); ++i) {
@@ -169,7 +171,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
     return pointer;
   }
 
-  // The pointer to the value that comes next.
+  // The JSON pointer to the value that comes next.
   std::string PointerToNext() const {
     if (levels_.empty()) return {};
     const Json& value = *levels_.back().value;
@@ -190,7 +192,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
       auto& array = parent.get_ref<Json::array_t&>();
       return &array.emplace_back(std::move(value));
     }
-    // Not through operator[], which would search all names before it for each one.
+    // Appends directly: operator[] would compare each name with all earlier ones.
     auto& object = parent.get_ref<Json::object_t&>();
     return &static_cast<Json::object_t::Container&>(object)
                 .emplace_back(levels_.back().name, std::move(value))
@@ -215,7 +217,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
   bool Close() {
     levels_.pop_back();
     TellProgress();
-    // The parser has read the element up to its bracket, and nothing of what follows.
+    // At this point the parser has read the element's closing bracket, and nothing after it.
     if (spheres_ != nullptr && levels_.size() == 2 && IsInShapes()) TakePlainSpheres();
     return true;
   }
@@ -228,8 +230,8 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
     }
   }
 
-  // Whether the innermost of the two open values is the scene's array of shapes, the first and only
-  // one: a second is a fault.
+  // Whether the innermost of the two open values is the scene's array "shapes". It must be the
+  // first one with this name: a second is a fault.
   bool IsInShapes() const {
     return shapes_ == 1 && levels_.back().value->is_array() && levels_.front().name == kShapes;
   }
@@ -254,7 +256,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
   PlainSphereReader sphere_reader_;
   const char* reached_;
   const char* end_;
-  size_t shapes_ = 0;  // members "shapes" of the outermost object
+  size_t shapes_ = 0;  // number of members "shapes" of the outermost object
   size_t closed_ = 0;
   Json root_;
   std::vector<Level> levels_;
@@ -267,7 +269,7 @@ std::optional<Json> TryParseJson(std::string_view text) {
   try {
     Json value = ParseJson(text, {}, &faults);
     if (faults.count() == 0) return value;
-  } catch (const Error&) {  // whoever asks has words of their own
+  } catch (const Error&) {  // callers report it in their own words
   }
   return std::nullopt;
 }
@@ -278,7 +280,7 @@ std::string JsonText(const Json& json, int indent) {
 
 std::string PlaceInFile(const std::string& file, const std::string& pointer) {
   if (pointer.empty()) return file;
-  // Names in it are a file's: of any length, and line ends may be in them.
+  // The names in it come from a file: they may have any length and contain line ends.
   constexpr size_t kLongestToken = 80, kLongest = 400;
   std::string shown;
   for (size_t begin = 0; begin < pointer.size();) {
@@ -299,7 +301,7 @@ void ThrowFaults(const FaultList& faults, const std::string& file, ExitCode code
 Json ParseJson(std::string_view text, const std::string& file, FaultList* faults,
                const std::function<void(double)>& on_progress, PlainSpheres* spheres) {
   const std::string_view json = WithoutByteOrderMark(text, file);
-  // The parser takes it for the end.
+  // The parser would take a character 0 for the end.
   const size_t zero = json.find('\0');
   if (zero != std::string_view::npos) RefuseZero(json, zero, file);
   TreeBuilder builder(json, file, faults, on_progress, spheres);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/json_text.h: JSON text to a tree, with the strictness that scene files want.
+// scene_io/json_text.h: parses JSON text into a tree, as strictly as scene files require.
 #pragma once
 
 #include <cstddef>
@@ -16,34 +16,35 @@
 
 namespace nacre {
 
-// Keeps the order of the file: lights are added up and materials are numbered in it.
+// Keeps the order of the file: lights are summed and materials are numbered in that order.
 using Json = nlohmann::ordered_json;
 
-// Deeper than any scene; a guard for whatever walks the tree recursively.
+// Deeper than any scene; it bounds the recursion of functions that walk the tree.
 inline constexpr size_t kMaxJsonDepth = 100;
 
-// What `text` says. Names that an object has twice are added to `faults` by JSON pointer. Throws
-// Error (kBadInput) with `file` in its place for text that is not JSON (line and column), UTF-16,
-// numbers too large for a double (pointer) and nesting deeper than 100.
-// `on_progress`, if any, is passed the share of the text that has been read now and then.
-// `spheres`, if any, gets the plain spheres of a scene's "shapes", which the tree then lacks, but
-// for the first shape and those behind one that is no plain sphere.
+// Parses `text`. Names that occur twice in an object are added to `faults`, located by JSON
+// pointer. Throws Error (kBadInput), located in `file`, for text that is not JSON (line and
+// column), UTF-16, numbers too large for a double (pointer) and nesting deeper than kMaxJsonDepth.
+// `on_progress`, if set, is called now and then with the fraction of the text that has been read.
+// `spheres`, if not null, receives the plain spheres of a scene's "shapes", which the tree then
+// lacks; the first shape, and the first one after each shape that is no plain sphere, stay in the
+// tree.
 Json ParseJson(std::string_view text, const std::string& file, FaultList* faults,
                const std::function<void(double)>& on_progress = {},
                PlainSpheres* spheres = nullptr);
 
-// The same for a snippet, an option's value; nothing if ParseJson would find fault with it.
+// Parses a snippet, such as the value of an option; nullopt if ParseJson would find fault with it.
 std::optional<Json> TryParseJson(std::string_view text);
 
-// The tree as text, on one line or indented. Bytes that are not UTF-8, which names of files and of
-// an OBJ file's materials may hold, become U+FFFD.
+// Serialises the tree, on one line or with `indent` blanks per level. Bytes that are not UTF-8,
+// which file names and the material names of an OBJ file may hold, become U+FFFD.
 std::string JsonText(const Json& json, int indent = -1);
 
-// "scenes/grid.json: /materials/gold", of long names in the pointer and of a long pointer the
-// beginning; the file alone for the pointer to all of it.
+// Formats a location as "scenes/grid.json: /materials/gold". Long names in the pointer and long
+// pointers are shortened. If the pointer is empty (the whole file), the location is the file alone.
 std::string PlaceInFile(const std::string& file, const std::string& pointer);
 
-// Throws Error with all of the faults, each placed in the file, if there are any.
+// If there are any faults, throws an Error with all of them, each located in the file.
 void ThrowFaults(const FaultList& faults, const std::string& file,
                  ExitCode code = ExitCode::kBadInput);
 

@@ -9,8 +9,8 @@ namespace nacre {
 std::string KeyOfFile(const std::filesystem::path& path) {
   struct stat status = {};
   if (stat(path.c_str(), &status) != 0) return path.string() + "|missing";  // its reader reports it
-  // Inode and time of change as well: a file that is copied or renamed to this name may have size
-  // and time of writing of the one before.
+  // The inode and the time of status change are included, because a file that is copied or renamed
+  // to this name may have the size and the modification time of the file before.
   const auto time = [](const timespec& t) { return fmt::format("{}.{:09}", t.tv_sec, t.tv_nsec); };
   return fmt::format("{}|{}|{}|{}|{}|{}", path.string(), status.st_dev, status.st_ino,
                      status.st_size, time(status.st_mtim), time(status.st_ctim));

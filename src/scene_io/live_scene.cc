@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "scene/hash.h"
+#include "scene_io/load_scene.h"
 #include "scene_io/model_scene.h"
 #include "scene_io/model_tree.h"
 #include "scene_io/overrides.h"
@@ -34,8 +35,8 @@ void SwapParts(SceneParts parts, Scene* a, Scene* b) {
   }
 }
 
-// The parts that a member of the file says directly. Of unknown members none: their reader
-// complains of them.
+// The parts of the scene that the member at `pointer` defines directly. None for unknown members,
+// which the reader of the file reports.
 SceneParts PartsOf(const std::string& pointer) {
   struct Member {
     std::string_view name;
@@ -55,14 +56,14 @@ SceneParts PartsOf(const std::string& pointer) {
   return found != kMembers.end() ? found->parts : SceneParts();
 }
 
-// Whether materials [0, count) of a scene are still those of the same names: shapes know them by
-// their places.
+// Whether the materials that the scene had before still have the same indices, judged by their
+// names: shapes refer to materials by index.
 bool KeepPlaces(const std::vector<Material>& before, const std::vector<Material>& now) {
   const auto same = [](const Material& a, const Material& b) { return a.name == b.name; };
   return now.size() >= before.size() && std::equal(before.begin(), before.end(), now.begin(), same);
 }
 
-// The parts whose members two trees of scene files have different values for.
+// The parts of the scene whose members differ between two trees of scene files.
 SceneParts DifferingParts(const SceneTree& a, const SceneTree& b) {
   SceneParts parts;
   const auto compare = [&](const Json& some, const Json& others) {
@@ -73,12 +74,12 @@ SceneParts DifferingParts(const SceneTree& a, const SceneTree& b) {
   };
   compare(a.root, b.root);
   compare(b.root, a.root);
-  // Of plain spheres it is the hash of the shapes that tells.
+  // Plain spheres are not in the trees; whether they differ is found out by the hash of the shapes.
   if (!a.spheres.runs.empty() || !b.spheres.runs.empty()) parts |= PartsOf("/shapes");
   return parts;
 }
 
-// What is read along with these parts of a scene file.
+// These parts of a scene file with the parts that must be read along with them.
 SceneParts WithMaterials(SceneParts parts) {
   return parts.HasAny(kMaterialParts | ScenePart::kShapes) ? parts | kMaterialParts : parts;
 }
@@ -106,7 +107,7 @@ LiveScene::LiveScene(const std::filesystem::path& path, LoadOptions options,
     files_.Add(path, SceneParts::All());
     ReadModelFile(OverridesOf(options_));
   } else {
-    files_.Add(path, {});  // the trees tell what has changed
+    files_.Add(path, {});  // what has changed is found by comparing trees
     ReadText(ReadSceneText(path));
   }
 }
@@ -157,7 +158,7 @@ void LiveScene::ReadModelFile(ModelOverrides overrides) {
 
 SceneParts LiveScene::ReadChangedFiles() {
   if (model_) {
-    // All of it is read. If that fails, the files that it was going to read are watched from now
+    // Reads everything again. If that fails, the files that it tried to read are watched from then
     // on.
     LoadOptions options = Watching();
     LiveScene fresh(path_, std::move(options), complete_);
@@ -211,7 +212,7 @@ LoadOptions LiveScene::Watching() {
 
 namespace {
 
-// The number of the shape in or at which the pointer points.
+// The number of the shape that the pointer points at or into.
 std::optional<size_t> ShapeNumberOf(const std::vector<std::string>& tokens) {
   if (tokens.size() < 2 || tokens[0] != "shapes") return std::nullopt;
   return ElementOf(tokens[1], static_cast<size_t>(-1));
@@ -269,7 +270,7 @@ std::optional<std::string> LiveScene::Get(const std::string& pointer) const {
 SceneParts LiveScene::ReadAgain(SceneParts touched, const std::string& material) {
   CheckVersion(tree_.root, file_);
   SceneParts parts = touched;
-  // What shapes have brought does not depend on another material; on textures it may.
+  // What shapes have brought does not depend on another material, but may depend on textures.
   const auto known = members_.names.find(material);
   const bool varied =
       known != members_.names.end() && members_.varied.contains(known->second.index);
@@ -296,7 +297,7 @@ SceneParts LiveScene::ReadAgain(SceneParts touched, const std::string& material)
           next.materials.size() > read->materials || next.textures.size() > read->textures;
       members_ = *std::move(read);
     } else if (parts.Has(ScenePart::kMaterials) && !moved) {
-      // Shapes are where they were.
+      // The shapes have not been read again.
       read->varied = std::move(members_.varied);
       read->shapes = std::move(members_.shapes);
       read->runs = std::move(members_.runs);
@@ -314,8 +315,8 @@ SceneParts LiveScene::ReadAgain(SceneParts touched, const std::string& material)
   if (parts.Has(ScenePart::kImage)) own_image_ = scene_.image;
   DropUnheld(&kept_);
   if (!parts.Has(ScenePart::kShapes)) return parts;
-  // Read along with materials, or from a file that was saved, they are mostly what they were. Those
-  // stay that others may point to.
+  // Shapes that were read along with materials, or from a file that was saved, are mostly
+  // unchanged. Then the old ones are kept, since others may hold pointers to them.
   if (HashShapes(next) != HashShapes(scene_)) return parts;
   SwapParts(ScenePart::kShapes, &scene_, &next);
   std::swap(scene_.labels, next.labels);
@@ -328,7 +329,7 @@ SceneParts LiveScene::CompleteModel(SceneParts touched) {
   if (parts.HasAny(ScenePart::kCamera | ScenePart::kLights)) {
     parts |= ScenePart::kLights | ScenePart::kBackground;
   }
-  // Shapes are the file's, but for coordinates that maps may need.
+  // Shapes always are those of the file, except for texture coordinates that maps may need.
   parts = parts.Without(ScenePart::kShapes);
   const SceneParts others = SceneParts::All().Without(parts);
   Scene next = model_->scene;

@@ -25,18 +25,12 @@ constexpr uint64_t kMaxSceneBytes = uint64_t{1} << 30;
 
 Scene LoadSceneText(std::string_view text, const std::string& file,
                     const std::filesystem::path& folder, const LoadOptions& options) {
-  FaultList faults;
-  const SceneTree tree = ParseScene({text, file, folder}, options, &faults);
-  Scene scene;
-  ReadScene(tree, SceneParts::All(), {.folder = folder, .bytes = text.size(), .options = &options},
-            &faults, &scene);
-  ThrowFaults(faults, file);
-  return scene;
+  return ReadSceneSource({text, file, folder}, options);
 }
 
 namespace {
 
-// A model with camera and light added where it has none.
+// Reads a model, and adds a camera and light where it has none.
 Scene LoadModel(const std::filesystem::path& path, const LoadOptions& options) {
   const std::string file = path.string();
   bool has_camera = false;
@@ -116,6 +110,13 @@ Scene LoadScene(const std::filesystem::path& path, const LoadOptions& options) {
   if (IsModelFile(path)) return LoadModel(path, options);
   const std::string text = ReadSceneText(path);
   return LoadSceneText(text, path.string(), path.parent_path(), options);
+}
+
+Material LoadMaterialText(std::string_view json, const std::string& file) {
+  const std::string scene = fmt::format(R"({{"nacre": 1, "materials": {{"material": {}}}}})", json);
+  Material material = LoadSceneText(scene, file, ".").materials.front();
+  material.name.clear();
+  return material;
 }
 
 }  // namespace nacre

@@ -7,7 +7,6 @@
 
 #include "brdf/fresnel.h"
 #include "scene/material_parameters.h"
-#include "scene_io/load_scene.h"
 
 namespace nacre {
 namespace {
@@ -63,13 +62,6 @@ std::string DescribeMaterial(const Json& material) {
   }
   const std::string model = material.value("model", "material");
   return text.empty() ? model : model + ": " + text;
-}
-
-Material MaterialFromJson(const Json& json, const std::string& file) {
-  const Json scene = {{"nacre", 1}, {"materials", {{"material", json}}}};
-  Material material = LoadSceneText(JsonText(scene), file, ".").materials.front();
-  material.name.clear();
-  return material;
 }
 
 }  // namespace nacre

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/material_json.h: materials back to what scene files say.
+// scene_io/material_json.h: converts materials back to the JSON of scene files.
 #pragma once
 
 #include <string>
@@ -9,16 +9,12 @@
 
 namespace nacre {
 
-// The material as an object of a scene file, numbers to six digits: its model, every number and
-// colour (but those that do nothing: no emission, no tint) and the choices that are not the
-// model's default. Maps are left out. Not for a split.
+// The material as an object of a scene file, with numbers rounded to six digits: its model, all
+// numbers and colours except those without effect (no emission, no tint), and the choices that are
+// not the model's default. Maps are left out. The material must not be a split.
 Json MaterialJson(const Material& material);
 
-// The same in one line for people: "phong: color 0.8 0.2 0.2, kd 0.96, shininess 19".
+// The same object in one line for people: "phong: color 0.8 0.2 0.2, kd 0.96, shininess 19".
 std::string DescribeMaterial(const Json& material);
-
-// The material that an object of a scene file says. Throws Error as LoadSceneText does, with `file`
-// in its place.
-Material MaterialFromJson(const Json& json, const std::string& file);
 
 }  // namespace nacre

@@ -21,7 +21,8 @@
 namespace nacre {
 namespace {
 
-// Calls use(point, reach) for balls that hold all shapes between them.
+// Calls use(center, radius) for balls that together enclose all shapes. Vertices of meshes have
+// radius 0.
 template <class Use>
 void ForEachPoint(const Scene& scene, const Use& use) {
   for (const Mesh& mesh : scene.meshes) {
@@ -30,7 +31,7 @@ void ForEachPoint(const Scene& scene, const Use& use) {
   for (const Sphere& sphere : scene.spheres) use(sphere.center, sphere.radius);
 }
 
-// The unit vectors to the right of the camera, up and towards it.
+// Unit vectors to the right of the camera, upwards, and back from the scene to the camera.
 struct View {
   Vec3d right, up, back;
 };
@@ -47,20 +48,21 @@ Light MakeDirectional(std::string name, const Vec3d& to_light, double irradiance
   return light;
 }
 
-// A soft box of a studio: a round light at infinity whose edge fades away.
+// A soft box of a studio: a round light at infinity with a soft edge.
 struct SoftBox {
   Vec3d to_box;       // unit
-  double half_angle;  // radians, to where it has faded to a half
-  double fade;        // radians, from all of its radiance to none
+  double half_angle;  // radians, to where the radiance has fallen to a half
+  double fade;        // radians, from full radiance to none
   double radiance;
 };
 
-// What stands around a model in the studio, so that metals and gloss have something to mirror: a
-// room, dark below and light above, with a soft box about the key light, one about the fill light
-// and a bright ceiling. What faces up gets the irradiance of radiance 0.35 all around, what faces
-// the camera of 0.25, what faces down of 0.06.
+// The surroundings of a model in the studio, which give metals and glossy materials something to
+// reflect: a room, dark below and light above, with a soft box around the key light, one around the
+// fill light and a bright ceiling. Surfaces that face up get the irradiance of a uniform radiance
+// of 0.35, those that face the camera of 0.25, those that face down of 0.06.
 std::shared_ptr<const SkyPicture> MakeStudioRoom(const View& view) {
-  // Texels of 0.7 degrees: a perfect mirror shows them as steps that fade with the boxes' edges.
+  // A texel is 0.7 degrees wide: a perfect mirror shows steps, which the soft edges of the boxes
+  // hide.
   constexpr int kWidth = 512, kHeight = 256;
   constexpr double kDegree = std::numbers::pi / 180;
   const std::array<SoftBox, 3> boxes = {{
@@ -93,7 +95,7 @@ std::shared_ptr<const SkyPicture> MakeStudioRoom(const View& view) {
   return picture;
 }
 
-// The parts of the tree that overrides make.
+// The members of the tree that overrides have built.
 class Overrides {
  public:
   Overrides(const Json& root, FaultList* faults) : root_({root, JsonPath{}, faults}) {}
@@ -127,7 +129,8 @@ void SetMaterials(const JsonValue& value, SceneContext* context) {
   }
 }
 
-// Lights of which members alone are put, as whole ones; null removes one of the scene's.
+// Completes lights of which only single members are set, and removes those of the scene that are
+// set to null.
 Json CompletedLights(const JsonValue& value, Scene* scene) {
   if (!value.json.is_object()) return value.json;
   Json lights = Json::object();
@@ -142,7 +145,7 @@ Json CompletedLights(const JsonValue& value, Scene* scene) {
     if (!own.is_object() || own.contains("type") || whole.is_null()) {
       whole = own;
     } else {
-      // Another sky than the room has no scale but its own.
+      // The room's scale does not apply to another sky, which has its own.
       const bool other_sky =
           own.contains("radiance") || own.contains("gradient") || own.contains("quadratic");
       if (other_sky) whole.erase("scale");
@@ -153,7 +156,7 @@ Json CompletedLights(const JsonValue& value, Scene* scene) {
   return lights;
 }
 
-// New lights, and others in the place of those of the same name.
+// Adds new lights, and replaces lights of the scene with the same name.
 void SetLights(const JsonValue& value, const SceneContext& context, Scene* scene) {
   std::vector<Light> lights;
   const Json whole = CompletedLights(value, scene);
@@ -194,7 +197,7 @@ bool CompleteCoordinates(Scene* scene) {
 }
 
 void SplitColoredMaterials(Scene* scene) {
-  std::map<uint32_t, uint32_t> colored;  // copies by their originals
+  std::map<uint32_t, uint32_t> colored;  // index of the copy by index of the original
   for (Mesh& mesh : scene->meshes) {
     if (mesh.colors.empty()) continue;
     const auto next = static_cast<uint32_t>(scene->materials.size());
@@ -224,7 +227,7 @@ void FrameScene(Scene* scene) {
   camera.up = Vec3d(0, 1, 0);
   const auto [right, up, back] = ViewOf(camera);
   const double aspect = static_cast<double>(scene->image.width) / scene->image.height;
-  // A tenth of the picture stays free on the sides that the model fills.
+  // Leaves a tenth of the picture free on the sides that the model fills.
   constexpr double kFilled = 0.9;
   const double half_y = camera.fov_y_deg * (std::numbers::pi / 360);
   const double tan_y = kFilled * std::tan(half_y), tan_x = tan_y * aspect;
@@ -232,7 +235,7 @@ void FrameScene(Scene* scene) {
   ForEachPoint(*scene, [&, right = right, up = up, back = back](const Vec3d& point, double reach) {
     const Vec3d p = point - camera.look_at;
     const double x = std::abs(p.dot(right)), y = std::abs(p.dot(up));
-    // Of a ball: the planes that bound the view touch it.
+    // The distance at which the planes that bound the view touch the ball.
     const auto needed = [&](double off_axis, double tangent) {
       return p.dot(back) + off_axis / tangent + reach * std::hypot(1, 1 / tangent);
     };
@@ -246,8 +249,8 @@ void FrameScene(Scene* scene) {
 
 void AddStudioLights(Scene* scene) {
   const auto [right, up, back] = ViewOf(scene->camera);
-  // Under the key light alone white paper has radiance 0.8; the fill opens its shadows, the rim
-  // parts the model from the background.
+  // White paper under the key light alone has radiance 0.8. The fill light brightens shadows, the
+  // rim light separates the model from the background.
   const bool is_classic =
       std::any_of(scene->materials.begin(), scene->materials.end(), [](const Material& material) {
         const auto* phong = std::get_if<PhongMaterial>(&material.model);
@@ -260,7 +263,7 @@ void AddStudioLights(Scene* scene) {
   scene->lights.push_back(MakeDirectional("rim", right * 0.4 + up * 0.7 + back * -1, 0.6 * key));
   Light sky;
   sky.name = "sky";
-  // Phong's classic form has its own idea of light from everywhere, and mirrors nothing.
+  // The classic Phong convention has an ambient term of its own, and reflects no environment.
   if (is_classic) {
     sky.kind = AmbientLight{Rgb(0.12)};
   } else {
@@ -275,7 +278,7 @@ void AddStudioLights(Scene* scene) {
 
 void AddOverride(const std::string& pointer, const std::string& json, ModelOverrides* overrides) {
   ApplyOverride(pointer, json, &overrides->root);
-  // A value for all of "lights" leaves none of the others, as in a scene file.
+  // Setting all of "lights" removes the model's own lights, as in a scene file.
   if (pointer == "/lights") overrides->own_lights = true;
 }
 
@@ -300,7 +303,7 @@ bool CompleteModelScene(const ModelCompletion& how, SceneParts parts, Scene* sce
   };
   member("image", ScenePart::kImage,
          [&](const JsonValue& value) { ReadImageSettings(value, &scene->image); });
-  // The kind and field of view of the camera decide how far away it must be.
+  // Reads the camera first, as its projection and field of view decide how far away it must be.
   member("camera", ScenePart::kCamera,
          [&](const JsonValue& value) { ReadCamera(value, &scene->camera); });
   if (!how.has_camera && parts.Has(ScenePart::kCamera)) {
@@ -330,7 +333,7 @@ bool CompleteModelScene(const ModelCompletion& how, SceneParts parts, Scene* sce
   context.budget = &budget;
   TexelBudget texels(0, TexelValuesOf(*scene));
   context.texels = &texels;
-  for (uint32_t i = 0; i < scene->materials.size(); ++i) {  // a split may name them
+  for (uint32_t i = 0; i < scene->materials.size(); ++i) {  // a split may refer to them
     context.materials.try_emplace(scene->materials[i].name, MaterialId{i});
   }
   member("lights", ScenePart::kLights,
@@ -339,9 +342,10 @@ bool CompleteModelScene(const ModelCompletion& how, SceneParts parts, Scene* sce
          [&](const JsonValue& value) { ReadTextures(value, &context); });
   member("materials", ScenePart::kMaterials,
          [&](const JsonValue& value) { SetMaterials(value, &context); });
-  // Last: what a file leaves idle may be set. (Parts that are complete have none.)
+  // This comes last, because overrides may set what a file leaves idle. (Complete parts have no
+  // idle layers.)
   for (Material& material : scene->materials) RemoveIdleLayers(*scene, &material);
-  // New maps may need them.
+  // New maps may need texture coordinates.
   const bool new_coordinates = parts.Has(ScenePart::kMaterials) && CompleteCoordinates(scene);
   member("background", ScenePart::kBackground,
          [&](const JsonValue& value) { ReadColor(value, limits::kRadiance, &scene->background); });

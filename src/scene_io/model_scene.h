@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/model_scene.h: what turns a model into a scene: a camera that sees all of it, light,
-// and the values that --set, --size and --spp give.
+// scene_io/model_scene.h: turns a model into a scene by adding a camera that sees all of it, light,
+// and the values of --set, --size and --spp.
 #pragma once
 
 #include <string>
@@ -9,53 +9,54 @@
 #include "scene/scene.h"
 #include "scene_io/json_text.h"
 #include "scene_io/kept_files.h"
-#include "scene_io/load_scene.h"
+#include "scene_io/load_options.h"
 
 namespace nacre {
 
-// Gives meshes of materials with maps texture coordinates where they have none: those of one texel,
-// as the usual viewers do. Returns whether there were any.
+// Gives meshes without texture coordinates whose materials have maps the coordinates (0, 0), so
+// that they show a single texel, as the usual viewers do. Returns whether there were such meshes.
 bool CompleteCoordinates(Scene* scene);
 
-// Gives meshes that have colours a material of their own that asks for them, after its original.
+// Gives meshes with vertex colours a copy of their material that uses these.
 void SplitColoredMaterials(Scene* scene);
 
-// Points the camera at all spheres and meshes, from the front, the right and above: three quarters.
-// Keeps its kind and field of view.
+// Points the camera at all spheres and meshes, in a three-quarter view from the front, the right
+// and above. Keeps its projection and field of view.
 void FrameScene(Scene* scene);
 
-// Three lights as photographers set them (key, fill, rim) about the camera, a room with soft boxes
-// as an environment ("sky"), which metals mirror, and a grey background. For scenes without any
-// light.
+// For scenes without any light: adds the three lights of photography (key, fill, rim), placed
+// relative to the camera, an environment ("sky") that shows a room with soft boxes, for metals to
+// reflect, and a grey background.
 void AddStudioLights(Scene* scene);
 
-// What overrides put into a model's scene.
+// The values that overrides set in a model's scene.
 struct ModelOverrides {
   Json root = Json::object();
-  bool own_lights = false;  // they replace all of its lights
+  bool own_lights = false;  // the overrides replace all of the model's lights
 };
 
-// Puts a further value. Throws Error (kUsage) if that cannot be done.
+// Adds an override. Throws Error (kUsage) if it cannot be made.
 void AddOverride(const std::string& pointer, const std::string& json, ModelOverrides* overrides);
 
-// Those of the options, the environment included. Throws Error as ApplyOptions does.
+// The overrides of the options, the environment included. Throws Error as ApplyOptions does.
 ModelOverrides OverridesOf(const LoadOptions& options);
 
-// How a model's scene is completed.
+// How to complete a model's scene.
 struct ModelCompletion {
   const ModelOverrides* overrides = nullptr;
   const LoadOptions* options = nullptr;
-  std::string file;           // the model
-  bool has_camera = false;    // else one is added, and light if there is none
-  KeptFiles* kept = nullptr;  // of a scene that is completed again; else null
+  std::string file;           // the model's file
+  bool has_camera = false;    // false: a camera is added, and light if there is none
+  KeptFiles* kept = nullptr;  // for a scene that is completed again; else null
 };
 
-// Completes these parts, which are as the file has them; the rest is complete. Overrides work as in
-// scene files, on camera, image, lights, background, textures, and the materials that there are: on
-// their parameters and maps, or, with a "model", on all of one. A camera that is added depends on
-// the image, and light that is added on the camera, and the background on the light. Returns
-// whether meshes got coordinates. Throws Error: kBadInput for values out of range and names that
-// mean nothing, kUsage for overrides that cannot be made.
+// Completes the given parts of the scene, which must be as the file has them; the other parts must
+// be complete already. Overrides work as in scene files, on camera, image, lights, background,
+// textures and existing materials: they change a material's parameters and maps, or, with a
+// "model", replace all of it. A camera that is added depends on the image, lights that are added on
+// the camera, and the background on the lights. Returns whether meshes were given texture
+// coordinates. Throws Error: kBadInput for values out of range and names that do not exist, kUsage
+// for overrides that cannot be made.
 bool CompleteModelScene(const ModelCompletion& how, SceneParts parts, Scene* scene);
 
 }  // namespace nacre

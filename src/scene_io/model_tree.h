@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/model_tree.h: what a model's scene says, as a scene file has it.
+// scene_io/model_tree.h: a model's scene as the JSON of a scene file.
 #pragma once
 
 #include "scene/scene.h"
@@ -7,18 +7,17 @@
 
 namespace nacre {
 
-// A light that models have, or are given, as an object of a scene file; null for others.
+// Converts a light of a kind that models have, or are given, to an object of a scene file; null for
+// other kinds.
 Json ModelLightJson(const Light& light);
 
-// The camera with every member.
-Json CameraJson(const Camera& camera);
-
-// `put` has the values that were put: its materials and lights become whole, and those of the
-// scene that it does not name are added. Maps are left out.
+// `put` has the values that overrides have set. Its materials and lights are completed to whole
+// ones, and those of the scene that it does not name are added. Maps are left out.
 void AddMaterials(const Scene& scene, Json* put);
 void AddLights(const Scene& scene, Json* put);
 
-// The same with camera, image and background: all of the scene but its meshes and maps.
+// Completes the materials, lights, camera, image and background of `put`: all of the scene but its
+// meshes and maps.
 Json ModelTree(const Scene& scene, const ImageSettings& image, Json put);
 
 }  // namespace nacre

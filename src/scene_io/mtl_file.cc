@@ -48,7 +48,7 @@ constexpr std::array kImageKeys = {
     ImageKey{"map_bump", &MtlMaterial::bump},   ImageKey{"disp", &MtlMaterial::disp},
     ImageKey{"map_disp", &MtlMaterial::disp}};
 
-// What is left out, with a warning; numbers only if they are not 0.
+// Statements that are left out with a warning; numbers only if they are not 0.
 struct NotShown {
   std::string_view name;
   std::string_view warning;
@@ -62,12 +62,12 @@ constexpr std::array kImagesNotShown = {
     NotShown{"map_rma", "images of several channels (map_RMA, map_ORM) are not shown"},
     NotShown{"map_orm", "images of several channels (map_RMA, map_ORM) are not shown"}};
 
-// Left out without a warning: transmission, about which illum and d warn already; filters and
-// sampling; the angle of anisotropy, which is not shown either.
+// Statements that are left out without a warning: transmission, which the warnings about illum and
+// d cover; filters and sampling; the angle of anisotropy, which the warning about aniso covers.
 constexpr std::array<std::string_view, 7> kSilent = {
     "kt", "tf", "km", "sharpness", "anisor", "map_aat", "interpolatemode"};
 
-// What is followed by one number.
+// Keywords that are followed by one number.
 constexpr std::array<std::string_view, 10> kNumbers = {"ns", "ni", "d",  "tr", "illum",
                                                        "pr", "pm", "ps", "pc", "pcr"};
 
@@ -121,7 +121,7 @@ class MtlFileReader {
     }
   }
 
-  // Whether `keyword` is a member of materials.
+  // Reads the statement if `keyword` is one of materials. Returns whether it is.
   bool ReadMember(const std::string& keyword, std::string_view line, MtlMaterial* material) {
     for (const ColorKey& color : kColorKeys) {
       if (color.name != keyword) continue;
@@ -151,7 +151,7 @@ class MtlFileReader {
       material->opacity = number;
       has_opacity_ = true;
     } else if (keyword == "tr") {
-      // For some programs this is the opacity; their files have a d as well.
+      // Some programs write the opacity as Tr; their files also have d, which takes precedence.
       if (!has_opacity_) material->opacity = 1 - number;
     } else if (keyword == "illum") {
       material->illum = static_cast<int>(std::clamp(number, 0.0, 10.0));
@@ -165,7 +165,7 @@ class MtlFileReader {
     }
   }
 
-  // Nothing, and one warning, where no number is, or NaN or infinity.
+  // The number in `word`; nullopt, with one warning per file, if there is none, or NaN or infinity.
   std::optional<double> NumberOf(std::string_view word, std::string_view keyword,
                                  std::string_view count) {
     const std::optional<double> number = ParseNumber(word);
@@ -185,7 +185,7 @@ class MtlFileReader {
     return NumberOf(NextWord(&line), keyword, "one");
   }
 
-  // The number in its range. Exporters write a little more than white, and -1 for none.
+  // Clamps the number to its range. Exporters write a little more than white, and -1 for none.
   double Clamped(std::string_view keyword, double number, const Range& range) {
     if (range.Contains(number)) return number;
     if (!std::exchange(warned_of_range_, true)) {
@@ -195,7 +195,7 @@ class MtlFileReader {
     return std::clamp(number, range.min, range.max);
   }
 
-  // Three numbers, or one for grey.
+  // Reads three numbers, or one for grey.
   void ReadColor(const ColorKey& key, std::string_view line, Rgb* out) {
     const std::string_view first = NextWord(&line);
     if (first == "spectral" || first == "xyz") {
@@ -217,14 +217,14 @@ class MtlFileReader {
     for (int c = 0; c < 3; ++c) (*out)[c] = Clamped(key.name, color[c], key.range);
   }
 
-  // Takes the numbers off the front of `line`, up to three. Others stay as they were.
+  // Takes up to three numbers off the front of `line`. The others keep their values.
   void Numbers(std::string_view* line, std::array<double, 3>* numbers) const {
     for (double& number : *numbers) {
       std::string_view rest = *line;
       const std::string_view word = NextWord(&rest);
       const std::optional<double> value = ParseNumber(word);
       if (!value) {
-        // A number that no double holds is none that a file could be called.
+        // A number that no double holds cannot be the name of a file either.
         if (word.find_first_not_of("+-.0123456789eE") == std::string_view::npos &&
             word.find_first_of("0123456789") != std::string_view::npos) {
           Refuse(fmt::format("\"{}\" is not a finite number", Excerpt(word)));
@@ -236,8 +236,8 @@ class MtlFileReader {
     }
   }
 
-  // Options, and then the name of the file, which may hold blanks. Options after the name, where
-  // the format has none, are seen in many files.
+  // Reads options and then the name of the file, which may contain blanks. Many files have options
+  // after the name, where the format does not allow them.
   MtlImage Image(std::string_view line) {
     MtlImage image;
     ReadOptions(&line, &image);
@@ -285,7 +285,7 @@ class MtlFileReader {
                  option == "-type" || option == "-colorspace") {
         NextWord(&rest);
       } else {
-        return;  // it is the name
+        return;  // the file's name
       }
       *line = rest;
     }
@@ -294,8 +294,8 @@ class MtlFileReader {
   const std::string file_;
   const size_t max_materials_;
   const std::function<void(const std::string&)>& warn_;
-  size_t number_ = 0;         // of the line that is read
-  bool has_opacity_ = false;  // of the material that is read: d
+  size_t number_ = 0;         // current line
+  bool has_opacity_ = false;  // the current material has a d
   bool warned_of_unknown_ = false, warned_of_range_ = false, warned_of_form_ = false;
   bool warned_of_no_number_ = false;
   std::vector<MtlMaterial> materials_;

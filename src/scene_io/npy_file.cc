@@ -18,7 +18,7 @@ constexpr std::string_view kMagic = "\x93NUMPY";
 constexpr const char* kNpyHint =
     "numpy.save of N rows and 3 to 5 columns of floats: x, y, z, radius, material";
 
-// The header's text, a Python dictionary:
+// The text of the header, a Python dictionary:
 //   {'descr': '<f4', 'fortran_order': False, 'shape': (1000, 4), }
 class NpyHeader {
  public:
@@ -28,7 +28,7 @@ class NpyHeader {
     throw Error(ExitCode::kBadInput, file_, std::move(what), kNpyHint);
   }
 
-  // What follows the key and its colon.
+  // The text after the key and its colon.
   std::string_view ValueOf(std::string_view key) const {
     const size_t found = text_.find(key);
     std::string_view rest = text_.substr(std::min(found, text_.size()));
@@ -90,7 +90,8 @@ class NpyHeader {
   const std::string& file_;
 };
 
-// The text, of version 1 (two bytes of length) to 3 (four). Sets *offset to what follows it.
+// The text of the header, for versions 1 (two bytes for its length) to 3 (four bytes). Sets *offset
+// to where the data begins.
 std::string_view HeaderText(std::string_view bytes, const std::string& file, size_t* offset) {
   const auto refuse = [&](const char* what) {
     throw Error(ExitCode::kBadInput, file, what, kNpyHint);
@@ -104,7 +105,8 @@ std::string_view HeaderText(std::string_view bytes, const std::string& file, siz
   if (bytes.size() < *offset) refuse("ends in its header");
   size_t length = 0;
   for (size_t i = 0; i < length_bytes; ++i) length |= size_t{byte(kLength + i)} << (8 * i);
-  constexpr size_t kMaxHeader = size_t{1} << 16;  // of a matrix: about a hundred bytes
+  constexpr size_t kMaxHeader = size_t{1} << 16;  // the header of a matrix has about a hundred
+                                                  // bytes
   if (length > kMaxHeader) refuse("has too long a header");
   if (bytes.size() - *offset < length) refuse("ends in its header");
   const std::string_view text = bytes.substr(*offset, length);

@@ -12,9 +12,9 @@ namespace nacre {
 
 class NpyMatrix {
  public:
-  // Reads the header. Throws Error (kBadInput) with `file` for what is no such file, for what its
-  // numbers are if they are not floats of 4 or 8 bytes, and unless the bytes are as many as its
-  // shape says. Refers to `bytes`.
+  // Reads the header. Throws Error (kBadInput), located in `file`, if this is not an .npy file, if
+  // its numbers are not floats of 4 or 8 bytes (the message names their type), or if the number of
+  // bytes does not match its shape. Refers to `bytes`, which must outlive it.
   NpyMatrix(const std::string& bytes, const std::string& file);
 
   uint64_t rows() const { return rows_; }
@@ -29,7 +29,7 @@ class NpyMatrix {
   PlyType type_ = PlyType::kFloat;
   size_t size_ = 4;
   bool big_endian_ = false;
-  bool by_columns_ = false;  // Fortran's order
+  bool by_columns_ = false;  // Fortran order: column-major
   uint64_t rows_ = 0, columns_ = 0;
 };
 

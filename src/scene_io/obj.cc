@@ -19,7 +19,7 @@
 namespace nacre {
 namespace {
 
-// What makes a vertex of its own.
+// Corners of faces with equal keys share a vertex.
 struct VertexKey {
   uint32_t position;
   int32_t normal, uv;
@@ -35,7 +35,7 @@ struct HashKey {
   }
 };
 
-// What of the file its meshes have: normals if all corners do, uvs if one does.
+// Which attributes the meshes of a file have: normals if all corners have one, uvs if any has one.
 struct ObjContents {
   explicit ObjContents(const ObjFile& obj) {
     ForEachFace(obj, obj.corners.data(),
@@ -49,11 +49,11 @@ struct ObjContents {
   bool normals = true, uvs = false;
 };
 
-// Which vertex has a key: numbers of vertices in a table whose places are at least twice as many,
-// each at the first free place from its hash on.
+// Maps keys to vertex numbers by a hash table with linear probing, of at least twice as many slots
+// as keys.
 class VertexTable {
  public:
-  // The number of the key's vertex, and whether it is a new one: the next.
+  // The vertex number of the key, and whether it is new. New keys get consecutive numbers.
   std::pair<uint32_t, bool> Find(const VertexKey& key) {
     if (places_.size() <= 2 * keys_.size()) Grow();
     size_t place = HashKey()(key) & (places_.size() - 1);
@@ -78,10 +78,10 @@ class VertexTable {
   }
 
   std::vector<VertexKey> keys_;   // by vertex
-  std::vector<uint32_t> places_;  // a power of two of them
+  std::vector<uint32_t> places_;  // slots; their number is a power of two
 };
 
-// Collects vertices: OBJ numbers positions, normals and uvs apart, a mesh has them by position.
+// Collects vertices. OBJ indexes positions, normals and uvs separately, a mesh by vertex.
 class MeshBuilder {
  public:
   MeshBuilder(const ObjFile& obj, const ObjContents& contents)
@@ -121,15 +121,15 @@ class MeshBuilder {
 
   const ObjFile& obj_;
   bool with_normals_, with_uvs_;
-  bool has_uv_ = false, misses_uv_ = false;  // of the mesh: some vertices do
+  bool has_uv_ = false, misses_uv_ = false;  // whether some vertices do
   VertexTable vertices_;
-  std::vector<Vec3d> face_;      // of one face: its corners,
-  std::vector<uint32_t> local_;  // and its triangles as indices into them
+  std::vector<Vec3d> face_;      // for the current face: its corners,
+  std::vector<uint32_t> local_;  // and its triangles as indices into these
   Mesh mesh_;
 };
 
-// The polygon's angle at corner `i`, more than half a turn if it is concave there; `normal` is the
-// polygon's.
+// The interior angle of the polygon at corner `i`, more than pi if it is concave there; `normal` is
+// the polygon's normal.
 double AngleAt(const std::vector<Vec3d>& face, size_t i, const Vec3d& normal) {
   const Vec3d to_next = face[(i + 1) % face.size()] - face[i];
   const Vec3d to_last = face[(i + face.size() - 1) % face.size()] - face[i];
@@ -137,11 +137,12 @@ double AngleAt(const std::vector<Vec3d>& face, size_t i, const Vec3d& normal) {
   return angle < 0 ? angle + 2 * std::numbers::pi : angle;
 }
 
-// Gives corners without a normal those of the file's smoothing groups: at a position, the average
-// of the faces of one group, weighted by their angles; without a group, the face's own.
+// Gives corners without a normal one that follows the file's smoothing groups: at each position,
+// the average over the faces of one group, weighted by their angles; without a group, the normal of
+// the face.
 void AddNormalsOfGroups(ObjFile* obj) {
   const auto first = static_cast<int32_t>(obj->normals.size());
-  VertexTable numbers;      // of positions in groups, and of faces without one
+  VertexTable numbers;      // numbers pairs of position and group, and faces without a group
   std::vector<Vec3d> sums;  // by number
   std::vector<Vec3d> face;
   uint32_t face_number = 0;
@@ -168,12 +169,13 @@ void AddNormalsOfGroups(ObjFile* obj) {
   for (const Vec3d& sum : sums) obj->normals.push_back(UnitOrUp(sum));
 }
 
-// The same where the file has no groups: averages of all faces, parted at creases.
+// For files without groups: gives corners without a normal averages over all faces, split at
+// creases.
 void AddNormalsOfCreases(double crease_angle_deg, int threads, ObjFile* obj) {
   const auto first = static_cast<int32_t>(obj->normals.size());
   Mesh mesh;
   mesh.positions = obj->positions;
-  std::vector<ObjCorner*> owners;  // of the mesh's corners
+  std::vector<ObjCorner*> owners;  // corner of the file for each corner of the mesh
   std::vector<Vec3d> face;
   std::vector<uint32_t> local;
   ForEachFace(*obj, obj->corners.data(), [&](uint32_t, uint32_t, ObjCorner* corners, size_t count) {
@@ -196,7 +198,7 @@ void AddNormalsOfCreases(double crease_angle_deg, int threads, ObjFile* obj) {
 }
 
 // Gives all corners normals if the file has some, or smoothing groups. Normals of length 0, which
-// some exporters write, are none.
+// some exporters write, count as missing.
 void CompleteNormals(double crease_angle_deg, int threads, ObjFile* obj) {
   size_t missing = 0;
   for (ObjCorner& corner : obj->corners) {
@@ -227,7 +229,7 @@ Mesh ReadObj(const std::filesystem::path& path, const ObjReading& reading) {
               });
   Mesh mesh = builder.Take();
   mesh.name = path.stem().string();
-  mesh.colors.clear();  // its material is the scene's
+  mesh.colors.clear();  // its material is the scene's, not one that uses vertex colours
   return mesh;
 }
 

@@ -30,7 +30,7 @@ namespace {
 
 constexpr uint64_t kMaxObjBytes = uint64_t{4} << 30;
 
-// Statements that say nothing about what is shown here.
+// Statements that do not affect what nacre shows.
 constexpr std::array<std::string_view, 14> kIgnored = {
     "g",        "o",        "mg", "usemap", "maplib",     "lod",       "bevel",
     "c_interp", "d_interp", "t",  "vw",     "shadow_obj", "trace_obj", "vp"};
@@ -42,8 +42,8 @@ bool IsOneOf(const auto& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-// What a text counts up to, element by element: a face may name those before it by negative
-// numbers.
+// The numbers of elements before a place in the text, to which negative indices in faces are
+// relative.
 struct ObjCounts {
   size_t lines = 0, positions = 0, normals = 0, uvs = 0;
 
@@ -73,7 +73,7 @@ ObjCounts CountElements(std::string_view text) {
   return counts;
 }
 
-// Texts, each with a number: the order in which they came.
+// Distinct texts, numbered in the order in which they were added.
 class NumberedNames {
  public:
   // The number of a name, and whether it is new.
@@ -89,34 +89,34 @@ class NumberedNames {
   std::vector<std::string> names_;
 };
 
-// The name of the group that "s off" and "s 0" mean.
+// The name of the group for "s off" and "s 0".
 constexpr char kOff[] = "off";
 
-// A piece of the text, which begins and ends with whole statements, and what is found in it. Pieces
-// are read several at a time; what depends on those before it is found when they are joined.
+// A piece of the text, cut between statements, and what is read from it. Pieces are read in
+// parallel; what depends on the pieces before is resolved when they are joined.
 struct ObjPiece {
   std::string_view text;
-  ObjCounts before;  // of all pieces before this one
+  ObjCounts before;  // in all pieces before this one
 
-  std::vector<Vec3f> colors;  // as ObjFile::colors, but not decoded
+  std::vector<Vec3f> colors;  // like ObjFile::colors, but not decoded yet
   float largest_color = 0;
   std::vector<uint16_t> corner_counts;
   std::vector<ObjCorner> corners;
   uint64_t triangles = 0;
-  std::vector<ObjFile::Use> uses, smoothing;  // with faces and names of this piece alone
+  std::vector<ObjFile::Use> uses, smoothing;  // faces and names are numbered within this piece
   NumberedNames materials, groups, libraries;
   struct Warning {
-    std::string kind, example;  // of a kind, the first alone is told
+    std::string kind, example;  // only the first example of each kind is reported
   };
   std::vector<Warning> warnings;
-  std::optional<Error> error;  // of its first statement that is wrong; what follows is not read
-  std::optional<Error> index_error;  // of the first face with an index beyond all elements
+  std::optional<Error> error;        // of the first wrong statement, where reading stops
+  std::optional<Error> index_error;  // of the first face with an index beyond all positions
 };
 
-// Long enough that what is done once a piece does not count.
+// So long that the cost per piece does not matter.
 constexpr size_t kPieceBytes = size_t{1} << 20;
 
-// Cuts after lines that do not go on in the next one. A text without LF is one piece.
+// Cuts the text after lines that are not continued in the next one. A text without LF is one piece.
 std::vector<ObjPiece> CutIntoPieces(std::string_view text) {
   std::vector<ObjPiece> pieces;
   const auto goes_on = [&](size_t line_end) {
@@ -135,8 +135,8 @@ std::vector<ObjPiece> CutIntoPieces(std::string_view text) {
 
 class PieceReader {
  public:
-  // Positions, normals and uvs go to their places in `obj`, which has room for all of the file's;
-  // `most_triangles` are more than the file may have.
+  // Positions, normals and uvs are written to their indices in `obj`, which has room for all of the
+  // file's. `most_triangles` is more than the file may have.
   PieceReader(const std::string& file, uint64_t most_triangles, ObjFile* obj, ObjPiece* piece)
       : file_(file),
         most_triangles_(most_triangles),
@@ -173,7 +173,7 @@ class PieceReader {
     if (warned_.insert(kind).second) piece_.warnings.push_back({kind, std::move(example)});
   }
 
-  // With the line that is read.
+  // Warns of the first case, with the current line.
   void WarnOfFirst(const std::string& kind) {
     WarnOnce(kind, fmt::format(", the first in line {}", number_));
   }
@@ -222,12 +222,12 @@ class PieceReader {
     }
   }
 
-  // A group's number, which may be any word: what some programs write behind an "s" of its own is
-  // a group, too.
+  // Reads the number of a group. It may be any word: what some programs write after an "s" of their
+  // own is treated as a group, too.
   void ReadSmoothing(std::string_view word) {
     const bool is_number = word.find_first_not_of("0123456789") == std::string_view::npos;
     std::string name = LowerCase(word.starts_with('#') ? std::string_view() : word);
-    if (is_number && !word.empty()) {  // 01 is 1, and 0 is none
+    if (is_number && !word.empty()) {  // 01 equals 1, and 0 is off
       name.erase(0, name.find_first_not_of('0'));
       if (name.empty()) name = kOff;
     }
@@ -235,8 +235,8 @@ class PieceReader {
     piece_.smoothing.push_back({piece_.corner_counts.size(), piece_.groups.Add(name).first});
   }
 
-  // The first numbers of `line`, of which `fewest` must be there: NaN for what stands for none.
-  // Returns how many there are.
+  // Reads up to N numbers of `line`, of which the first `fewest` are required. Words that stand for
+  // NaN or infinity become NaN. Returns how many there are.
   template <size_t N>
   size_t ReadNumbers(std::string_view line, size_t fewest, std::array<double, N>& numbers) const {
     for (size_t i = 0; i < N; ++i) {
@@ -254,7 +254,7 @@ class PieceReader {
     return N;
   }
 
-  // Three numbers, and then a weight, which only free-form surfaces have, or a colour.
+  // Reads three numbers, followed by a weight, which only free-form surfaces have, or a colour.
   void ReadPosition(std::string_view line) {
     std::array<double, 6> numbers{};
     const size_t count = ReadNumbers(line, 3, numbers);
@@ -268,7 +268,7 @@ class PieceReader {
       if (!piece_.colors.empty()) piece_.colors.emplace_back(1);
       return;
     }
-    // Vertices before the first one are white.
+    // Vertices before the first one with a colour are white.
     piece_.colors.resize(positions_ - piece_.before.positions, Vec3f(1));
     Vec3f& color = piece_.colors.back();
     for (int c = 0; c < 3; ++c) {
@@ -278,7 +278,7 @@ class PieceReader {
     }
   }
 
-  // Takes an index off the front of `word`, up to a slash: 0 if there is none.
+  // Takes an index off the front of `word`, up to a slash; 0 if there is none.
   int64_t NextIndex(std::string_view* word) const {
     const size_t length = std::min(word->find('/'), word->size());
     std::string_view digits = word->substr(0, length);
@@ -294,9 +294,9 @@ class PieceReader {
     return index;
   }
 
-  // The zero-based element that an index refers to: positive indices count from the first element,
-  // negative ones backwards from the latest. Below 0: there is none. Elements may be defined after
-  // the face, so that positive indices may lie beyond `so_far`.
+  // The zero-based index of the element that an index of the file refers to: positive indices count
+  // from the first element, negative ones backwards from the latest. Negative if there is no such
+  // element. Elements may be defined after the face, so positive indices may exceed `so_far`.
   static int64_t PlaceOf(int64_t index, size_t so_far) {
     if (index > 0) return std::min<int64_t>(index - 1, 0x7fffffff);
     return index == 0 ? -1 : std::max<int64_t>(index, -0x7fffffff) + static_cast<int64_t>(so_far);
@@ -309,7 +309,7 @@ class PieceReader {
       Refuse(fmt::format("a face has position {}", index),
              fmt::format("there are {} before it", positions_));
     }
-    // Those beyond all of the file's are refused only where all else is right.
+    // Positions beyond the end of the file's are an error only if there is no other one.
     if (place >= static_cast<int64_t>(obj_.positions.size()) && !piece_.index_error) {
       piece_.index_error = ErrorHere(fmt::format("a face has position {}", place + 1),
                                      fmt::format("there are {}", obj_.positions.size()));
@@ -317,7 +317,7 @@ class PieceReader {
     return static_cast<uint32_t>(place);
   }
 
-  // Of normals or texture coordinates: -1 for one that the file does not have.
+  // The index of a normal or of texture coordinates; -1 if the file does not have it.
   int32_t PlaceOrNone(int64_t index, size_t so_far, size_t count, const std::string& what) {
     const int64_t place = PlaceOf(index, so_far);
     if (place >= 0 && place < static_cast<int64_t>(count)) return static_cast<int32_t>(place);
@@ -334,7 +334,7 @@ class PieceReader {
                "cut it into triangles before");
       }
       const uint32_t position = PositionAt(NextIndex(&word));
-      const bool has_uv = !word.empty() && word.front() != '/';  // 1//3 has none, nor has 1//
+      const bool has_uv = !word.empty() && word.front() != '/';  // 1//3 and 1// have none
       const int64_t uv = NextIndex(&word);
       const bool has_normal = !word.empty();
       const int64_t normal = NextIndex(&word);
@@ -362,13 +362,13 @@ class PieceReader {
   const uint64_t most_triangles_;
   ObjFile& obj_;
   ObjPiece& piece_;
-  size_t positions_, normals_, uvs_;  // of the file, read so far
-  size_t number_ = 0;                 // of the line that is read,
+  size_t positions_, normals_, uvs_;  // numbers of the file's elements read so far
+  size_t number_ = 0;                 // the current line,
   std::string keyword_;               // and its first word, in lower case
   std::unordered_set<std::string> warned_;
 };
 
-// Reads all pieces, up to the first one with an error.
+// Reads all pieces, or those up to the first one with an error.
 void ReadPieces(const std::string& file, uint64_t most_triangles, int threads,
                 std::vector<ObjPiece>* pieces, ObjFile* obj) {
   std::vector<ObjCounts> counts(pieces->size());
@@ -395,17 +395,16 @@ void ReadPieces(const std::string& file, uint64_t most_triangles, int threads,
   });
 }
 
-// Puts the pieces together, in their order, and throws the error that the file's first wrong
-// statement has.
+// Joins the pieces in their order. Throws the error of the first wrong statement of the file.
 class PieceJoiner {
  public:
   PieceJoiner(const std::string& file, const std::function<void(const std::string&)>& warn,
               uint64_t budget, ObjFile* obj)
       : file_(file), warn_(warn), budget_(budget), obj_(*obj) {
-    groups_.Add(kOff);  // the first: kSmoothingOff
+    groups_.Add(kOff);  // number 0 is kSmoothingOff
   }
 
-  // Frees what it has taken.
+  // Frees each piece once it is joined.
   void Join(std::vector<ObjPiece> pieces) {
     size_t faces = 0, corners = 0;
     float largest_color = 0;
@@ -454,7 +453,7 @@ class PieceJoiner {
 
   void AddUses(const std::vector<ObjFile::Use>& of_piece, const NumberedNames& names,
                NumberedNames* all_names, std::vector<ObjFile::Use>* uses) const {
-    std::vector<uint32_t> numbers;  // the file's, of the piece's
+    std::vector<uint32_t> numbers;  // numbers in the file by number in the piece
     for (const std::string& name : names.names()) numbers.push_back(all_names->Add(name).first);
     for (const ObjFile::Use& use : of_piece) {
       const size_t first_face = obj_.corner_counts.size() + use.first_face;
@@ -463,7 +462,7 @@ class PieceJoiner {
     }
   }
 
-  // Vertices before the first one with a colour are white, and so are others without.
+  // Vertices before the first one with a colour are white, as are others without a colour.
   void AddColors(const ObjPiece& piece) {
     if (piece.colors.empty()) return;
     obj_.colors.resize(piece.before.positions, Vec3f(1));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/obj_file.h: the statements of a Wavefront OBJ file that say what its polygons are.
+// scene_io/obj_file.h: the statements of a Wavefront OBJ file that define its polygons.
 #pragma once
 
 #include <algorithm>
@@ -20,30 +20,31 @@ struct ObjCorner {
   int32_t uv = -1, normal = -1;  // below 0: none
 };
 
-// All indices are within range.
+// The polygons of a file. All indices are within range.
 struct ObjFile {
-  std::vector<Vec3d> positions;  // NaN where the file says so
-  std::vector<Vec3f> colors;     // linear, one per position; empty: the file has none
+  std::vector<Vec3d> positions;  // NaN where the file has no number
+  std::vector<Vec3f> colors;     // linear, one per position; empty: the file has no colours
   std::vector<Vec3d> normals;
   std::vector<Vec2d> uvs;
 
-  std::vector<uint16_t> corner_counts;  // of each face, at least 3
-  std::vector<ObjCorner> corners;       // of all faces, one after the other
+  std::vector<uint16_t> corner_counts;  // the number of corners of each face, at least 3
+  std::vector<ObjCorner> corners;       // the corners of all faces, one face after the other
 
-  // What is said of the faces from `first_face` on.
+  // What applies to the faces from `first_face` on.
   struct Use {
     size_t first_face;
-    uint32_t name;  // in material_names; or a number of a smoothing group, kSmoothingOff for none
+    uint32_t name;  // index into material_names; or number of a smoothing group, kSmoothingOff for
+                    // none
   };
   static constexpr uint32_t kSmoothingOff = 0;
   std::vector<Use> uses;       // materials; faces before the first have none
-  std::vector<Use> smoothing;  // groups ("s"), off before the first; empty: the file has none
+  std::vector<Use> smoothing;  // groups ("s"); off before the first; empty: the file has none
   std::vector<std::string> material_names;  // each once
   std::vector<std::string> libraries;       // what follows "mtllib", each once
 };
 
-// Calls use(material, group, corners, count) for each face whose positions are all numbers: the
-// material is a place in obj.material_names, or kNoMaterial, the group one of smoothing.
+// Calls use(material, group, corners, count) for each face whose positions are all finite:
+// `material` is an index into obj.material_names, or kNoMaterial, and `group` a smoothing group.
 constexpr uint32_t kNoMaterial = 0xffffffffu;
 template <class Corner, class Use>
 void ForEachFace(const ObjFile& obj, Corner* corners, const Use& use) {
@@ -64,13 +65,15 @@ void ForEachFace(const ObjFile& obj, Corner* corners, const Use& use) {
   }
 }
 
-// Numbers in colours (v x y z r g b) are decoded as sRGB, as the programs that write them do;
-// colours with a number above 1 are in [0, 255]. What other readers put up with is read, and
-// reported to `warn`, each kind once, unless that is empty: indices of uvs and normals that the
-// file does not have, or of 0, stand for none; faces of fewer than three corners are left out;
-// positions that are no numbers (nan, inf, 1.#QNAN) are NaN, normals 0 and uvs 0. So is what is not
-// read: lines, points, free-form curves and surfaces.
-// It is read in pieces, on up to `threads` threads (0: as many as the machine has).
+// Reads an OBJ file in pieces, on up to `threads` threads (0: as many as the machine has).
+//
+// Vertex colours (v x y z r g b) are decoded as sRGB, which is what the programs that write them
+// use; colours with a component above 1 are taken as [0, 255]. Defects that other readers tolerate
+// are read, and reported to `warn` (each kind once, unless it is empty): indices of uvs and normals
+// that the file does not have, and indices of 0, mean none; faces of fewer than three corners are
+// left out; where the file writes a NaN or infinity (nan, inf, 1.#QNAN), positions become NaN,
+// normals and uvs 0. Statements that are not read are reported as well: lines, points, free-form
+// curves and surfaces.
 // Throws Error (kBadInput) with the file and the line for words in the place of numbers, positions
 // that the file does not have, faces of more than 65 535 corners, and files without faces.
 ObjFile ReadObjFile(const std::filesystem::path& path, int threads,

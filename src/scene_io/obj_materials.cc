@@ -27,7 +27,7 @@
 namespace nacre {
 namespace {
 
-// The material of Blinn-Phong, in the classic reading, with the library's numbers.
+// A Blinn-Phong material in the classic convention, with the numbers of the library.
 PhongMaterial MakePhong(const MtlMaterial& source) {
   PhongMaterial phong;
   phong.model = PhongModel::kBlinnPhong;
@@ -39,8 +39,8 @@ PhongMaterial MakePhong(const MtlMaterial& source) {
   return phong;
 }
 
-// What the extension of the format for physically based rendering says. Where it says nothing of
-// the roughness, the exponent gives the width of the highlight: alpha^2 = 2 / (n + 2).
+// Reads the format's extension for physically based rendering. Without a roughness, the exponent
+// gives the width of the highlight: alpha^2 = 2 / (n + 2).
 MetallicRoughnessMaterial MakeMetallicRoughness(const MtlMaterial& source) {
   MetallicRoughnessMaterial result;
   result.base_color = source.kd;
@@ -48,14 +48,14 @@ MetallicRoughnessMaterial MakeMetallicRoughness(const MtlMaterial& source) {
   const double from_exponent =
       source.ns > 1 ? std::sqrt(std::sqrt(2 / (source.ns + 2))) : result.roughness;
   result.roughness = source.pr.value_or(source.map_pr.file.empty() ? from_exponent : 1);
-  if (source.ni > 1) {  // 1, which changes nothing, is written by default
+  if (source.ni > 1) {  // 1, which has no effect, is written by default
     const double root = (source.ni - 1) / (source.ni + 1);
     result.dielectric_f0 = Rgb(root * root);
   }
   return result;
 }
 
-// Whether it has a sheen or a clear coat.
+// Whether the material has a sheen or a clear coat.
 bool HasLayers(const MtlMaterial& source) {
   return source.ps > 0 || source.pc > 0 || !source.map_ps.file.empty() ||
          !source.map_pc.file.empty() || !source.map_pcr.file.empty();
@@ -82,7 +82,7 @@ class ObjMaterials {
     scene_.materials.push_back(MakeClay());
     std::string& name_of_none = scene_.materials.back().name;
     name_of_none = names_.Take(name_of_none, "#", sources_.size());
-    // In the reading of the others, so that the same light suits it.
+    // In the convention of the others, so that the same lights suit it.
     if (IsClassic()) {
       scene_.materials.back().model = PhongMaterial{.model = PhongModel::kBlinnPhong,
                                                     .convention = PhongConvention::kClassic,
@@ -104,7 +104,7 @@ class ObjMaterials {
 
  private:
   static constexpr size_t kMaxNames = 8;
-  // The files of map_Pr and map_Pm; empty: none.
+  // The files of map_Pr and map_Pm; empty if there is none.
   using ImagePair = std::pair<std::filesystem::path, std::filesystem::path>;
 
   void Warn(const std::string& text) {
@@ -112,7 +112,7 @@ class ObjMaterials {
       options_.on_warning(file_ + ": " + text);
   }
 
-  // The material of this name, or of what is before a comment in it.
+  // The material with this name, or with the part of it before a comment.
   std::optional<MaterialId> MaterialNamed(const std::string& name) const {
     const std::string before(WithoutHashWords(name));
     for (const auto& [names, wanted] :
@@ -127,7 +127,7 @@ class ObjMaterials {
     return std::filesystem::path(name).is_absolute();
   }
 
-  // Why there is no file of this name.
+  // Describes why there is no file with this name.
   std::string WhyMissing(const std::string& name) const {
     const std::string quoted = fmt::format("\"{}\"", Excerpt(name));
     return IsAbsolute(name) && !options_.allow_paths ? quoted + " is outside the model's folder"
@@ -136,7 +136,7 @@ class ObjMaterials {
 
   void WarnOfName(const std::string& name) {
     if (!missing_libraries_.empty() || ++unknown_names_ > kMaxNames)
-      return;  // that has been reported
+      return;  // missing libraries were reported already
     Warn(fmt::format("no material library has \"{}\": its faces are grey", Excerpt(name)));
   }
 
@@ -146,11 +146,11 @@ class ObjMaterials {
     });
   }
 
-  // The file that a name means, or nothing if there is none. Names may have Windows' backslashes,
-  // or one before each blank, or a comment behind them, and folders of the machine that the model
-  // was made on; they may be relative to the model's folder or to a library's. Throws Error
-  // (kBadInput) for a relative one outside the model's folder. An absolute one is of another
-  // machine mostly, and is none there.
+  // The file that a name refers to; nullopt if there is none. Names may contain the backslashes of
+  // Windows, a backslash before each blank, a comment at the end, or folders of the machine on
+  // which the model was made; they may be relative to the model's folder or to a library's. Throws
+  // Error (kBadInput) for a relative name outside the model's folder. An absolute name mostly is
+  // one of another machine, and so does not exist here.
   std::optional<std::filesystem::path> Find(const std::string& name) const {
     std::string with_slashes = name, unescaped = name;
     std::replace(with_slashes.begin(), with_slashes.end(), '\\', '/');
@@ -179,7 +179,7 @@ class ObjMaterials {
     return std::nullopt;
   }
 
-  // The same for a name that may be several: it is no mistake then if all of it is none.
+  // Find() for text that may be several names: then it is no error if the whole text is not a file.
   std::optional<std::filesystem::path> FindWhole(const std::string& name) const {
     try {
       return Find(name);
@@ -189,8 +189,8 @@ class ObjMaterials {
     }
   }
 
-  // What follows "mtllib": one name, with blanks in it perhaps, or several, which end with ".mtl"
-  // then or are words.
+  // Reads the libraries after "mtllib": one name, perhaps with blanks, or several names, each of
+  // which ends with ".mtl" or is a single word.
   void ReadLibraries(const std::string& line) {
     if (const auto whole = FindWhole(line)) return ReadLibrary(*whole);
     std::string_view rest = WithoutHashWords(line);
@@ -217,7 +217,7 @@ class ObjMaterials {
     if (!is_found) missing_libraries_.push_back(name);
   }
 
-  // Other readers look there, too, if nothing else is found.
+  // Like other readers, looks for a library named like the model if nothing else is found.
   void ReadNamesake() {
     const std::string name = std::filesystem::path(file_).stem().string() + ".mtl";
     const auto path = Find(name);
@@ -236,14 +236,14 @@ class ObjMaterials {
     }
   }
 
-  // The images that most materials have, several at a time.
+  // Decodes the images that most materials have, on several threads.
   void DecodeAhead() {
     const auto want = [&](const MtlImage& image, TextureEncoding encoding) {
       if (image.file.empty()) return;
       try {
         const std::optional<std::filesystem::path> path = Find(image.file);
         if (path) ahead_.Want(*path, Reading(encoding));
-      } catch (const Error&) {  // NOLINT(bugprone-empty-catch): its user will throw it again
+      } catch (const Error&) {  // NOLINT(bugprone-empty-catch): AddTexture will throw it again
       }
     };
     for (const MtlMaterial& source : sources_) {
@@ -266,7 +266,7 @@ class ObjMaterials {
   void AddMaterial(size_t index) {
     const MtlMaterial& source = sources_[index];
     const MaterialId id{static_cast<uint32_t>(scene_.materials.size())};
-    by_name_.try_emplace(source.name, id);  // the first of several
+    by_name_.try_emplace(source.name, id);  // the first of several wins
     by_name_before_.try_emplace(std::string(WithoutHashWords(source.name)), id);
     Material material = MakeMaterial(source);
     material.name = names_.Take(std::string(WithoutComment(source.name)), "#", index);
@@ -314,8 +314,8 @@ class ObjMaterials {
     return result;
   }
 
-  // The format's sheen is a strength without colour or roughness: it is white, and of the roughness
-  // that Blender's material has by default.
+  // The format's sheen is only a strength: it becomes white, with the default roughness of
+  // Blender's sheen.
   void AddLayers(const MtlMaterial& source, MetallicRoughnessMaterial* model) {
     // Exporters that write a map often leave its factor at 0.
     const auto factor = [](double number, TextureId map) {
@@ -331,8 +331,8 @@ class ObjMaterials {
     model->coat_roughness = factor(source.pcr, model->coat_roughness_map);
   }
 
-  // illum 0: the diffuse colour and its image, lit by nothing. Whether highlights and normals have
-  // images makes no difference then.
+  // illum 0: the diffuse colour and its image are emitted, independent of lights. Images of
+  // highlights and normals have no effect then.
   void AddConstantColor(const MtlMaterial& source, const Rgb& kd, TextureId diffuse,
                         Material* material) {
     PhongMaterial black = MakePhong(source);
@@ -344,7 +344,7 @@ class ObjMaterials {
       material->emission += kd;
       return;
     }
-    if (material->emission != Rgb(0)) {  // a material has one image of what it emits
+    if (material->emission != Rgb(0)) {  // a material has only one emission image
       Warn("constant colours (illum 0) are shown without their emission (Ke, map_Ke)");
     }
     material->emission = kd;
@@ -371,7 +371,7 @@ class ObjMaterials {
     return id.valid() && scene_.images[scene_.textures[id.index].image.index].texels->channels < 3;
   }
 
-  // By its file, however that is spelled.
+  // Adds an image once per file, however the file's name is spelled.
   std::optional<ImageId> AddImage(const MtlImage& source, TextureEncoding encoding) {
     const std::filesystem::path path = FindImage(source.file);
     if (path.empty()) return std::nullopt;
@@ -385,8 +385,8 @@ class ObjMaterials {
     return id;
   }
 
-  // The image's file; empty if there is no name or no such file: models often come without their
-  // images.
+  // The path of the image; empty if there is no name or no such file, as models often come without
+  // their images.
   std::filesystem::path FindImage(const std::string& name) {
     if (name.empty()) return {};
     const auto [known, is_new] = image_paths_.try_emplace(name);
@@ -401,8 +401,8 @@ class ObjMaterials {
     return *path;
   }
 
-  // What read() makes of the image; nothing, and a warning, if it cannot be read: one broken image
-  // is no reason to show nothing of the model.
+  // The result of read() for the image; nullopt, with a warning, if it cannot be read: one broken
+  // image should not prevent the model from being shown.
   template <class Read>
   auto WithImage(const MtlImage& source, const Read& read) -> std::optional<decltype(read())> {
     try {
@@ -431,8 +431,8 @@ class ObjMaterials {
     return image ? AddTextureOf(source, *image) : TextureId{};
   }
 
-  // map_Pr and map_Pm as the green and blue of one image. A file that is both has them there
-  // already, if it has colours.
+  // Adds map_Pr and map_Pm as the green and blue channels of one image. If both are the same colour
+  // image, it has them there already.
   TextureId AddMetallicRoughness(const MtlMaterial& source) {
     const ImagePair paths(FindImage(source.map_pr.file), FindImage(source.map_pm.file));
     const auto& [roughness, metallic] = paths;
@@ -497,14 +497,14 @@ class ObjMaterials {
   std::vector<std::string> missing_libraries_;
   std::set<std::filesystem::path> library_folders_;
   size_t unknown_names_ = 0;
-  // By the library's names, and by what is before a comment in them.
+  // By the library's names, and by the part of these before a comment.
   std::unordered_map<std::string, MaterialId> by_name_, by_name_before_;
   UniqueNames names_;
   std::unordered_set<std::string> warned_, libraries_;
   TexelBudget texels_{0};
   TexturesAhead ahead_;
   std::unordered_map<std::string, std::filesystem::path> image_paths_;  // by name; empty: no file
-  // Nothing for those that cannot be read, or do not fit each other.
+  // nullopt for images that cannot be read, or do not fit each other.
   std::map<std::pair<std::filesystem::path, TextureEncoding>, std::optional<ImageId>> images_;
   std::map<ImagePair, std::optional<ImageId>> metallic_roughness_;
 };

@@ -27,7 +27,7 @@ namespace {
   throw Error(ExitCode::kUsage, pointer, std::move(what), std::move(hint));
 }
 
-// The number that a text means though JSON has another form for it: .5, 1. or +2.
+// Parses numbers that are almost JSON: .5, 1. or +2.
 std::optional<Json> LooseNumber(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
   double number = 0;
@@ -47,7 +47,7 @@ std::optional<Json> LooseNumber(std::string_view text) {
                      : fmt::format("{} is wanted there", wanted));
 }
 
-// The parts of a scene whose entries have names, and the key that an entry cannot do without.
+// The parts of a scene that have named entries, and the key that each entry requires.
 struct NamedPart {
   const char* part;
   const char* entry;
@@ -66,7 +66,7 @@ std::vector<std::string> NamesIn(const Json& root, const char* part) {
   return names;
 }
 
-// The part whose entry these tokens point into; nullptr if that is none.
+// The part into one of whose entries the tokens point; nullptr if there is none.
 const NamedPart* PartOfEntry(std::span<const std::string> tokens) {
   if (tokens.size() < 3) return nullptr;
   const auto found = std::find_if(kNamedParts.begin(), kNamedParts.end(),
@@ -74,13 +74,13 @@ const NamedPart* PartOfEntry(std::span<const std::string> tokens) {
   return found != kNamedParts.end() ? &*found : nullptr;
 }
 
-// An entry that overrides have made, and without what makes it one, is a name that was mistyped.
+// An entry that overrides have created, but without its required key, results from a mistyped name.
 bool IsMistyped(std::span<const std::string> tokens, const NamedPart& named, const Json& root) {
   const Json* const entry = FindValue(tokens.first(2), root);
   return entry != nullptr && !entry->contains(named.required);
 }
 
-// `names`: those that there are.
+// `names` are the existing entries.
 [[noreturn]] void RefuseEntry(const std::string& pointer, const std::string& name,
                               const NamedPart& named, const std::vector<std::string>& names) {
   std::vector<std::string> shown;
@@ -91,7 +91,7 @@ bool IsMistyped(std::span<const std::string> tokens, const NamedPart& named, con
 }
 
 Json* Step(const std::string& pointer, const std::string& token, Json* parent) {
-  if (parent->is_object()) return &(*parent)[token];  // made if missing
+  if (parent->is_object()) return &(*parent)[token];  // creates it if missing
   if (!parent->is_array())
     RefuseOverride(pointer, fmt::format("there is no \"{}\" in a value", Excerpt(token)), {});
   const std::optional<size_t> index = ElementOf(token, parent->size());
@@ -104,7 +104,7 @@ Json* Step(const std::string& pointer, const std::string& token, Json* parent) {
 
 }  // namespace
 
-// RFC 6901 allows no leading zeros.
+// RFC 6901 forbids leading zeros.
 std::optional<size_t> ElementOf(const std::string& token, size_t size) {
   size_t index = 0;
   const char* const last = token.data() + token.size();
@@ -184,7 +184,7 @@ Replaced ReplaceValue(const std::string& pointer, std::span<const std::string> t
                       const std::string& text, Json* root) {
   Json value = ParseValue(pointer, text);
   Replaced replaced;
-  bool made = false;  // from here on nothing was there
+  bool made = false;  // true: nothing existed from here on
   Json* place = root;
   try {
     for (const std::string& token : tokens) {
@@ -235,7 +235,8 @@ Replaced ReplaceInFile(const std::string& pointer, const std::string& text, Json
 
 void ApplyOptions(const LoadOptions& options, Json* root) {
   if (!options.environment.empty() && root->is_object()) {
-    // Its faults are the command line's. What is wrong with its contents is found by its reader.
+    // A missing file is an error of the command line. Errors in its contents are found by its
+    // reader.
     const std::filesystem::path image = AbsolutePath(options.environment);
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(image, ignored)) {
@@ -270,7 +271,7 @@ ReferenceRules RulesOf(const LoadOptions& options) {
     if (file.empty()) return;
     std::error_code error;
     std::filesystem::path path = std::filesystem::weakly_canonical(AbsolutePath(file), error);
-    if (!error) rules.trusted.push_back(std::move(path));  // else it leads nowhere
+    if (!error) rules.trusted.push_back(std::move(path));  // else the path leads nowhere
   };
   trust(options.environment);
   for (const std::filesystem::path& file : options.trusted_files) trust(file);

@@ -5,15 +5,15 @@
 #include <system_error>
 #include <utility>
 
-#include "scene_io/json_text.h"
+#include <nlohmann/json.hpp>
 
 namespace nacre {
 namespace {
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
-// Takes tokens of JSON off the front of a text. Each function returns whether its token came next;
-// where it did not, the text is in no defined place.
+// Takes JSON tokens off the front of a text. Each function returns whether its token came next; if
+// not, the position in the text is undefined.
 class Tokens {
  public:
   Tokens(const char* at, const char* end) : at_(at), end_(end) {}
@@ -26,7 +26,7 @@ class Tokens {
     return true;
   }
 
-  // A string without escapes, between its quotation marks. Its bytes may be no UTF-8.
+  // A string without escapes, without its quotation marks. Its bytes may be invalid UTF-8.
   bool TakeText(std::string_view* text) {
     if (!Take('"')) return false;
     const char* const begin = at_;
@@ -37,7 +37,7 @@ class Tokens {
     return Take('"');
   }
 
-  // A number in JSON's grammar that is neither too large nor too small for a double.
+  // A number in JSON's grammar that neither overflows nor underflows a double.
   bool TakeNumber(double* number) {
     SkipBlanks();
     const char* const begin = at_;
@@ -60,7 +60,7 @@ class Tokens {
       if (!SkipDigits()) return false;
     }
     const auto [read, error] = std::from_chars(begin, at_, *number);
-    if (is_whole && *number == 0) *number = 0;  // -0 is an integer to the tree's parser
+    if (is_whole && *number == 0) *number = 0;  // the tree's parser takes -0 for an integer
     return error == std::errc() && read == at_;
   }
 
@@ -129,11 +129,12 @@ std::optional<MaterialId> PlainSphereReader::PlaceOf(std::string_view name) {
   if (last_place_.valid() && name == last_name_) return last_place_;
   auto found = places_.find(name);
   if (found == places_.end()) {
-    // The parser knows whether it is UTF-8.
-    const std::optional<Json> json = TryParseJson('"' + std::string(name) + '"');
-    if (!json) return std::nullopt;
+    // The JSON parser decides whether the name is valid UTF-8.
+    const nlohmann::json json = nlohmann::json::parse('"' + std::string(name) + '"', nullptr,
+                                                      /*allow_exceptions=*/false);
+    if (json.is_discarded()) return std::nullopt;
     found = places_.emplace(name, MaterialId{static_cast<uint32_t>(materials_.size())}).first;
-    materials_.push_back(json->get<std::string>());
+    materials_.push_back(json.get<std::string>());
   }
   last_name_ = name;
   last_place_ = found->second;

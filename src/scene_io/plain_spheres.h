@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/plain_spheres.h: spheres of a scene file's "shapes" that have a centre, a radius and the
-// name of a material, and nothing else. A million of them are kept as numbers: as a tree of JSON
-// values each would take 500 bytes, and most of the time that the file takes to read.
+// scene_io/plain_spheres.h: plain spheres, which are spheres of a scene file's "shapes" that have a
+// centre, a radius and the name of a material, and nothing else. As there may be millions of them,
+// they are stored as numbers: as trees of JSON values, they would take 500 bytes each, and most of
+// the time that it takes to read the file.
 #pragma once
 
 #include <cstddef>
@@ -16,15 +17,15 @@
 
 namespace nacre {
 
-// Neighbours in the array "shapes".
+// A run of plain spheres that are neighbours in the array "shapes".
 struct SphereRun {
-  size_t first = 0;             // the place of the first in the array
-  std::vector<Sphere> spheres;  // their materials are places in PlainSpheres::materials
-  size_t in_tree = 0;           // how many shapes before it are in the tree
+  size_t first = 0;             // index of the first one in the array of the file
+  std::vector<Sphere> spheres;  // their materials are indices into PlainSpheres::materials
+  size_t in_tree = 0;           // number of shapes before it that are in the tree
 };
 
 struct PlainSpheres {
-  // Ascending, none of them empty. Each is preceded by a shape that is in the tree.
+  // Ascending, and none is empty. The shape before each run is in the tree.
   std::vector<SphereRun> runs;
   std::vector<std::string> materials;  // names
 
@@ -33,12 +34,12 @@ struct PlainSpheres {
   }
 };
 
-// Reads plain spheres of a text that goes on to be read by a JSON parser. What is no plain sphere,
-// or no JSON, is left to the parser, whose messages are the only ones.
+// Reads plain spheres of a text that a JSON parser also reads. Whatever is not a plain sphere, or
+// not JSON, is left to the parser, so that all error messages are the parser's.
 class PlainSphereReader {
  public:
-  // `at` is in an array behind an element. If a comma and a plain sphere follow, they are taken off
-  // the text, and `at` is moved behind them.
+  // `*at` points into an array, behind an element. If a comma and a plain sphere follow, returns
+  // the sphere and moves `*at` behind it; else returns nullopt.
   std::optional<Sphere> Next(const char** at, const char* end);
 
   std::vector<std::string> TakeMaterials() { return std::move(materials_); }
@@ -47,9 +48,9 @@ class PlainSphereReader {
   std::optional<MaterialId> PlaceOf(std::string_view name);
 
   std::vector<std::string> materials_;
-  std::unordered_map<std::string_view, MaterialId> places_;  // by name as the text has it
-  std::string_view last_name_;                               // spheres of one material often
-  MaterialId last_place_;                                    // come together
+  std::unordered_map<std::string_view, MaterialId> places_;  // by name as written in the text
+  std::string_view last_name_;                               // spheres of one material
+  MaterialId last_place_;                                    // often come in a row
 };
 
 }  // namespace nacre

@@ -28,7 +28,7 @@ namespace {
 
 constexpr uint64_t kMaxPlyBytes = uint64_t{4} << 30;
 
-// What a file holds, as it is.
+// The contents of a file, unprocessed.
 struct PlyData {
   std::vector<Vec3d> positions, normals;
   std::vector<Vec2d> uvs;
@@ -37,7 +37,7 @@ struct PlyData {
   std::vector<double> radii, materials;
   std::vector<uint32_t> triangles;
   static constexpr uint64_t kNone = ~uint64_t{0};
-  uint64_t first_without_area = kNone;  // the first face of fewer than three corners
+  uint64_t first_without_area = kNone;  // index of the first face of fewer than three corners
 };
 
 class PlyReader {
@@ -86,12 +86,12 @@ class PlyReader {
     throw Error(ExitCode::kBadInput, file_, std::move(what), std::move(hint));
   }
 
-  // For the number that was read last.
+  // Throws an error located at the number that was read last.
   [[noreturn]] void RefuseNumber(std::string what, std::string hint) const {
     throw Error(ExitCode::kBadInput, numbers_.place(), std::move(what), std::move(hint));
   }
 
-  // The places of several numbers; all kNone unless all are there, and no list.
+  // The indices of several properties; all kNone unless all of them exist and none is a list.
   template <size_t N>
   static std::array<size_t, N> FindAll(const PlyElement& element,
                                        const std::array<std::string_view, N>& names) {
@@ -106,7 +106,7 @@ class PlyReader {
     return places;
   }
 
-  // The places of the first of several names that are all there.
+  // The indices of the first candidate whose properties all exist.
   template <size_t N, size_t Count>
   static std::array<size_t, N> FindFirst(
       const PlyElement& element, const std::array<std::array<std::string_view, N>, Count>& names) {
@@ -168,13 +168,13 @@ class PlyReader {
     data_.positions.push_back(position);
   }
 
-  // Integers are codes for displays; floats are taken as linear.
+  // Integers are sRGB codes; floats are linear.
   static Rgb Linear(const Vec3d& color, PlyType type) {
     const bool is_real = type == PlyType::kFloat || type == PlyType::kDouble;
     const double largest = is_real ? 1 : type == PlyType::kUint16 ? 65535 : 255;
     Rgb linear;
     for (int c = 0; c < 3; ++c) {
-      const double value = color[c] > 0 ? std::min(color[c] / largest, 1.0) : 0;  // NaN is 0
+      const double value = color[c] > 0 ? std::min(color[c] / largest, 1.0) : 0;  // NaN becomes 0
       linear[c] = is_real ? value : SrgbEotf(value);
     }
     return linear;
@@ -190,7 +190,7 @@ class PlyReader {
     return static_cast<uint32_t>(index);
   }
 
-  // The place of the list of vertices, or kNone.
+  // The index of the list of vertex indices, or kNone.
   static size_t FindIndices(const PlyElement& element) {
     for (const std::string_view name : {"vertex_indices", "vertex_index", "vertex_indexes"}) {
       const size_t place = element.Find(name);
@@ -229,7 +229,7 @@ class PlyReader {
     }
   }
 
-  // Strips one after the other, with -1 between them.
+  // Reads strips, which follow each other with -1 between them.
   void ReadStrips(const PlyElement& element) {
     const size_t indices = FindIndices(element);
     for (uint64_t i = 0; i < element.count; ++i) {
@@ -260,11 +260,11 @@ class PlyReader {
     const size_t n = strip->size();
     if (n < 3) return;
     const uint32_t a = (*strip)[n - 3], b = (*strip)[n - 2], c = (*strip)[n - 1];
-    const bool odd = n % 2 == 0;  // every second triangle is wound the other way
+    const bool odd = n % 2 == 0;  // every second triangle has the opposite winding
     data_.triangles.insert(data_.triangles.end(), {odd ? b : a, odd ? a : b, c});
   }
 
-  // After all elements: faces may come before the vertices.
+  // To be called after all elements are read: faces may come before the vertices.
   void CutPolygons() {
     std::vector<Vec3d> corners;
     std::vector<uint32_t> local;
@@ -288,8 +288,8 @@ class PlyReader {
   PlyData data_;
   uint64_t vertex_count_ = 0;
   uint64_t faces_ = 0;
-  std::vector<uint16_t> corner_counts_;  // of each face,
-  std::vector<uint32_t> corners_;        // and their vertices
+  std::vector<uint16_t> corner_counts_;  // for each face,
+  std::vector<uint32_t> corners_;        // and its vertex indices
 };
 
 void WarnOfFaces(const PlyData& data, const std::filesystem::path& path,
@@ -318,12 +318,13 @@ double SuitableRadius(const std::vector<Vec3d>& positions) {
   return spacing > 0 ? std::max(spacing / 3, limits::kLength.min) : 1;
 }
 
-// Materials of the cloud's colours. More than kMaxColors are rounded to 16 steps a channel.
+// The materials of the colours in a cloud. More than kMaxColors are rounded to 16 steps per
+// channel.
 class CloudMaterials {
  public:
   explicit CloudMaterials(Scene* scene) : scene_(*scene) {}
 
-  // False if there would be too many.
+  // Returns false if there would be too many.
   bool AddAll(const std::vector<Rgb>& colors, int steps) {
     ids_.clear();
     scene_.materials.clear();

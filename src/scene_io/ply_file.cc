@@ -19,7 +19,7 @@
 namespace nacre {
 namespace {
 
-// Far more than any file has: names are compared one by one.
+// Far more than any real file has; names are compared one by one.
 constexpr size_t kMaxElements = 64;
 constexpr size_t kMaxProperties = 256;
 
@@ -54,14 +54,14 @@ bool Holds(PlyType type, double value) {
   return value == std::floor(value) && value >= kMin[i] && value <= kMax[i];
 }
 
-// The lines of a header, in words.
+// Splits the lines of a header into words.
 class HeaderReader {
  public:
   HeaderReader(const std::string& bytes, const std::string& file)
       : bytes_(bytes),
         file_(file),
         position_(bytes.size() - WithoutByteOrderMark(bytes, file).size()) {
-    // As its first line ends, so do the others.
+    // All lines are assumed to end as the first one does.
     const size_t end = bytes_.find_first_of("\r\n", position_);
     const bool is_mac = end < bytes_.size() && bytes_[end] == '\r' && bytes_[end + 1] != '\n';
     line_end_ = is_mac ? '\r' : '\n';
@@ -170,7 +170,8 @@ class HeaderReader {
     element.properties.push_back(std::move(property));
   }
 
-  // As text, a number and its blank take two bytes at least; the last blank may be missing.
+  // In a text, a number and the blank after it take at least two bytes; the last blank may be
+  // missing.
   void CheckCounts() const {
     const size_t rest = bytes_.size() - header_.length + 1;
     for (const PlyElement& element : header_.elements) {
@@ -197,7 +198,7 @@ class HeaderReader {
   PlyHeader header_;
 };
 
-// NaN or an infinity, by one of their names.
+// Parses the names of NaN and the infinities.
 std::optional<double> ParseNonFinite(std::string_view word) {
   double number = 0;
   const char* const end = word.data() + word.size();
@@ -210,7 +211,7 @@ template <typename T>
 double Load(const char* bytes, bool swap) {
   std::array<char, sizeof(T)> ordered;
   std::memcpy(ordered.data(), bytes, sizeof(T));
-  if (swap) std::reverse(ordered.begin(), ordered.end());  // our machines are little-endian
+  if (swap) std::reverse(ordered.begin(), ordered.end());  // the host is little-endian
   T value;
   std::memcpy(&value, ordered.data(), sizeof(T));
   return static_cast<double>(value);
@@ -291,7 +292,8 @@ double PlyNumbers::Next(PlyType type) {
   }
   const std::string_view word = NextWord();
   std::optional<double> number = ParseNumber(word);
-  if (!number && IsReal(type)) number = ParseNonFinite(word);  // of a property that is not read
+  // Such a number may be in a property that is not read.
+  if (!number && IsReal(type)) number = ParseNonFinite(word);
   if (!number) Refuse(fmt::format("\"{}\" is not a number", Excerpt(word, 40)));
   if (!IsReal(type) && !Holds(type, *number)) {
     Refuse(fmt::format("{} is not a number of its type", *number));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/ply_file.h: PLY files (Turk 1994) as their headers describe them: elements of numbers
-// and lists of numbers, as text or as bytes of either order. What the names mean: ply.h.
+// scene_io/ply_file.h: PLY files (Turk 1994) as their headers describe them: elements that consist
+// of numbers and lists of numbers, as text or as bytes of either order. ply.h interprets the names.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ struct PlyProperty {
   std::string name;
   PlyType type = PlyType::kFloat;
   bool is_list = false;
-  PlyType count_type = PlyType::kUint8;  // of a list
+  PlyType count_type = PlyType::kUint8;  // for lists: the type of the count
 };
 
 struct PlyElement {
@@ -25,7 +25,7 @@ struct PlyElement {
   uint64_t count = 0;
   std::vector<PlyProperty> properties;
 
-  // The place of the property of this name, or kNone.
+  // The index of the property with this name, or kNone.
   static constexpr size_t kNone = static_cast<size_t>(-1);
   size_t Find(std::string_view property) const;
 };
@@ -35,33 +35,34 @@ enum class PlyFormat : uint8_t { kText, kLittleEndian, kBigEndian };
 struct PlyHeader {
   PlyFormat format = PlyFormat::kText;
   std::vector<PlyElement> elements;
-  size_t length = 0;  // bytes of the header
+  size_t length = 0;  // size of the header in bytes
 };
 
-// The number whose bytes begin here. `swap`: they are in big-endian order.
+// The number stored at `bytes`. `swap`: the bytes are in big-endian order.
 double LoadPlyNumber(const char* bytes, PlyType type, bool swap);
 
-// Throws Error (kBadInput) unless a file that begins like this says that it is a PLY file.
+// Throws Error (kBadInput) unless `head`, the beginning of a file, has the magic word of PLY.
 void CheckPlyMagic(std::string_view head, const std::string& file);
 
-// Throws Error (kBadInput) with `file` and the line for what is no header, for more elements than
-// the rest of the file can hold, and for names that an element has twice.
+// Throws Error (kBadInput), with `file` and the line, for a malformed header, for more elements
+// than the rest of the file can hold, and for names that occur twice in an element.
 PlyHeader ReadPlyHeader(const std::string& bytes, const std::string& file);
 
-// Reads the numbers after a header, one after the other.
+// Reads the numbers after a header, one by one.
 class PlyNumbers {
  public:
-  // Refers to all of its arguments.
+  // Refers to all of its arguments, which must outlive it.
   PlyNumbers(const std::string& bytes, const PlyHeader& header, const std::string& file);
 
-  // The next number. Throws Error (kBadInput) at the end of the file, and in text for what is not a
-  // number of the type.
+  // Reads the next number. Throws Error (kBadInput) at the end of the file, and, in text, for a
+  // word that is not a number of the type.
   double Next(PlyType type);
-  // Where the last number was, for errors: in text the file and the line.
+  // The location of the last number, for errors: in text, the file and the line.
   std::string place() const;
-  // The length of the next list, which the rest of the file can hold.
+  // Reads the length of the next list. Throws Error (kBadInput) if the rest of the file cannot hold
+  // it.
   size_t NextLength(const PlyProperty& list);
-  // Leaves out the next value of the property.
+  // Skips the next value of the property.
   void Skip(const PlyProperty& property);
 
  private:

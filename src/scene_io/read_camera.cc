@@ -1,27 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // scene_io/read_camera.cc: the parts "camera" and "image".
-#include <array>
-
 #include "scene/filter_width.h"
+#include "scene_io/read_keys.h"
 #include "scene_io/readers.h"
 
 namespace nacre {
 namespace {
 
-// In the orders of Projection and FilterKind.
-constexpr std::array<std::string_view, 2> kProjections = {"perspective", "orthographic"};
-constexpr std::array<std::string_view, 4> kFilters = {"box", "gaussian", "blackman_harris",
-                                                      "mitchell"};
+constexpr double kUnset = 0;  // outside of the range of a filter's width
 
-void ReadFilter(const JsonValue& value, PixelFilter* filter) {
+void ReadFilter(const JsonValue& value, ImageSettings* image) {
   JsonObject object(value, R"(for example {"type": "gaussian", "width": 3})");
-  object.Require("type", "one of: box, gaussian, blackman_harris, mitchell");
-  size_t kind = 0;
-  if (object.Choice("type", kFilters, &kind)) {
-    filter->kind = static_cast<FilterKind>(kind);
-    filter->width = DefaultFilterWidth(filter->kind);
-  }
-  object.Number("width", limits::kFilterWidth, &filter->width);
+  PixelFilter& filter = image->filter;
+  filter.width = kUnset;
+  ReadInnerKeys("filter", &object, image);
+  if (filter.width == kUnset) filter.width = DefaultFilterWidth(filter.kind);
   object.RefuseOthers();
 }
 
@@ -29,32 +22,18 @@ void ReadFilter(const JsonValue& value, PixelFilter* filter) {
 
 void ReadCamera(const JsonValue& value, Camera* camera) {
   JsonObject object(value);
-  size_t projection = 0;
-  if (object.Choice("type", kProjections, &projection)) {
-    camera->projection = static_cast<Projection>(projection);
-  }
-  object.Point("position", &camera->position);
-  object.Point("look_at", &camera->look_at);
-  object.Point("up", &camera->up);
-  if (camera->projection == Projection::kPerspective) {
-    object.Number("fov_y_deg", limits::kFovYDeg, &camera->fov_y_deg);
-  } else {
-    object.Number("height", limits::kLength, &camera->height);
-  }
+  // The first key, the type, decides which other keys there are.
+  ReadKey(CameraKeys(camera->projection).front(), &object, camera);
+  for (const auto& key : CameraKeys(camera->projection).subspan(1)) ReadKey(key, &object, camera);
   object.RefuseOthers();
 }
 
 void ReadImageSettings(const JsonValue& value, ImageSettings* image) {
   JsonObject object(value);
-  object.Whole("width", limits::kImageSide, &image->width);
-  object.Whole("height", limits::kImageSide, &image->height);
-  object.Whole("spp", limits::kSpp, &image->spp);
+  ReadKeys(&object, image);
   if (const Json* filter = object.Find("filter")) {
-    ReadFilter({*filter, object.path().Member("filter"), object.faults()}, &image->filter);
+    ReadFilter({*filter, object.path().Member("filter"), object.faults()}, image);
   }
-  object.Whole("seed", limits::kSeed, &image->seed);
-  object.Boolean("shadows", &image->shadows);
-  object.Boolean("culling", &image->culling);
   object.RefuseOthers();
 }
 

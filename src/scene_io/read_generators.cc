@@ -10,7 +10,7 @@
 namespace nacre {
 namespace {
 
-// A value of `parameter`, or, of a number, three equal components.
+// Reads a value of `parameter`; a number becomes three equal components.
 bool ReadParameterValue(const JsonValue& value, const MaterialParameter& parameter, Rgb* out) {
   if (parameter.is_color) return ReadColor(value, parameter.range, out);
   double number = 0;
@@ -19,8 +19,8 @@ bool ReadParameterValue(const JsonValue& value, const MaterialParameter& paramet
   return true;
 }
 
-// The parameter that the member "parameter" names, or nullptr. `material` is what it varies;
-// nullptr if that is at fault itself.
+// The parameter that the member "parameter" names, or nullptr. `material` is the material that it
+// varies; nullptr if that has faults itself.
 const MaterialParameter* ReadParameter(JsonObject* object, const Material* material) {
   std::string name;
   if (!object->Text("parameter", &name) || material == nullptr) return nullptr;
@@ -59,7 +59,7 @@ void ReadEnds(JsonObject* object, const MaterialParameter& parameter, GridAxis* 
   if (has_from && has_to) *axis = LinearAxis(axis->parameter, first, last, axis->count);
 }
 
-// The members parameter and values, or parameter, from, to and count, or count alone.
+// Reads the members parameter and values; or parameter, from, to and count; or count alone.
 void ReadAxis(JsonObject* object, const Material* material, GridAxis* axis) {
   const MaterialParameter* const parameter = ReadParameter(object, material);
   const Json* const values = object->Find("values");
@@ -96,8 +96,8 @@ void ReadGridAxis(JsonObject* shape, std::string_view name, const Material* mate
   object.RefuseOthers();
 }
 
-// The required member "material", which the axes vary. Returns `material`, or nullptr if it is at
-// fault.
+// Reads the required member "material", which the axes vary. Returns `material`, or nullptr if it
+// has faults.
 const Material* ReadBase(JsonObject* object, SceneContext* context, Material* material) {
   const Json* const json = object->Require("material", "what the axes vary");
   if (json == nullptr) return nullptr;
@@ -106,7 +106,7 @@ const Material* ReadBase(JsonObject* object, SceneContext* context, Material* ma
   return is_read ? material : nullptr;
 }
 
-// One number for both directions, or [x, y].
+// Reads one number for both directions, or [x, y].
 void ReadSpacing(const JsonValue& value, Vec2d* spacing) {
   if (value.json.is_number()) {
     double both = 1;
@@ -131,7 +131,7 @@ void ReadPairSide(JsonObject* shape, std::string_view name, SceneContext* contex
   object.RefuseOthers();
 }
 
-// One number, or [smallest, largest].
+// Reads one number, or [smallest, largest].
 void ReadRadii(const JsonValue& value, Cloud* cloud) {
   if (value.json.is_number()) {
     if (ReadNumber(value, limits::kLength, &cloud->radius_min)) {

@@ -16,7 +16,7 @@
 namespace nacre {
 namespace {
 
-// A plain sphere by its run and its number there, or another shape by its number in the tree.
+// Locates a plain sphere by run and index in the run, or another shape by index in the tree.
 struct ShapePlace {
   std::optional<size_t> run;
   size_t number = 0;
@@ -25,7 +25,7 @@ struct ShapePlace {
 std::optional<ShapePlace> FindShape(size_t place, const SceneTree& tree) {
   const auto shapes = tree.root.find("shapes");
   if (shapes == tree.root.end() || !shapes->is_array()) return std::nullopt;
-  size_t plain = 0;  // before the place
+  size_t plain = 0;  // number of plain spheres before the place
   const std::vector<SphereRun>& runs = tree.spheres.runs;
   for (size_t i = 0; i < runs.size() && runs[i].first <= place; ++i) {
     const size_t number = place - runs[i].first;
@@ -38,8 +38,8 @@ std::optional<ShapePlace> FindShape(size_t place, const SceneTree& tree) {
 
 ShapeRead ReadOfSphere(size_t number) { return {{number, 0, 0, 0}, {1, 0, 0, 0}}; }
 
-// The textures that the material's maps name, in the order in which they are read: in it the
-// scene's textures are numbered.
+// The textures of the material's maps, in the order in which they are read, which is the order of
+// the scene's textures.
 std::vector<TextureId> TexturesOf(const Material& material) {
   std::vector<TextureId> ids;
   const auto add = [&](TextureId id) {
@@ -55,9 +55,9 @@ std::vector<TextureId> TexturesOf(const Material& material) {
   return ids;
 }
 
-// Whether nothing but the material itself, and what is made of it, depends on which of the two it
-// is: not the scene's textures, nor what is right for shapes and splits that have it. Materials
-// from `inline_ones` on are a split's own.
+// Whether one material can replace the other without any effect beyond the material and what is
+// made of it: neither on the scene's textures, nor on the validity of shapes and splits that use
+// it. Materials from index `inline_ones` on belong to a split.
 bool AreAlike(const Material& a, const Material& b, size_t inline_ones) {
   const auto* const split = std::get_if<SplitMaterial>(&a.model);
   if ((split != nullptr) != std::holds_alternative<SplitMaterial>(b.model)) return false;
@@ -75,8 +75,9 @@ void Truncate(const ShapeCounts& counts, Scene* scene) {
   scene->materials.resize(counts.materials);
 }
 
-// Calls read(&context, &faults), which may add to the scene and returns whether all is well. What
-// it has added is taken away again. Nothing else of the scene may have changed if it was not well.
+// Calls read(&context, &faults), which may append to the scene and returns whether it succeeded;
+// then removes what it has appended. If it returns false, it must have left the rest of the scene
+// unchanged.
 template <class Read>
 bool TryToRead(const SceneReading& reading, ScenePart part, ReadMembers* members, Scene* scene,
                const Read& read) {
@@ -104,7 +105,7 @@ bool TryToRead(const SceneReading& reading, ScenePart part, ReadMembers* members
     FaultList faults;
     well = read(&context, &faults) && faults.count() == 0 && scene->textures.size() == textures &&
            scene->images.size() == images;
-  } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch): reading all will throw it
+  } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch): a full read will throw it
   }
   Truncate(before, scene);
   scene->textures.resize(textures);
@@ -134,19 +135,19 @@ std::vector<uint32_t> Numbers(size_t first, size_t count) {
   return numbers;
 }
 
-// What a shape has made at the end of the scene changes places with what it had made before.
+// Swaps what a shape has made anew, at the end of the scene, with what it had made before.
 class ShapeSwap {
  public:
   ShapeSwap(const ShapeRead& known, Scene* scene)
       : known_(known), added_(CountShapes(*scene) - known.made), scene_(scene) {}
 
-  // Whether it is as much, and nothing else depends on the difference.
+  // Whether both have the same number of items, and nothing else depends on the difference.
   bool Fits(const ReadMembers& members) const {
     for (size_t i = 0; i < known_.made.materials; ++i) {
       const Material& old = WholeMaterial(known_.first.materials + i, *scene_, members);
       Material now = scene_->materials[added_.materials + i];
       MoveIds(&now);
-      // A split's own materials are among them.
+      // The shape's materials include those of its splits.
       if (!AreAlike(old, now, known_.first.materials + known_.made.materials)) return false;
     }
     for (size_t i = 0; i < known_.made.meshes; ++i) {
@@ -158,7 +159,7 @@ class ShapeSwap {
     return true;
   }
 
-  // Takes idle layers away from the new materials. Returns those that had some as they were.
+  // Removes idle layers from the new materials. Returns, for each that had some, the original.
   std::vector<std::optional<Material>> RemoveIdleLayers() {
     std::vector<std::optional<Material>> whole;
     for (size_t i = added_.materials; i < scene_->materials.size(); ++i) {
@@ -167,7 +168,8 @@ class ShapeSwap {
     return whole;
   }
 
-  // The new ones know their materials by the places that these are going to have.
+  // Changes the material ids in the new items to those that the new materials will have after the
+  // swap.
   void MoveIds() {
     Scene& s = *scene_;
     for (size_t i = added_.spheres; i < s.spheres.size(); ++i) Move(&s.spheres[i].material);
@@ -175,7 +177,7 @@ class ShapeSwap {
     for (size_t i = added_.materials; i < s.materials.size(); ++i) MoveIds(&s.materials[i]);
   }
 
-  // Whether shapes are what they were: then those stay that others may point to.
+  // Whether the shapes are unchanged. Then the old ones stay, as others may hold pointers to them.
   bool SameShapes() const {
     const auto& [first, made] = known_;
     const auto hash = [&](size_t sphere, size_t mesh) {
@@ -202,7 +204,7 @@ class ShapeSwap {
   void Validate(FaultList* faults) const {
     const auto& [first, made] = known_;
     const Scene& s = *scene_;
-    const std::string place;  // whoever finds faults reads all again
+    const std::string place;  // if there are faults, everything is read again
     for (size_t i = first.materials; i < first.materials + made.materials; ++i) {
       ValidateMaterial(s, i, faults);
     }
@@ -254,7 +256,7 @@ std::optional<size_t> MovePlainSphereToTree(size_t place, SceneTree* tree, ReadM
   shapes.insert(at(shapes, index), *ShapeAt(place, *tree));
   const size_t sphere = members->runs[run] + number;
   members->shapes.insert(at(members->shapes, index), ReadOfSphere(sphere));
-  // The run ends before it; what follows is a run of its own.
+  // Splits the run in two around the sphere.
   std::vector<Sphere>& spheres = runs[run].spheres;
   SphereRun rest{place + 1, {at(spheres, number + 1), spheres.end()}, index + 1};
   spheres.resize(number);
@@ -295,7 +297,7 @@ std::optional<SceneChange> ReadMaterialAlone(const SceneTree& tree, const std::s
   const uint32_t index = found->second.index;
   if (members->varied.contains(index)) return std::nullopt;
   const auto& materials = tree.root.at("materials").get_ref<const Json::object_t&>();
-  const Json& json = (materials.begin() + index)->second;  // found by name it would take longer
+  const Json& json = (materials.begin() + index)->second;  // a search by name would take longer
   std::optional<Material> whole;
   const bool well = TryToRead(
       reading, ScenePart::kMaterials, members, scene,
@@ -325,7 +327,7 @@ std::optional<SceneChange> ReadShapeAlone(const SceneTree& tree, size_t index, s
                                           const SceneReading& reading, ReadMembers* members,
                                           Scene* scene) {
   const Json& json = tree.root.at("shapes")[index];
-  // Displacement names a texture, too, and makes more of it than a look can tell.
+  // Displacement refers to a texture, too, and its result cannot be told at a glance.
   if (!members->current || !json.is_object() || json.contains("displacement")) return std::nullopt;
   const ShapeRead known = members->shapes[index];
   bool same_shapes = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/read_item.h: reads one material or shape of a scene file again where nothing else has
-// changed. The scene is then the one that all of the file makes.
+// scene_io/read_item.h: reads a single material or shape of a scene file again when nothing else
+// has changed. The resulting scene is the one that reading the whole file gives.
 #pragma once
 
 #include <cstddef>
@@ -14,24 +14,26 @@
 
 namespace nacre {
 
-// Makes shape `place` of the file an element of the tree's "shapes", and returns its index there.
-// Nothing: there is no such shape.
+// If shape number `place` of the file is a plain sphere, moves it into the tree's "shapes". Returns
+// the index of the shape there; nullopt: there is no such shape.
 std::optional<size_t> MovePlainSphereToTree(size_t place, SceneTree* tree, ReadMembers* members);
 
-// Puts all plain spheres there.
+// Moves all plain spheres into the tree's "shapes".
 void ListShapes(SceneTree* tree, ReadMembers* members);
 
-// The shape that is number `place` of the file's.
+// Shape number `place` of the file; nullopt if there is none.
 std::optional<Json> ShapeAt(size_t place, const SceneTree& tree);
 
-// Reads the material of this name into `scene`, and checks it. Nothing, and the scene is as before,
-// if anything is wrong with it, or other items of the scene may have to follow: then all of the
-// file must be read, which finds what is wrong. `members`: of the tree before.
+// Reads the material with this name into `scene`, and validates it. Returns nullopt, and leaves the
+// scene unchanged, if anything is wrong with it, or if other items of the scene may depend on the
+// change: then the whole file must be read, which reports what is wrong. `members` is what was read
+// of the tree before the change.
 std::optional<SceneChange> ReadMaterialAlone(const SceneTree& tree, const std::string& name,
                                              const SceneReading& reading, ReadMembers* members,
                                              Scene* scene);
 
-// Likewise the shape that is number `index` of the tree's "shapes", and `place` of the file's.
+// Like ReadMaterialAlone, for the shape with index `index` in the tree's "shapes" and number
+// `place` in the file.
 std::optional<SceneChange> ReadShapeAlone(const SceneTree& tree, size_t index, size_t place,
                                           const SceneReading& reading, ReadMembers* members,
                                           Scene* scene);

@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/read_lights.cc: the part "lights". Those with an extent: read_area_lights.cc.
-#include <array>
+// scene_io/read_lights.cc: the part "lights". Skies are read by read_skies.cc.
+#include <cmath>
+#include <string_view>
+#include <variant>
+#include <vector>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "scene_io/read_keys.h"
 #include "scene_io/readers.h"
 
 namespace nacre {
 namespace {
 
-// Lights with an extent are always sampled. Files of version 0.1 may say so, and might have asked
-// for approximations in place of samples, which were dropped: they were no faster than samples at
-// the same error.
+// Lights with an extent are always sampled. Files of version 0.1 may say so, or ask for
+// approximations instead, which were dropped because they were no faster than samples at the same
+// error.
 void ReadMode(JsonObject* object) {
   std::string mode;
   if (!object->Text("mode", &mode) || mode == "sampled") return;
@@ -22,132 +29,81 @@ void ReadMode(JsonObject* object) {
   }
 }
 
-enum class LightType {
-  kAmbient,
-  kDirectional,
-  kPoint,
-  kSpot,
-  kSphere,
-  kRectangle,
-  kDisk,
-  kMesh,
-  kEnvironment
-};
-constexpr std::array<std::string_view, 9> kLightTypes = {"ambient", "directional", "point",
-                                                         "spot",    "sphere",      "rectangle",
-                                                         "disk",    "mesh",        "environment"};
-
-void ReadAttenuation(const JsonValue& value, Attenuation* attenuation) {
+// For point and spot lights.
+template <class Positional>
+void ReadAttenuation(const JsonValue& value, Positional* light) {
   constexpr std::string_view kHint =
       R"("inverse_square", "none" or {"constant": c, "linear": l, "quadratic": q})";
   if (value.json.is_string()) {
     const auto word = value.json.get<std::string>();
     if (word == "inverse_square") {
-      *attenuation = Attenuation::InverseSquare();
+      light->attenuation = Attenuation::InverseSquare();
     } else if (word == "none") {
-      *attenuation = Attenuation::None();
+      light->attenuation = Attenuation::None();
     } else {
       FaultUnknownName(value, "attenuation", word, {"inverse_square", "none"});
     }
     return;
   }
   JsonObject object(value, kHint);
-  if (object.is_object()) *attenuation = {0, 0, 0};
-  object.Number("constant", limits::kAttenuation, &attenuation->constant);
-  object.Number("linear", limits::kAttenuation, &attenuation->linear);
-  object.Number("quadratic", limits::kAttenuation, &attenuation->quadratic);
+  if (object.is_object()) light->attenuation = {0, 0, 0};
+  ReadInnerKeys("attenuation", &object, light);
   object.RefuseOthers();
 }
 
-// What point and spot lights have in common.
-template <typename PointOrSpot>
-void ReadPosition(JsonObject* object, PointOrSpot* light) {
-  ReadRequiredPoint(object, "position", "[x, y, z]", &light->position);
-  ReadRadiance(object, "intensity", "radiant intensity, [r, g, b] or grey", &light->intensity);
-  if (const Json* attenuation = object->Find("attenuation")) {
-    ReadAttenuation({*attenuation, object->path().Member("attenuation"), object->faults()},
-                    &light->attenuation);
+// Reads the members of a light beyond its keys, and derives what follows from the keys.
+struct KindReader {
+  JsonObject* object;
+  const SceneContext& context;
+
+  template <class Kind>
+  void operator()(Kind& light) const {
+    ReadKeys(object, &light);
+    if constexpr (requires { light.attenuation; }) {
+      if (const Json* attenuation = object->Find("attenuation")) {
+        ReadAttenuation({*attenuation, object->path().Member("attenuation"), object->faults()},
+                        &light);
+      }
+    }
   }
-}
+  void operator()(SpotLight& light) const {
+    constexpr double kUnset = -1;  // outside of its range
+    light.inner_deg = kUnset;
+    operator()<SpotLight>(light);
+    if (light.inner_deg == kUnset) light.inner_deg = light.cutoff_deg;
+  }
+  void operator()(RectangleAreaLight& light) const {
+    operator()<RectangleAreaLight>(light);
+    if (object->Find("up") == nullptr) light.up = DefaultUp(light.facing);
+  }
+  void operator()(MeshAreaLight& light) const {
+    light.mesh = ReadLightMesh(object, context);
+    operator()<MeshAreaLight>(light);
+  }
+  void operator()(EnvironmentLight& light) const {
+    ReadSky(object, context, &light);
+    operator()<EnvironmentLight>(light);
+  }
 
-constexpr std::string_view kDirectionHint = "[x, y, z], from the light towards the scene";
-
-AmbientLight ReadAmbient(JsonObject* object) {
-  AmbientLight light;
-  ReadRadiance(object, "radiance", "[r, g, b] or grey, from every direction", &light.radiance);
-  return light;
-}
-
-DirectionalLight ReadDirectional(JsonObject* object) {
-  DirectionalLight light;
-  ReadRequiredPoint(object, "direction_of_travel", kDirectionHint, &light.direction_of_travel);
-  ReadRadiance(object, "irradiance", "[r, g, b] or grey, on a surface facing the light",
-               &light.irradiance);
-  return light;
-}
-
-PointLight ReadPointLight(JsonObject* object) {
-  PointLight light;
-  ReadPosition(object, &light);
-  return light;
-}
-
-SpotLight ReadSpot(JsonObject* object) {
-  SpotLight light;
-  ReadPosition(object, &light);
-  ReadRequiredPoint(object, "direction_of_travel", kDirectionHint, &light.direction_of_travel);
-  object->Number("cutoff_deg", limits::kCutoffDeg, &light.cutoff_deg);
-  light.inner_deg = light.cutoff_deg;
-  object->Number("inner_deg", limits::kInnerDeg, &light.inner_deg);
-  object->Number("exponent", limits::kExponent, &light.exponent);
-  constexpr std::array<std::string_view, 2> kEdges = {"smoothstep", "square"};
-  size_t edge = 0;
-  if (object->Choice("edge", kEdges, &edge)) light.edge = static_cast<SpotEdge>(edge);
-  return light;
-}
+  // The default up vector: up, or, for a light that faces up or down, away from the viewer.
+  static Vec3d DefaultUp(const Vec3d& facing) {
+    const bool vertical = std::hypot(facing.x, facing.z) <= 1e-6 * std::abs(facing.y);
+    return vertical ? Vec3d(0, 0, -1) : Vec3d(0, 1, 0);
+  }
+};
 
 void ReadLight(const JsonValue& value, const SceneContext& context, Light* light) {
+  std::vector<std::string_view> names;
+  for (const LightKind& kind : LightKinds()) names.push_back(kind.name);
   JsonObject object(value);
-  object.Require(
-      "type",
-      "one of: ambient, directional, point, spot, sphere, rectangle, disk, mesh, environment");
+  object.Require("type", fmt::format("one of: {}", fmt::join(names, ", ")));
   size_t type = 0;
-  if (!object.Choice("type", kLightTypes, &type)) return;
-  switch (static_cast<LightType>(type)) {
-    case LightType::kAmbient:
-      light->kind = ReadAmbient(&object);
-      break;
-    case LightType::kDirectional:
-      light->kind = ReadDirectional(&object);
-      break;
-    case LightType::kPoint:
-      light->kind = ReadPointLight(&object);
-      break;
-    case LightType::kSpot:
-      light->kind = ReadSpot(&object);
-      break;
-    case LightType::kSphere:
-      light->kind = ReadSphereArea(&object);
-      break;
-    case LightType::kRectangle:
-      light->kind = ReadRectangleArea(&object);
-      break;
-    case LightType::kDisk:
-      light->kind = ReadDiskArea(&object);
-      break;
-    case LightType::kMesh:
-      light->kind = ReadMeshArea(&object, context);
-      break;
-    case LightType::kEnvironment:
-      light->kind = ReadEnvironment(&object, context);
-      break;
-  }
-  const auto kind = static_cast<LightType>(type);
-  if (kind != LightType::kAmbient) object.Boolean("shadows", &light->shadows);
-  if (kind == LightType::kSphere || kind == LightType::kRectangle || kind == LightType::kDisk ||
-      kind == LightType::kMesh || kind == LightType::kEnvironment) {
-    ReadMode(&object);
-  }
+  if (!object.Choice("type", names, &type)) return;
+  light->kind = LightKinds()[type].make();
+  std::visit(KindReader{&object, context}, light->kind);
+  const bool is_ambient = std::holds_alternative<AmbientLight>(light->kind);
+  if (!is_ambient) object.Boolean("shadows", &light->shadows);
+  if (!is_ambient && !IsPunctual(*light)) ReadMode(&object);
   object.RefuseOthers();
 }
 

@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view kSplit = "split";
 
 void ReadParameters(const MaterialModel& model, JsonObject* object, Material* material) {
-  // First of all: a preset sets parameters that the object may set again.
+  // Choices come first: a preset sets parameters that the object may set again.
   for (const MaterialChoice& choice : model.choices) {
     size_t option = 0;
     if (object->Choice(choice.name, choice.options, &option)) choice.set(*material, option);
@@ -29,7 +29,7 @@ void ReadParameters(const MaterialModel& model, JsonObject* object, Material* ma
   }
 }
 
-// The member `name`, an array that must be there; nullptr if it is not.
+// The required member `name`, which must be an array; nullptr if it is not.
 const Json* RequireArray(JsonObject* object, std::string_view name, std::string_view hint) {
   const Json* const json = object->Require(name, hint);
   if (json == nullptr) return nullptr;
@@ -57,7 +57,7 @@ SplitMaterial ReadSplit(JsonObject* object, SceneContext* context) {
   return split;
 }
 
-// Sets everything but the name.
+// Reads everything but the name.
 void ReadMaterial(const JsonValue& value, SceneContext* context, Material* material) {
   JsonObject object(value);
   std::vector<std::string_view> names;
@@ -78,20 +78,20 @@ void ReadMaterial(const JsonValue& value, SceneContext* context, Material* mater
   object.RefuseOthers();
 }
 
-// The caller's own reflection model of a material, or null.
+// The reflection model that the caller supplies for a material, or null.
 std::shared_ptr<const UserBrdf> UserBrdfOf(const SceneContext& context, const std::string& name) {
   const auto found = context.user_brdfs->find(name);
   return found != context.user_brdfs->end() ? found->second : nullptr;
 }
 
-// The material called `value`; its absence is a fault.
+// The material with this name; if there is none, adds a fault.
 MaterialId FindMaterial(const JsonValue& value, const SceneContext& context) {
   const auto name = value.json.get<std::string>();
   const auto found = context.materials.find(name);
   if (found != context.materials.end()) return found->second;
   if (!context.has_materials) return {};
   std::vector<std::string> names;
-  if (value.faults->count() < FaultList::kMaxKept) {  // others are only counted
+  if (value.faults->count() < FaultList::kMaxKept) {  // further faults are only counted
     for (const auto& [known, id] : context.materials) names.push_back(known);
   }
   std::sort(names.begin(), names.end());
@@ -107,7 +107,7 @@ void ReadMaterials(const JsonValue& value, SceneContext* context) {
   const JsonObject object(value, R"(materials by name: {"gold": {"model": ...}})");
   context->has_materials = object.is_object();
   if (!object.is_object()) return;
-  // All names first: a split may name a material that comes after it.
+  // Registers all names first: a split may name a material that comes after it.
   std::vector<Material>& materials = context->scene->materials;
   for (const auto& [name, json] : value.json.items()) {
     context->materials.try_emplace(name, MaterialId{static_cast<uint32_t>(materials.size())});
@@ -119,7 +119,8 @@ void ReadMaterials(const JsonValue& value, SceneContext* context) {
     Material material =
         ReadNamedMaterial({json, object.path().Member(name), object.faults()}, name, context);
     if (value.faults->count() != before) context->unreadable_materials.insert(index);
-    materials[index++] = std::move(material);  // not through a reference: inline ones are added
+    materials[index++] = std::move(material);  // no reference is kept: reading adds inline
+                                               // materials
   }
 }
 

@@ -44,10 +44,10 @@ void ReadTransform(const JsonValue& value, Transform* transform) {
   object.RefuseOthers();
 }
 
-// Where a mesh's normals come from.
+// Where the normals of a mesh come from.
 struct NormalSettings {
   bool none = false;
-  bool from_file = true;  // where the file has some; else by weighting
+  bool from_file = true;  // if the file has some; else computed
   NormalWeighting weighting = NormalWeighting::kAngle;
   std::optional<double> crease_angle_deg;
 };
@@ -56,7 +56,7 @@ void ReadNormals(JsonObject* shape, NormalSettings* normals) {
   constexpr std::array<std::string_view, 5> kSources = {"file", "angle", "area", "uniform", "none"};
   size_t source = 0;
   const bool is_given = shape->Choice("normals", kSources, &source);
-  bool smooth = true;  // older scenes: false for "none"
+  bool smooth = true;  // in older scenes: false means "none"
   if (shape->Boolean("smooth", &smooth) && is_given) {
     shape->value().AddFault("\"normals\" takes the place of \"smooth\"", "keep \"normals\"");
   }
@@ -72,9 +72,9 @@ void ReadNormals(JsonObject* shape, NormalSettings* normals) {
   }
 }
 
-// The members that all meshes share.
+// Reads the members that all meshes share.
 void ReadInterpolation(JsonObject* shape, Mesh* mesh) {
-  // In the order of Interpolation.
+  // The names are in the order of Interpolation.
   constexpr std::array<std::string_view, 4> kNames = {"phong", "gouraud", "flat", "faceted"};
   size_t choice = 0;
   shape->Choice("interpolation", kNames, &choice);
@@ -97,7 +97,7 @@ void PrepareNormals(const JsonValue& file, const NormalSettings& settings, int t
   }
 }
 
-// Moves the surface, or faults if that takes texture coordinates that it has not.
+// Displaces the surface; adds a fault if that needs texture coordinates that the mesh lacks.
 void DisplaceMesh(const JsonValue& value, Displacement displacement, const Scene& scene,
                   Mesh* mesh) {
   const Texture& texture = scene.textures[displacement.texture.index];
@@ -111,8 +111,9 @@ void DisplaceMesh(const JsonValue& value, Displacement displacement, const Scene
   Displace(scene, displacement, mesh);
 }
 
-// The mesh in the file that `value` names, in its place; or faults and nothing. Smoothing groups
-// are the file's own normals: other ones that are asked for take their place.
+// Reads the mesh of the file that `value` names and transforms it; nullopt if there are faults.
+// Normals of smoothing groups count as the file's own: a weighting that the scene asks for replaces
+// them.
 std::optional<Mesh> ReadMeshFile(const JsonValue& value, const Transform& transform,
                                  const NormalSettings& normals, const SceneContext& context) {
   std::string file;
@@ -139,7 +140,7 @@ std::optional<Mesh> ReadMeshFile(const JsonValue& value, const Transform& transf
   return std::nullopt;
 }
 
-// Adds the mesh in the file that `value` names, unless there are faults.
+// Adds the mesh of the file that `value` names, unless there are faults.
 void LoadMesh(const JsonValue& value, const Transform& transform, const NormalSettings& normals,
               const std::optional<Displacement>& displacement, const Mesh& settings,
               SceneContext* context) {
@@ -170,7 +171,7 @@ void ReadFineness(JsonObject* shape, UvSphere* sphere) {
   shape->Whole("rings", limits::kRings, &sphere->rings);
 }
 
-// How many triangles it will have.
+// The number of triangles that it will have.
 uint64_t TriangleCount(const Icosphere& sphere) {
   return uint64_t{20} << (2 * sphere.subdivisions);
 }
@@ -178,7 +179,7 @@ uint64_t TriangleCount(const UvSphere& sphere) {
   return 2 * static_cast<uint64_t>(sphere.segments) * static_cast<uint64_t>(sphere.rings);
 }
 
-// All that makes a sphere of faces; nothing if there are faults.
+// Reads all that defines a sphere mesh; nullopt if there are faults.
 template <typename SphereMesh>
 std::optional<Mesh> ReadFaces(const JsonValue& value, const SceneContext& context) {
   const size_t before = value.faults->count();
@@ -197,7 +198,7 @@ std::optional<Mesh> ReadFaces(const JsonValue& value, const SceneContext& contex
   return std::nullopt;
 }
 
-// The members center, radius, material and those of all meshes; true if there are no faults.
+// Reads center, radius, material and the members of all meshes; true if there are no faults.
 template <typename SphereMesh>
 bool ReadSphereMesh(JsonObject* shape, SceneContext* context, SphereMesh* sphere, Mesh* mesh) {
   ReadPlace(shape, sphere);
@@ -216,7 +217,8 @@ void AddSphereMesh(const SphereMesh& sphere, const Mesh& settings, SceneContext*
   context->scene->meshes.push_back(std::move(mesh));
 }
 
-// What a light's mesh is made from: the values of its members, and its file as it is now.
+// Identifies what a light's mesh is made from: the values of its members, and the state of its
+// file.
 std::string KeyOfLightMesh(std::initializer_list<const Json*> members,
                            const SceneContext& context) {
   std::string key;

@@ -19,9 +19,9 @@
 namespace nacre {
 namespace {
 
-constexpr int kFormat = 1;  // the version of scene files
+constexpr int kFormat = 1;  // the version of the format that is read
 
-// What is wrong with a version that this program does not read, and the way to one that it does.
+// Describes a version that this program does not read, with a hint how to get one that it does.
 Fault JudgeVersion(const Json& version, const std::string& where) {
   const std::string reads = fmt::format("nacre {} reads version {}", kVersion, kFormat);
   if (!version.is_number()) return {where, "the version is not a number", reads};
@@ -31,7 +31,7 @@ Fault JudgeVersion(const Json& version, const std::string& where) {
         fmt::format("version {} of the scene format is newer than this program", JsonText(version)),
         fmt::format("{}: take a newer nacre, or write the scene as version {}", reads, kFormat)};
   }
-  // Version 1 is the first: nothing older is to be translated.
+  // Version 1 is the first: there are no older ones to translate.
   return {where, fmt::format("there is no version {} of the scene format", JsonText(version)),
           fmt::format("{}: write \"nacre\": {}; `nacre schema` prints what it may hold", reads,
                       kFormat)};
@@ -41,14 +41,14 @@ std::string VersionHint() {
   return fmt::format("\"nacre\": {}, the version of the format", kFormat);
 }
 
-// Before overrides, which would blame the command line.
+// Checked before overrides are applied, whose error would blame the command line.
 void CheckIsObject(const Json& root, const std::string& file) {
   if (root.is_object()) return;
   throw Error(ExitCode::kBadInput, file, "not a scene: no object",
               "a scene begins {" + VersionHint());
 }
 
-// Members of the file that are other parts are known, and that is all.
+// Reads the given parts. Members for other parts are recognised, but not read.
 void ReadRoot(const SceneTree& tree, SceneParts parts, WatchedFiles* files, FaultList* faults,
               SceneContext* context, ReadMembers* read) {
   JsonObject object({tree.root, JsonPath{}, faults});
@@ -67,7 +67,7 @@ void ReadRoot(const SceneTree& tree, SceneParts parts, WatchedFiles* files, Faul
     read_member(JsonValue{*json, object.path().Member(name), faults});
   };
   std::string schema;
-  object.Text("$schema", &schema);  // for editors
+  object.Text("$schema", &schema);  // used by editors
   object.Find("nacre");
   member("camera", ScenePart::kCamera,
          [&](const JsonValue& value) { ReadCamera(value, &scene->camera); });
@@ -97,8 +97,9 @@ void ReadRoot(const SceneTree& tree, SceneParts parts, WatchedFiles* files, Faul
   read->runs = std::move(context->runs);
 }
 
-// Adds what shapes have brought to materials, textures and images of the file that have the same
-// places as before. They know textures and images by their places. False: they have not.
+// Adds what shapes had brought to the materials, textures and images that the file defines. Returns
+// false, and adds nothing, unless these have the same indices as before, by which shapes refer to
+// textures and images.
 bool TakeOverBrought(const Scene& before, const ReadMembers& members, ReadMembers* now,
                      Scene* scene) {
   const auto same_image = [](const SceneImage& a, const SceneImage& b) {
@@ -122,7 +123,7 @@ bool TakeOverBrought(const Scene& before, const ReadMembers& members, ReadMember
   return true;
 }
 
-// The part of a scene that a pointer is in: "/camera", "/lights/key", "/shapes".
+// The part of a scene that a pointer belongs to: "/camera", "/lights/key", "/shapes".
 std::string PartOf(const std::string& pointer) {
   if (pointer.starts_with("/spheres") || pointer.starts_with("/meshes")) return "/shapes";
   const bool is_named = pointer.starts_with("/materials/") || pointer.starts_with("/lights/") ||
@@ -131,14 +132,15 @@ std::string PartOf(const std::string& pointer) {
   return pointer.substr(0, is_named ? pointer.find('/', first_end + 1) : first_end);
 }
 
-// Adds what Validate() finds in parts that could be read: elsewhere it would judge the defaults
-// that stand in for what could not.
+// Adds what Validate() finds in parts that were read without faults; in others it would judge the
+// defaults that replace what could not be read.
 void AddValidation(const Scene& scene, SceneParts parts, FaultList* faults) {
   std::set<std::string> faulty_parts;
   for (const Fault& fault : faults->kept()) faulty_parts.insert(PartOf(fault.where));
-  if (faulty_parts.contains("/materials")) faulty_parts.insert("/shapes");  // they name them
+  // Shapes refer to materials.
+  if (faulty_parts.contains("/materials")) faulty_parts.insert("/shapes");
   for (const Fault& fault : Validate(scene, parts)) {
-    const bool is_remainder = fault.where.empty();  // "and 7 more": of which parts?
+    const bool is_remainder = fault.where.empty();  // "and 7 more": of unknown parts
     if (is_remainder && !faulty_parts.empty()) continue;
     if (!faulty_parts.contains(PartOf(fault.where))) {
       faults->Add(fault.where, fault.what, fault.hint);
@@ -217,19 +219,30 @@ SceneTree ParseScene(const SceneSource& source, const LoadOptions& options, Faul
   try {
     ApplyOptionsToFile(options, &tree.root);
   } catch (const Error&) {
-    // The fault may be the file's: "image": [] has no place for --size. Then that is told.
+    // The file may be at fault: "image": [] has no place for --size. Then that error is thrown.
     LoadOptions file_alone = options;
     file_alone.overrides.clear();
     file_alone.on_warning = nullptr;
-    if (!options.overrides.empty()) LoadSceneText(source.text, file, source.folder, file_alone);
+    if (!options.overrides.empty()) ReadSceneSource(source, file_alone);
     throw;
   }
   CheckVersion(tree.root, file);
   return tree;
 }
 
+Scene ReadSceneSource(const SceneSource& source, const LoadOptions& options) {
+  FaultList faults;
+  const SceneTree tree = ParseScene(source, options, &faults);
+  Scene scene;
+  const SceneReading reading{
+      .folder = source.folder, .bytes = source.text.size(), .options = &options};
+  ReadScene(tree, SceneParts::All(), reading, &faults, &scene);
+  ThrowFaults(faults, source.file);
+  return scene;
+}
+
 void CheckVersion(const Json& root, const std::string& file) {
-  CheckIsObject(root, file);  // an override may have replaced all of it
+  CheckIsObject(root, file);  // an override may have replaced the root
   const auto version = root.find("nacre");
   if (version == root.end()) {
     throw Error(ExitCode::kBadInput, file, "not a scene: missing key \"nacre\"",
@@ -265,7 +278,8 @@ std::optional<ReadMembers> ReadScene(const SceneTree& tree, SceneParts parts,
       !TakeOverBrought(*reading.before, *reading.members, &read, scene)) {
     return std::nullopt;
   }
-  // Last: generators may vary what a material leaves idle. Shapes are never read without materials.
+  // This comes last, because generators may vary what a material leaves idle. Shapes are never read
+  // without materials.
   if (parts.Has(ScenePart::kMaterials)) {
     for (uint32_t i = 0; i < scene->materials.size(); ++i) {
       std::optional<Material> whole = RemoveIdleLayers(*scene, &scene->materials[i]);

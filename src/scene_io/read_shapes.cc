@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/read_shapes.cc: the part "shapes". Meshes: read_meshes.cc. Grids, pairs and clouds:
-// read_generators.cc.
+// scene_io/read_shapes.cc: the part "shapes". Meshes are read by read_meshes.cc; grids, pairs and
+// clouds by read_generators.cc.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -54,7 +54,7 @@ void ReadSpheres(JsonObject* shape, SceneContext* context) {
   }
   settings.by_name = &context->materials;
   const Json* const file = shape->Require("file", "a .ply, .csv or .npy file");
-  // After a fault materials may be missing that the file names.
+  // After a fault, materials that the file refers to may be missing.
   if (file == nullptr || shape->faults()->count() != 0) return;
   const JsonPath path = shape->path().Member("file");
   const JsonValue value{*file, path, shape->faults()};
@@ -87,7 +87,7 @@ constexpr std::array<ShapeType, 8> kShapeTypes = {{{"sphere", ReadSphere},
                                                    {"pair", ReadPair},
                                                    {"cloud", ReadCloud}}};
 
-// The scene's materials of these names; none for those that there are not.
+// The scene's materials with these names; invalid ids for names that do not exist.
 std::vector<MaterialId> FindMaterials(const std::vector<std::string>& names,
                                       const SceneContext& context) {
   std::vector<MaterialId> ids;
@@ -105,13 +105,14 @@ bool IsInRange(const Sphere& sphere) {
          coordinate.Contains(sphere.center.z) && limits::kLength.Contains(sphere.radius);
 }
 
-// Does what ReadShape does for each of them.
+// Does what ReadShape does, for each sphere of the run.
 void ReadRun(const SphereRun& run, const PlainSpheres& plain, const std::vector<MaterialId>& ids,
              const JsonValue& shapes, SceneContext* context) {
   for (size_t i = 0; i < run.spheres.size(); ++i) {
     Sphere sphere = run.spheres[i];
     const MaterialId id = ids[sphere.material.index];
-    if (!id.valid() || !IsInRange(sphere) || context->budget->IsSpent()) {  // it says what is wrong
+    // ReadShape reports what is wrong.
+    if (!id.valid() || !IsInRange(sphere) || context->budget->IsSpent()) {
       const Json json = JsonOf(sphere, plain.MaterialOf(sphere));
       ReadShape({json, shapes.path.Element(run.first + i), shapes.faults}, context);
       continue;
@@ -122,7 +123,7 @@ void ReadRun(const SphereRun& run, const PlainSpheres& plain, const std::vector<
   }
 }
 
-// As people write it: 1, not 1.0.
+// Writes a number as people do: 1, not 1.0.
 Json AsWritten(double number) {
   const bool whole = std::abs(number) < 1e15 && number == std::trunc(number);
   return whole && !(number == 0 && std::signbit(number)) ? Json(static_cast<int64_t>(number))
@@ -140,7 +141,7 @@ void ReadShape(const JsonValue& value, SceneContext* context) {
   if (!shape.Choice("type", names, &type)) return;
   try {
     kShapeTypes[type].read(&shape, context);
-  } catch (const Error& error) {  // of a generator
+  } catch (const Error& error) {  // thrown by a generator
     for (const Fault& fault : error.faults()) value.AddFault(fault.what, fault.hint);
   }
   shape.RefuseOthers();

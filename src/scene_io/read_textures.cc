@@ -29,7 +29,7 @@ bool ReadChoice(JsonObject* object, std::string_view name,
   return is_set;
 }
 
-// [u, v], or one number for both.
+// Reads [u, v], or one number for both.
 void ReadTwoNumbers(JsonObject* object, std::string_view name, const Range& range, Vec2d* out) {
   const Json* const json = object->Find(name);
   if (json == nullptr) return;
@@ -45,7 +45,7 @@ void ReadTwoNumbers(JsonObject* object, std::string_view name, const Range& rang
   ReadNumber({(*json)[1], path.Element(1), value.faults}, range, &out->y);
 }
 
-// A mapping by name, or an object.
+// Reads a mapping, which is a name or an object.
 void ReadMapping(const JsonValue& value, Texture* texture) {
   if (value.json.is_string()) {
     std::string word;
@@ -68,7 +68,7 @@ void ReadMapping(const JsonValue& value, Texture* texture) {
   object.RefuseOthers();
 }
 
-// The image of this key that was kept, if any scene still holds it.
+// The kept image with this key, if any scene still holds it.
 std::optional<SceneImage> FindKept(const std::string& key, const SceneContext& context) {
   const auto kept = context.kept->images.find(key);
   if (kept == context.kept->images.end()) return std::nullopt;
@@ -79,7 +79,8 @@ std::optional<SceneImage> FindKept(const std::string& key, const SceneContext& c
   return image;
 }
 
-// The image of a file, which is read unless it was kept. `how`: of its path and reading.
+// Adds the image of a file, which is read unless it was kept. `how` identifies its path and
+// reading.
 ImageId AddImage(const std::filesystem::path& path, const std::string& file,
                  const TextureReading& reading, const std::string& how, SceneContext* context) {
   std::vector<SceneImage>& images = context->scene->images;
@@ -103,12 +104,13 @@ ImageId AddImage(const std::filesystem::path& path, const std::string& file,
   return id;
 }
 
-// How the file of a texture is read where it is used so.
+// How the file of a texture is read for a given use.
 TextureReading ReadingOf(const TextureSource& source, MapUse use, const SceneContext& context) {
   const auto by_use = use == MapUse::kColor     ? TextureEncoding::kSrgb
                       : use == MapUse::kOpacity ? TextureEncoding::kAlpha
                                                 : TextureEncoding::kLinear;
-  // A file that says what it is may contradict what is merely the custom.
+  // An encoding that is assumed by convention gives way to what the file declares; one that the
+  // scene specifies does not.
   return {.encoding = source.encoding.value_or(by_use),
           .trust_encoding = source.encoding.has_value(),
           .part = source.part,
@@ -116,7 +118,7 @@ TextureReading ReadingOf(const TextureSource& source, MapUse use, const SceneCon
           .on_warning = context.on_warning};
 }
 
-// The image of the texture, read so, once.
+// The image of the texture in this reading, which is added on first use.
 ImageId FindImage(const TextureSource& source, const TextureReading& reading,
                   SceneContext* context) {
   const auto path = ResolveReference(context->folder, source.file, context->references);
@@ -128,15 +130,15 @@ ImageId FindImage(const TextureSource& source, const TextureReading& reading,
   return id;
 }
 
-// Adds the texture to the scene. What is wrong with its file is reported where the scene
-// names it.
+// Adds the texture to the scene. Errors in its file are reported at the texture's place in the
+// scene.
 TextureId AddTexture(TextureSource* source, const TextureReading& reading, SceneContext* context,
                      FaultList* faults) {
   Texture texture = source->texture;
   try {
     texture.image = FindImage(*source, reading, context);
   } catch (const Error& error) {
-    source->is_readable = false;  // reported once
+    source->is_readable = false;  // report it only once
     for (const Fault& fault : error.faults()) {
       faults->Add(
           "/textures/" + PointerToken(texture.name) + "/file",
@@ -150,8 +152,8 @@ TextureId AddTexture(TextureSource* source, const TextureReading& reading, Scene
   return {static_cast<uint32_t>(textures.size() - 1)};
 }
 
-// Faults if there is no such file that may be read. Its contents are looked at when a material
-// wants them, and so in one encoding.
+// Adds a fault if the file does not exist or may not be read. Its contents are read when a material
+// uses it, in the encoding for that use.
 void CheckFile(const JsonValue& value, TextureSource* source, const SceneContext& context) {
   if (!ReadText(value, &source->file)) return;
   try {
@@ -182,7 +184,7 @@ void ReadTexture(const JsonValue& value, const std::string& name, SceneContext* 
   if (const Json* mapping = object.Find("mapping")) {
     ReadMapping({*mapping, object.path().Member("mapping"), object.faults()}, &texture);
   }
-  // What lies across a pole, or beyond the face of a cube, is not the image's other end.
+  // Beyond a pole, or beyond the face of a cube, there is not the opposite edge of the image.
   if (texture.mapping == MappingKind::kSpherical || texture.mapping == MappingKind::kCylindrical) {
     texture.sampling.wrap_v = Wrap::kClamp;
   } else if (texture.mapping == MappingKind::kCube) {
@@ -209,7 +211,7 @@ void ReadTextures(const JsonValue& value, SceneContext* context) {
 
 namespace {
 
-// What the map of this name means, of whatever model; nothing for what is no map.
+// What the map with this name means, in whatever model; nullopt if there is no such map.
 std::optional<MapUse> UseOfMap(std::string_view name) {
   if (name == "bump_map") return MapUse::kData;
   for (const MaterialModel& model : MaterialModels()) {
@@ -223,14 +225,14 @@ std::optional<MapUse> UseOfMap(std::string_view name) {
   return std::nullopt;
 }
 
-// The name of the texture of a map: the JSON, or its member "texture".
+// The name of the texture of a map, which is the JSON itself or its member "texture".
 const std::string* NameOfTexture(const Json& map) {
   const auto member = map.is_object() ? map.find("texture") : map.end();
   const Json& name = map.is_object() && member != map.end() ? *member : map;
   return name.get_ptr<const std::string*>();
 }
 
-// Heights are often taken for normals.
+// Refuses grey images, because height maps are often mistaken for normal maps.
 void RefuseGrey(const JsonValue& value, const Scene& scene, TextureId id) {
   if (!id.valid()) return;
   const SceneImage& image = scene.images[scene.textures[id.index].image.index];
@@ -273,7 +275,7 @@ void ReadTextureId(const JsonValue& value, MapUse use, SceneContext* context, Te
   if (found == context->textures.end()) {
     std::vector<std::string> names;
     names.reserve(context->textures.size());
-    if (value.faults->count() < FaultList::kMaxKept) {  // others are only counted
+    if (value.faults->count() < FaultList::kMaxKept) {  // further faults are only counted
       for (const auto& [known, source] : context->textures) names.push_back(known);
     }
     std::sort(names.begin(), names.end());
@@ -281,7 +283,7 @@ void ReadTextureId(const JsonValue& value, MapUse use, SceneContext* context, Te
     return;
   }
   TextureSource& source = found->second;
-  if (!source.is_readable) return;  // reported before
+  if (!source.is_readable) return;  // reported already
   const TextureReading reading = ReadingOf(source, use, *context);
   TextureId& known = source.decoded[static_cast<size_t>(reading.encoding)];
   if (!known.valid()) known = AddTexture(&source, reading, context, value.faults);
@@ -309,7 +311,7 @@ void ReadMaps(const MaterialModel& model, JsonObject* object, SceneContext* cont
       map.set(*material, id);
     });
   }
-  // A texture's name, or an object that has it as its member "texture".
+  // Reads a texture's name, or an object with the member "texture".
   const auto texture_of = [&](const JsonValue& value, TextureId* id, const auto& read_others) {
     if (!value.json.is_object()) return ReadTextureId(value, MapUse::kData, context, id);
     JsonObject map(value);

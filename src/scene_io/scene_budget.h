@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // scene_io/scene_budget.h: upper bounds on the primitives and materials that a file expands to. A
-// few bytes can ask for a hundred million spheres, and for them again and again.
+// few bytes can ask for a hundred million spheres, several times over.
 #pragma once
 
 #include <algorithm>
@@ -44,12 +44,13 @@ inline void CheckCuts(std::span<const uint16_t> corner_counts, const std::string
 
 class SceneBudget {
  public:
-  // What a sphere with a material of its own counts: such a pair is about as large as that many.
+  // The count of a sphere with a material of its own: such a pair takes about as much memory as
+  // that many plain spheres.
   static constexpr uint64_t kWithMaterial = 16;
 
   explicit SceneBudget(uint64_t primitives) : allowed_(primitives), left_(primitives) {}
 
-  // To be called before they are made. Throws Error (kBadInput), without a place.
+  // To be called before primitives are made. Throws Error (kBadInput), without a location.
   void Spend(uint64_t primitives) {
     if (primitives > left_) {
       throw Error(ExitCode::kBadInput, {},
@@ -73,7 +74,7 @@ class SceneBudget {
   bool has_sky_picture_ = false;
 };
 
-// The same for a model file, which is the error's place.
+// SceneBudget::Spend for a model file, which becomes the location of the error.
 inline void SpendTriangles(uint64_t triangles, const std::string& file, SceneBudget* budget,
                            const char* hint = kPrimitivesHint) {
   try {
@@ -83,7 +84,7 @@ inline void SpendTriangles(uint64_t triangles, const std::string& file, SceneBud
   }
 }
 
-// Of files that show nothing twice, whose bound is their size alone.
+// The hint for files that do not instance anything, and whose bound therefore is their size alone.
 inline constexpr const char* kTooManyForItsSize =
     "these are more than a file of its size needs: name each vertex a few times";
 

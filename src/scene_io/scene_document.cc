@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "scene_io/load_scene.h"
 #include "scene_io/model_scene.h"
 #include "scene_io/overrides.h"
 
@@ -35,7 +36,7 @@ SceneDocument ParseDocument(const SceneSource& source, FaultList* faults) {
 
 namespace {
 
-// The members of a part whose entries have names; nullptr if there is no such part yet.
+// The named entries of a part; nullptr if there is no such part yet.
 Json::object_t* NamedEntries(const std::string& part, Json* root) {
   const bool is_named = part == "materials" || part == "lights" || part == "textures";
   if (!is_named || !root->is_object()) return nullptr;
@@ -66,7 +67,7 @@ void PutInFile(const std::string& pointer, const std::string& json, SceneDocumen
   if (entry != nullptr) {
     ReplaceValue(pointer, std::span(tokens).subspan(2), json, entry);
   } else if (tokens.size() == 2) {
-    // Not through operator[], which would look at all others.
+    // Appends directly: operator[] would compare the name with all others.
     static_cast<Json::object_t::Container*>(entries)->emplace_back(tokens[1],
                                                                    ParseValue(pointer, json));
   } else {
@@ -79,7 +80,7 @@ void PutInFile(const std::string& pointer, const std::string& json, SceneDocumen
 void PutValue(const std::string& pointer, const std::string& json, SceneDocument* document) {
   if (document->model.empty()) return PutInFile(pointer, json, document);
   ReplaceValue(pointer, json, &document->tree.root);
-  // A value for all of "lights" leaves none of the others, as in a scene file.
+  // Setting all of "lights" removes the model's own lights, as in a scene file.
   if (pointer == "/lights") document->own_lights = true;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/scene_document.h: what a scene that is built step by step says so far. Values are put
-// and read in time that does not depend on how many were put before; only reading it as a scene
-// checks them.
+// scene_io/scene_document.h: a scene that is built step by step, as JSON. Setting and getting a
+// value takes time that does not depend on the number of earlier values; the values are validated
+// only when the document is read as a scene.
 #pragma once
 
 #include <cstddef>
@@ -12,42 +12,43 @@
 #include <unordered_map>
 
 #include "scene/scene.h"
-#include "scene_io/load_scene.h"
+#include "scene_io/load_options.h"
 #include "scene_io/read_scene.h"
 
 namespace nacre {
 
-// Where the entries of an object are, so that one is found without a look at all others.
+// Where the entries of an object are, so that finding one does not need a search of all.
 struct EntryPlaces {
   std::unordered_map<std::string, size_t> by_name;
-  size_t count = 0;  // how many entries are in it
+  size_t count = 0;  // the number of entries in the object
 };
 
 struct SceneDocument {
-  std::filesystem::path model;         // empty: it is a scene file, or like one
-  std::string file = "scene";          // what errors call it
+  std::filesystem::path model;         // empty: a scene file, or like one
+  std::string file = "scene";          // its name in errors
   std::filesystem::path folder = ".";  // where files that it names are looked for
-  uint64_t bytes = 0;  // of the file, which its images may be large in proportion to
-  SceneTree tree{Json::object({{"nacre", 1}}), {}};  // of a model, what has been put
-  bool own_lights = false;                           // of a model: it has no others than these
+  uint64_t bytes = 0;  // size of the file, to which the size of its images may be in proportion
+  SceneTree tree{Json::object({{"nacre", 1}}), {}};  // for a model: what has been set
+  bool own_lights = false;                           // for a model: its own lights are replaced
   std::map<std::string, EntryPlaces> places{};       // of materials, lights and textures
 };
 
-// That of a model. Throws Error (kBadInput) for models of a kind that is not read.
+// The document of a model. Throws Error (kBadInput) for models of a kind that nacre does not read.
 SceneDocument DocumentOfModel(const std::filesystem::path& path);
 
-// That of the text of a scene file. Throws Error as ParseScene, and adds to `faults` as it does.
+// The document of a scene file's text. Throws Error, and adds to `faults`, as ParseScene does.
 SceneDocument ParseDocument(const SceneSource& source, FaultList* faults);
 
-// Puts the value that `json` is JSON for where `pointer` points, as LoadOptions::overrides. Throws
-// Error (kUsage) where that cannot be done; the document is then as before.
+// Sets the value at `pointer` to the JSON value `json`, as LoadOptions::overrides does. Throws
+// Error (kUsage) where that cannot be done, and then leaves the document unchanged.
 void PutValue(const std::string& pointer, const std::string& json, SceneDocument* document);
 
-// Adds a shape, an object in JSON, behind all others. Throws Error as PutValue does.
+// Appends a shape, a JSON object. Throws Error as PutValue does.
 void PutShape(const std::string& json, SceneDocument* document);
 
-// The scene, checked, but for what was found when the document was parsed, which `faults` may have.
-// The options' overrides and environment are not looked at. Throws Error as LoadScene does.
+// Reads the document as a scene and validates it. `faults` may hold errors that were found when the
+// document was parsed. The options' overrides and environment are ignored. Throws Error as
+// LoadScene does.
 Scene ReadDocument(const SceneDocument& document, const LoadOptions& options, FaultList* faults);
 
 }  // namespace nacre

@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/schema.cc: SceneSchema() of load_scene.h: what the table of material parameters says of
-// the material models, as JSON Schema, put into the rest of it; and what it says of a place.
+// scene_io/schema.cc: inserts the tables of material parameters and of keys, as JSON Schema, into
+// the template; and answers queries about the schema.
 #include "scene_io/schema.h"
 
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "scene/keys.h"
 #include "scene/material_parameters.h"
-#include "scene_io/load_scene.h"
+#include "scene_io/read_keys.h"
 #include "scene_io/schema_template.h"
 
 namespace nacre {
@@ -22,48 +25,102 @@ namespace {
 
 std::string Quoted(std::string_view text) { return nlohmann::json(text).dump(); }
 
-// A number or a colour as people write it: a grey as one number.
-std::string ValueText(const Rgb& value) {
-  if (value.x == value.y && value.y == value.z) return fmt::format("{}", value.x);
+// Writes three numbers as people do: a grey as one number.
+std::string ValueText(const Vec3d& value, bool may_be_grey) {
+  if (may_be_grey && value.x == value.y && value.y == value.z) return fmt::format("{}", value.x);
   return fmt::format("[{}, {}, {}]", value.x, value.y, value.z);
 }
 
-std::string NumberType(const Range& range) {
-  return fmt::format(R"("type": "number", "{}": {}, "{}": {})",
+std::string NumberType(const Range& range, const char* type = "number") {
+  return fmt::format(R"("type": "{}", "{}": {}, "{}": {})", type,
                      range.min_open ? "exclusiveMinimum" : "minimum", range.min,
                      range.max_open ? "exclusiveMaximum" : "maximum", range.max);
 }
 
-// What values a parameter takes: by reference, where the rest of the schema defines it.
-std::string TypeOf(const MaterialParameter& parameter) {
-  const auto reference = [](const char* name) {
-    return fmt::format(R"("$ref": "#/$defs/{}")", name);
-  };
-  const Range& range = parameter.range;
-  if (range == limits::kUnit) return reference(parameter.is_color ? "unit_color" : "unit");
-  if (range == limits::kRadiance && parameter.is_color) return reference("radiance");
-  if (range == limits::kExponent && !parameter.is_color) return reference("exponent");
+std::string Reference(const char* name) { return fmt::format(R"("$ref": "#/$defs/{}")", name); }
+
+std::string EnumOf(std::span<const std::string_view> options) {
+  std::vector<std::string> quoted;
+  for (const std::string_view option : options) quoted.push_back(Quoted(option));
+  return fmt::format(R"("enum": [{}])", fmt::join(quoted, ", "));
+}
+
+// The type of a number or a colour, as a reference if the template defines it.
+std::string TypeOf(bool is_color, const Range& range) {
+  if (range == limits::kUnit) return Reference(is_color ? "unit_color" : "unit");
+  if (range == limits::kRadiance && is_color) return Reference("radiance");
+  if (range == limits::kExponent && !is_color) return Reference("exponent");
+  if (range == limits::kLength && !is_color) return Reference("length");
+  if (range == limits::kCoordinate && !is_color) return Reference("coordinate");
   const std::string number = NumberType(range);
-  if (!parameter.is_color) return number;
+  if (!is_color) return number;
   return fmt::format(R"("anyOf": [{{ {0} }}, {{ "type": "array", "items": {{ {0} }}, )"
                      R"("minItems": 3, "maxItems": 3 }}])",
                      number);
 }
 
+// A key's type, and its default value as text.
+struct KeyText {
+  std::string type, value;
+};
+KeyText TextOf(KeyForm form, const Range& range, std::span<const std::string_view> options,
+               const Vec3d& value) {
+  switch (form) {
+    case KeyForm::kNumber:
+      break;
+    case KeyForm::kWhole:
+      return {NumberType(range, "integer"), fmt::format("{}", value.x)};
+    case KeyForm::kColor:
+      return {TypeOf(true, range), ValueText(value, true)};
+    case KeyForm::kPoint:
+      return {Reference("point"), ValueText(value, false)};
+    case KeyForm::kDirection:
+      return {Reference("direction"), ValueText(value, false)};
+    case KeyForm::kBoolean:
+      return {R"("type": "boolean")", value.x != 0 ? "true" : "false"};
+    case KeyForm::kChoice:
+      return {EnumOf(options), Quoted(options[static_cast<size_t>(value.x)])};
+  }
+  return {TypeOf(false, range), fmt::format("{}", value.x)};
+}
+
+// The keys of a struct, or of the object `outer` in it, as properties, and the names of those that
+// are required.
+struct KeyTexts {
+  std::vector<std::string> properties;
+  std::string required;
+};
+template <class Owner>
+KeyTexts TextsOf(const Owner& defaults, std::string_view outer = "") {
+  KeyTexts texts;
+  for (const SceneKey<Owner>& key : KeysFor(defaults)) {
+    // The type of a camera is in the template.
+    if (OuterName(key.name) != outer || key.name == "type") continue;
+    const auto [type, value] = TextOf(key.form, key.range, key.options, key.get(defaults));
+    std::string text = fmt::format("{}: {{ ", Quoted(InnerName(key.name)));
+    if (!key.meaning.empty()) text += fmt::format(R"("description": {}, )", Quoted(key.meaning));
+    text += type;
+    const bool has_default = key.use == KeyUse::kOptional || key.form == KeyForm::kChoice;
+    if (has_default) text += fmt::format(R"(, "default": {})", value);
+    texts.properties.push_back(text + " }");
+    if (key.use == KeyUse::kRequired) texts.required += ", " + Quoted(InnerName(key.name));
+  }
+  return texts;
+}
+
 std::string PropertyOf(const MaterialParameter& parameter, const Material& defaults) {
   return fmt::format(R"({}: {{ "description": {}, {}, "default": {} }})", Quoted(parameter.name),
-                     Quoted(parameter.meaning), TypeOf(parameter),
-                     ValueText(parameter.get(defaults)));
+                     Quoted(parameter.meaning), TypeOf(parameter.is_color, parameter.range),
+                     ValueText(Vec3d(parameter.get(defaults)), true));
 }
 
 std::string PropertyOf(const MaterialChoice& choice, const Material& defaults) {
-  std::vector<std::string> options;
-  for (const std::string_view option : choice.options) options.push_back(Quoted(option));
   std::string value;
-  if (choice.get != nullptr)
-    value = fmt::format(R"(, "default": {})", options[choice.get(defaults)]);
-  return fmt::format(R"({}: {{ "description": {}, "enum": [{}]{} }})", Quoted(choice.name),
-                     Quoted(choice.meaning), fmt::join(options, ", "), value);
+  if (choice.get != nullptr) {
+    value = fmt::format(R"(, "default": {})", Quoted(choice.options[choice.get(defaults)]));
+  }
+  return fmt::format(R"({}: {{ "description": {}, {}{} }})", Quoted(choice.name),
+                     Quoted(choice.meaning), EnumOf(choice.options), value);
 }
 
 std::string PropertyOf(const MaterialMap& map) {
@@ -106,6 +163,39 @@ void Replace(std::string_view mark, const std::string& with, std::string* text) 
   text->replace(text->find(mark), mark.size(), with);
 }
 
+// Replaces the placeholders of a struct's keys.
+void PutKeys(std::string_view name, const KeyTexts& texts, std::string* schema) {
+  const std::string indent = ",\n        ";
+  Replace(fmt::format("%KEYS {}%", name), fmt::format("{}", fmt::join(texts.properties, indent)),
+          schema);
+  const std::string required = fmt::format("%REQUIRED {}%", name);
+  if (schema->find(required) != std::string::npos) Replace(required, texts.required, schema);
+}
+
+void PutAllKeys(std::string* schema) {
+  Camera orthographic;
+  orthographic.projection = Projection::kOrthographic;
+  PutKeys("perspective_camera", TextsOf(Camera{}), schema);
+  PutKeys("orthographic_camera", TextsOf(orthographic), schema);
+  PutKeys("image", TextsOf(ImageSettings{}), schema);
+  PutKeys("filter", TextsOf(ImageSettings{}, "filter"), schema);
+  PointLight dark;
+  dark.attenuation = {0, 0, 0};  // the value from which an object with only some of the terms
+                                 // starts
+  PutKeys("attenuation", TextsOf(dark, "attenuation"), schema);
+  for (const LightKind& kind : LightKinds()) {
+    std::visit(
+        [&](const auto& light) {
+          PutKeys(fmt::format("{}_light", kind.name), TextsOf(light), schema);
+        },
+        kind.make());
+  }
+  PutKeys("constant_sky", TextsOf(ConstantSky{}), schema);
+  PutKeys("gradient_sky", TextsOf(GradientSky{}), schema);
+  PutKeys("quadratic_sky", TextsOf(QuadraticSky{}), schema);
+  PutKeys("picture_sky", TextsOf(PictureSky{}), schema);
+}
+
 std::string MakeSchema() {
   std::string references, models;
   for (const MaterialModel& model : MaterialModels()) {
@@ -115,10 +205,11 @@ std::string MakeSchema() {
   std::string schema(SchemaTemplate());
   Replace("%MATERIAL_REFERENCES%", references, &schema);
   Replace("%MATERIAL_MODELS%", models, &schema);
+  PutAllKeys(&schema);
   return schema;
 }
 
-// Adds the schema itself, what it refers to, and its alternatives.
+// Collects the schema itself, the schemas that it refers to, and its alternatives.
 void AddAlternatives(const nlohmann::json& root, const nlohmann::json& schema,
                      std::vector<const nlohmann::json*>* all) {
   all->push_back(&schema);

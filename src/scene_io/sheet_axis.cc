@@ -24,7 +24,7 @@ constexpr char kExample[] =
   throw Error(ExitCode::kUsage, option, std::move(what), std::move(hint));
 }
 
-// The parts of `text` between separators that are in no brackets and no string.
+// Splits `text` at separators that are in no brackets and no string.
 std::vector<std::string> Split(const std::string& text, char separator) {
   std::vector<std::string> parts(1);
   int depth = 0;
@@ -43,7 +43,7 @@ std::vector<std::string> Split(const std::string& text, char separator) {
   return parts;
 }
 
-// "#ff8000" or "#f80": codes of sRGB; null if it is neither.
+// Parses "#ff8000" or "#f80", sRGB codes; null if it is neither.
 Json HexColor(const std::string& text) {
   const size_t digits = text.size() == 4 ? 1 : 2;
   if (text.empty() || text.front() != '#' || text.size() != 1 + 3 * digits) return nullptr;
@@ -63,7 +63,7 @@ bool IsColorArray(const Json& value) {
   return value[0].is_number() && value[1].is_number() && value[2].is_number();
 }
 
-// A number, a colour, an object or, as a string, a name. Null if it is none of these.
+// Parses a number, a colour, an object or, as a string, a name. Null if it is none of these.
 Json ParseAxisValue(const std::string& text) {
   if (text.starts_with('#')) return HexColor(text);
   const Json value = TryParseJson(text).value_or(Json());
@@ -85,7 +85,7 @@ Json FromRgb(const Rgb& rgb, bool is_number) {
   return is_number ? Json(rgb.x) : Json{rgb.x, rgb.y, rgb.z};
 }
 
-// Components to two decimals.
+// Shows components to two decimals.
 std::string ColorLabel(const Json& color) {
   std::string text;
   for (const Json& component : color) {
@@ -95,20 +95,20 @@ std::string ColorLabel(const Json& color) {
   return text;
 }
 
-// Of a value that was typed: as it was.
+// The label of a value that was typed: the text as typed, or a number's digits.
 std::string ItemLabel(const Json& value, const std::string& text) {
   if (value.is_number()) return fmt::format("{:.6g}", value.get<double>());
   return value.is_array() && !text.starts_with('#') ? ColorLabel(value) : text;
 }
 
-// Of a value between two ends: three digits, and all of whole numbers up to 9999.
+// The label of an interpolated value: three digits, or all digits of whole numbers up to 9999.
 std::string RangeLabel(const Json& value) {
   if (!value.is_number()) return ColorLabel(value);
   const auto number = value.get<double>();
   return fmt::format("{:.{}g}", number, number < 100 ? 3 : 4);
 }
 
-// FROM:TO:COUNT, or the same with ":log".
+// Parses FROM:TO:COUNT or FROM:TO:COUNT:log.
 void ParseRange(const std::string& option, const std::vector<std::string>& parts, SheetAxis* axis) {
   const std::string scale = parts.size() == 4 ? parts[3] : "linear";
   if (parts.size() > 4 || (scale != "log" && scale != "linear")) {
@@ -144,7 +144,7 @@ void ParseRange(const std::string& option, const std::vector<std::string>& parts
 
 void ParseList(const std::string& option, const std::string& text, SheetAxis* axis) {
   std::vector<std::string> items = Split(text, ',');
-  // A JSON list of materials; [r,g,b] is one colour.
+  // A JSON list is a list of materials, except that [r,g,b] is one colour.
   const Json list = TryParseJson(text).value_or(Json());
   const bool is_list = list.is_array() && !list.empty() && !list[0].is_number();
   if (is_list) items = Split(text.substr(1, text.rfind(']') - 1), ',');

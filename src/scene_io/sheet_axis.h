@@ -21,7 +21,7 @@ struct SheetAxis {
   enum class Kind : uint8_t {
     kParameter,  // a number or a colour
     kChoice,     // one of several named options
-    kMaterial,   // takes the place of the base material
+    kMaterial,   // replaces the base material
   };
   Kind kind = Kind::kParameter;
   std::string name;                 // "roughness", "shadowing", "material"
@@ -29,26 +29,26 @@ struct SheetAxis {
   std::vector<std::string> labels;  // one for each value, short enough for a picture
 };
 
-// Reads `text`; `option` ("--rows") is where errors are. Throws Error: kUsage for what is no axis.
-// The kind is known to CheckSheetAxis only, but for materials.
+// Parses `text`; errors are located at `option` ("--rows"). Throws Error (kUsage) if it is not an
+// axis. The kind is set only for materials; CheckSheetAxis finds out the others.
 SheetAxis ParseSheetAxis(const std::string& option, const std::string& text);
 
-// Throws Error (kBadInput), of `option`, for a material, an object as in scene files, of a model
-// that there is not.
+// Throws Error (kBadInput), located at `option`, if a material, an object as in scene files, has a
+// model that does not exist.
 void CheckModels(const std::string& option, const std::vector<Json>& materials);
 
-// Finds out what the axis varies in each of the materials, objects as in scene files. Throws Error
-// (kBadInput) if one has no such parameter, or a value is none of its values.
+// Determines what the axis varies in each of the materials, which are objects as in scene files.
+// Throws Error (kBadInput) if one has no such parameter, or a value is invalid for it.
 void CheckSheetAxis(const std::string& option, const std::vector<Json>& materials, SheetAxis* axis);
 
-// A material as people type it: the name of a model or a JSON object. Throws Error (kUsage).
+// Parses a material as people type it: the name of a model or a JSON object. Throws Error (kUsage).
 Json ParseMaterialText(const std::string& option, const std::string& text);
 
-// A colour as people type it: "#ff8000" (sRGB codes), "[r,g,b]" or "0.5" (linear). Throws Error
-// (kUsage).
+// Parses a colour as people type it: "#ff8000" (sRGB codes), "[r,g,b]" or "0.5" (linear). Throws
+// Error (kUsage).
 Json ParseColorText(const std::string& option, const std::string& text);
 
-// What a material is called in a picture: its "name" (which no scene file has), preset or model.
+// The label of a material in a picture: its "name" (which no scene file has), preset or model.
 std::string MaterialLabel(const Json& material);
 
 }  // namespace nacre

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/sheet_axis_check.cc: what an axis of a sheet varies, and whether its values can be.
+// scene_io/sheet_axis_check.cc: finds out what an axis of a sheet varies, and checks its values.
 #include <algorithm>
 
 #include <fmt/format.h>

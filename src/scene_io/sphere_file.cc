@@ -24,8 +24,8 @@ namespace {
 
 constexpr uint64_t kMaxSphereFileBytes = uint64_t{4} << 30;
 
-// Collects spheres and refuses what no row may hold. `row_word` stands between the file's name and
-// the number of a row where an error is: "cloud.csv:17", "cloud.npy: row 16".
+// Collects spheres and refuses invalid rows. In an error's location, `row_word` stands between the
+// file's name and the number of the row: "cloud.csv:17", "cloud.npy: row 16".
 class SphereRows {
  public:
   SphereRows(const SphereRowSettings& settings, SceneBudget* budget, std::string file,
@@ -40,7 +40,7 @@ class SphereRows {
                 std::move(hint));
   }
 
-  // What the file does not say, the scene must.
+  // What the file lacks, the scene must specify.
   void CheckColumns(bool has_radii, bool has_materials) const {
     if (!has_radii && !settings_.radius) {
       Refuse("has no radii", "give the shape a \"radius\", or the file a column of that name");
@@ -123,12 +123,12 @@ class SphereRows {
   SceneBudget* budget_;
   std::string file_;
   const char* row_word_;
-  std::string last_name_;     // rows of one material often
-  MaterialId last_material_;  // come together
+  std::string last_name_;     // rows of one material
+  MaterialId last_material_;  // often come in a row
   std::vector<Sphere> spheres_;
 };
 
-// Columns of a table by their places, kNone for those that it has not.
+// The indices of a table's columns, kNone for missing ones.
 struct TableColumns {
   static constexpr size_t kNone = static_cast<size_t>(-1);
   std::array<size_t, 3> xyz = {0, 1, 2};
@@ -142,14 +142,14 @@ TableColumns ColumnsInOrder(size_t count) {
   return columns;
 }
 
-// A table as text. Blanks around cells, empty lines and lines that begin with # mean nothing.
+// Reads a table as text. Ignores blanks around cells, empty lines and lines that begin with #.
 class CsvReader {
  public:
   CsvReader(std::string_view text, SphereRows* rows) : text_(text), rows_(*rows) {}
 
   void Read() {
     if (!NextRow()) return;
-    // The first row says how many columns there are. It may hold their names.
+    // The first row tells the number of columns. It may hold their names.
     const size_t count = cells_.size();
     const bool has_names = !ParseNumber(cells_[0]);
     columns_ = has_names ? ColumnsByName() : ColumnsInOrder(count);
@@ -170,7 +170,7 @@ class CsvReader {
   }
 
  private:
-  // Splits the next row into cells_. False at the end.
+  // Splits the next row into cells_. Returns false at the end.
   bool NextRow() {
     while (!text_.empty()) {
       const std::string_view line = text_.substr(0, text_.find('\n'));
@@ -186,7 +186,7 @@ class CsvReader {
   }
 
   void Split(std::string_view line) {
-    if (separator_ == '\0') {  // of all rows, as the first row has it
+    if (separator_ == '\0') {  // the first row decides for all
       const size_t place = line.find_first_of(",;\t");
       separator_ = place == std::string_view::npos ? ' ' : line[place];
     }
@@ -241,7 +241,8 @@ class CsvReader {
     return {{places[0], places[1], places[2]}, places[3], places[4]};
   }
 
-  // Columns of other names are left out, but not if they look like one that is missing.
+  // Ignores columns with unknown names, but refuses one that looks like the name of a missing
+  // column.
   void RefuseMistyped(const std::vector<std::pair<std::string, size_t>>& others,
                       const std::vector<std::string>& names,
                       const std::array<size_t, 5>& places) const {

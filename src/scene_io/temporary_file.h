@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/temporary_file.h: bytes in a file for a reader that wants one.
+// scene_io/temporary_file.h: writes bytes to a file for readers that need one.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,11 @@
 
 namespace nacre {
 
-// A file of its own in the folder for such files, gone with the object. Throws Error (kInternal)
-// where it cannot be written.
+// A file in the folder for temporary files, deleted with the object. Throws Error (kInternal) if it
+// cannot be written.
 class TemporaryFile {
  public:
-  // `suffix`: of the name, ".png".
+  // `suffix`: the end of the file's name, such as ".png".
   TemporaryFile(std::span<const unsigned char> bytes, const std::string& suffix);
   ~TemporaryFile();
   TemporaryFile(const TemporaryFile&) = delete;

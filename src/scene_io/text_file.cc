@@ -41,13 +41,13 @@ struct Descriptor {
   }
 };
 
-// A regular file that is open. Devices and pipes are refused before they are opened, which might
-// wait forever.
+// An open regular file. Devices and pipes are refused before they are opened, because opening them
+// might block forever.
 class InputFile {
  public:
   explicit InputFile(const std::filesystem::path& path) : path_(path.string()) {
     struct stat status = {};
-    // The second look is at what has been opened, whatever has the name by then.
+    // The second check is of the opened file, since the name may by then refer to another one.
     if (stat(path_.c_str(), &status) != 0) Refuse("cannot be opened");
     CheckKind(status);
     descriptor_.number = open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
@@ -61,7 +61,7 @@ class InputFile {
   }
   uint64_t size() const { return size_; }
 
-  // Appends up to `count` bytes; returns how many, 0 at the file's end.
+  // Appends up to `count` bytes; returns how many, 0 at the end of the file.
   size_t Append(size_t count, std::string* bytes) const {
     const size_t before = bytes->size();
     bytes->resize(before + count);
@@ -127,7 +127,7 @@ std::string ReadTextFile(const std::filesystem::path& path, uint64_t max_bytes) 
   const InputFile file(path);
   if (file.size() > max_bytes) file.RefuseLength(max_bytes);
   std::string text;
-  while (true) {  // to its end: files of the kernel (/proc) say that they have no bytes
+  while (true) {  // up to the end, as kernel files (/proc) claim to have size 0
     const size_t before = text.size();
     const uint64_t left = file.size() - std::min<uint64_t>(file.size(), before);
     const size_t most = before == 0 ? kFirstPiece : kPiece;
@@ -136,7 +136,7 @@ std::string ReadTextFile(const std::filesystem::path& path, uint64_t max_bytes) 
     const size_t zero = text.find('\0', before);
     if (zero != std::string::npos) RefuseZero(text, zero, path.string());
     if (text.size() > max_bytes) file.RefuseLength(max_bytes);
-    // Not before it looks like text: it may be long.
+    // Reserves memory only once it looks like text: the file may be huge.
     if (before == 0) text.reserve(std::max<uint64_t>(file.size(), text.size()) + kLeastPiece);
   }
 }
@@ -149,15 +149,15 @@ void RefuseZero(std::string_view text, size_t zero, const std::string& file) {
 
 std::filesystem::path ResolveReference(const std::filesystem::path& folder, const std::string& name,
                                        const ReferenceRules& rules) {
-  // The system's calls would end the name there, and look at another file than is judged here.
+  // System calls would end the name there, and open another file than the one that is checked here.
   if (name.find('\0') != std::string::npos) {
     throw Error(ExitCode::kBadInput, {}, "a file's name has a character 0 in it");
   }
   std::error_code error;
   const std::filesystem::path base = std::filesystem::weakly_canonical(
       folder.empty() ? std::filesystem::path(".") : folder, error);
-  // By its name, and before links are followed: where they lead may change, at this moment, too.
-  // One of the folder that leads out of it may be mended.
+  // Reports the file by its name, before links are followed, because their target may change, even
+  // at this moment. A link in the folder that leads out of it may be mended.
   const std::filesystem::path named = folder / name;
   const bool in_folder = IsBelow((base / name).lexically_normal(), base);
   if (rules.on_file && !error && (rules.allow_paths || in_folder)) rules.on_file(named);
@@ -166,7 +166,7 @@ std::filesystem::path ResolveReference(const std::filesystem::path& folder, cons
   if (error || name.empty()) {
     throw Error(ExitCode::kBadInput, {}, fmt::format("\"{}\" is not a path", Excerpt(name)));
   }
-  // Before looking whether it exists, which is nobody's business outside the folder.
+  // This is checked before the file's existence, which is nobody's business outside the folder.
   const bool is_trusted =
       std::find(rules.trusted.begin(), rules.trusted.end(), path) != rules.trusted.end();
   if (!rules.allow_paths && !is_trusted && !IsBelow(path, base)) {
@@ -174,7 +174,7 @@ std::filesystem::path ResolveReference(const std::filesystem::path& folder, cons
                 "move it there, or allow it with --allow-paths");
   }
   if (rules.on_file && !rules.allow_paths && !in_folder) rules.on_file(named);
-  // "missing/../a.png" is no file to the system.
+  // To the system, "missing/../a.png" does not exist.
   if (rules.on_file && !std::filesystem::exists(named, error)) rules.on_file(path);
   if (!std::filesystem::exists(path, error)) {
     throw Error(ExitCode::kBadInput, {}, fmt::format("there is no file \"{}\"", Excerpt(name)),

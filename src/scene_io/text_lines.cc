@@ -10,11 +10,11 @@ namespace {
 
 constexpr std::string_view kLineBlanks = " \t\v\f\r\n";
 
-// Words and lines are short: a loop over their characters is faster than a search of the library's.
+// Words and lines are short: a loop over their characters is faster than the library's search.
 bool IsLineBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-// The text before the first word that begins with # and for which is_comment(word); trimmed. All of
-// it if nothing would be left.
+// The text, trimmed, before the first word that begins with # and for which is_comment(word) holds.
+// All of the text if nothing would be left.
 template <class IsComment>
 std::string_view TextBefore(std::string_view name, const IsComment& is_comment) {
   std::string_view rest = name;
@@ -27,7 +27,7 @@ std::string_view TextBefore(std::string_view name, const IsComment& is_comment) 
   return name;
 }
 
-// Whether it has a comment, which ends with its line, a backslash at its end or not.
+// Whether the line has a comment. A comment ends with its line, even if that ends with a backslash.
 bool HasComment(std::string_view line) {
   for (size_t i = line.find('#'); i < line.size(); i = line.find('#', i + 1)) {
     if (i == 0 || kLineBlanks.find(line[i - 1]) != std::string_view::npos) return true;
@@ -50,7 +50,7 @@ std::string_view WithoutByteOrderMark(std::string_view text, const std::string& 
     if (!text.starts_with(mark)) continue;
     RefuseWideText(file);
   }
-  // Without a mark: the first character is an ASCII one, and its other bytes are 0.
+  // UTF-16 or UTF-32 without a mark: the first character is ASCII, so its other bytes are 0.
   if (text.size() >= 2 && (text[0] == 0) != (text[1] == 0)) RefuseWideText(file);
   if (text.size() >= 4 && text.starts_with("\0\0\0"sv) && text[3] != 0) RefuseWideText(file);
   return text;
@@ -118,7 +118,7 @@ std::string_view WithoutComment(std::string_view name) {
 }
 
 std::string_view WithoutHashWords(std::string_view name) {
-  // "Material #25" is never called "Material".
+  // "Material #25" must never be shortened to "Material".
   return TextBefore(name, [](std::string_view word) {
     return word.size() == 1 || word[1] < '0' || word[1] > '9';
   });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/text_lines.h: text files of lines, words and numbers (OBJ, MTL, PLY), however their
-// lines end.
+// scene_io/text_lines.h: splits text files (OBJ, MTL, PLY) into lines, words and numbers, whatever
+// their line ends.
 #pragma once
 
 #include <cstddef>
@@ -9,22 +9,22 @@
 
 namespace nacre {
 
-// The text without the byte-order mark of UTF-8 that editors put before it. Throws Error
-// (kBadInput) with `file` for text in UTF-16 or UTF-32, with such a mark or without.
+// Removes the byte-order mark of UTF-8 that some editors write first. Throws Error (kBadInput),
+// located in `file`, for text in UTF-16 or UTF-32, with or without a byte-order mark.
 std::string_view WithoutByteOrderMark(std::string_view text, const std::string& file);
 
-// Goes through the statements of an OBJ or MTL file. A line ends with LF, CR LF or CR, and goes on
-// in the next one if its last character is a backslash, unless that is in a comment: words that
-// begin with # are one up to the end of their line.
+// Iterates over the statements of an OBJ or MTL file. A line ends with LF, CR LF or CR. If its last
+// character is a backslash, it continues in the next line, except in a comment: a word that begins
+// with # starts a comment up to the end of its line.
 class TextLines {
  public:
   explicit TextLines(std::string_view text) : text_(text) {}
 
-  // Sets *line to the next one, which is valid until the next call. False at the end.
+  // Sets *line to the next statement, which is valid until the next call. False at the end.
   bool Next(std::string_view* line);
-  // The number, from 1 on, of the file's line in which it began.
+  // The number of the file's line in which the statement began, counted from 1.
   size_t number() const { return number_; }
-  // How many of the file's lines are read.
+  // How many of the file's lines have been read.
   size_t lines() const { return lines_; }
 
  private:
@@ -36,22 +36,23 @@ class TextLines {
   std::string joined_;
 };
 
-// Takes the next word off the front of `line`; empty at its end.
+// Removes the next word from the front of `line` and returns it; empty at the end.
 std::string_view NextWord(std::string_view* line);
 
-// The text between blanks at both ends, and between quotation marks if it is in some.
+// The text without blanks at its ends, and then without quotation marks around it.
 std::string_view Trimmed(std::string_view text);
 
-// Whether it is what a program writes for a number that is none or infinite: nan, -nan(ind), inf,
-// 1.#QNAN, -1.#IND00.
+// Whether the word is what programs write for NaN or infinity: nan, -nan(ind), inf, 1.#QNAN,
+// -1.#IND00.
 bool IsNoNumber(std::string_view word);
 
-// In lower case: its ASCII letters.
+// The text with its ASCII letters in lower case.
 std::string LowerCase(std::string_view text);
 
-// Names may hold blanks and the sign #, and a comment may follow them. A # between blanks begins
-// one; where the sign and a word are one, that word may belong to the name ("Material #25"): what
-// is before it is tried only where there is nothing of the whole name.
+// Names may contain blanks and the sign #, and a comment may follow them. WithoutComment cuts the
+// name at a # between blanks. WithoutHashWords cuts it at any word that begins with #, which may
+// belong to the name (though never if a digit follows: "Material #25"); the shortened name is to be
+// tried only if the whole name does not exist.
 std::string_view WithoutComment(std::string_view name);
 std::string_view WithoutHashWords(std::string_view name);
 

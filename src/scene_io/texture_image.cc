@@ -19,14 +19,15 @@
 #include "base/parallel.h"
 #include "color/transfer.h"
 #include "image_io/color_channels.h"
-#include "image_io/image_file.h"
+#include "image_io/read_image.h"
 #include "scene/limits.h"
 
 namespace nacre {
 namespace {
 
-// Values k / maximum of an integer file, and what they decode to. Integers come as floats: the code
-// is found again, so that each decodes from its exact value and not from its rounding.
+// The values k / maximum of an integer file, and what they decode to. Values arrive as floats;
+// their integer code is recovered, so that each is decoded from its exact value and not from a
+// rounded one.
 struct CodeTable {
   std::vector<float> decoded;
   float maximum;
@@ -39,18 +40,19 @@ struct CodeTable {
           static_cast<float>(encoding == TextureEncoding::kSrgb ? SrgbEotf(value) : value));
     }
   }
-  // Whether the float is one of the table's codes, give or take two roundings: at most 0.016 of a
-  // 16-bit code, and 255 times less than the distance of 16-bit codes of an 8-bit one.
+  // Whether the float is one of the table's codes within two roundings. The tolerance is at most
+  // 0.016 of the distance of 16-bit codes, and 255 times smaller than that distance for 8-bit
+  // codes.
   bool Holds(float value) const {
     if (!(value >= 0 && value <= 1)) return false;
     const float code = value * maximum;
     return std::abs(static_cast<float>(NearestCode(value)) - code) <= maximum * 0x1p-22f;
   }
-  // Of a value in [0, 1]. std::round is a call of a function, for each texel.
+  // The code nearest to a value in [0, 1]. std::round would be a function call for each texel.
   int NearestCode(float value) const { return static_cast<int>(value * maximum + 0.5f); }
 };
 
-// Shared by all textures.
+// The table for an encoding, shared by all textures.
 template <int kCodes>
 std::shared_ptr<const CodeTable> TableOf(TextureEncoding encoding) {
   if (encoding == TextureEncoding::kSrgb) {
@@ -61,7 +63,7 @@ std::shared_ptr<const CodeTable> TableOf(TextureEncoding encoding) {
   return linear;
 }
 
-// Calls body(some) for the values in pieces, on several threads.
+// Calls body(piece) for pieces of the values, on several threads.
 template <class Body>
 void ForEachPiece(std::span<float> values, int threads, const Body& body) {
   constexpr size_t kPiece = size_t{1} << 18;
@@ -97,7 +99,7 @@ std::vector<size_t> ChannelsOf(const ImageFile& image, TextureEncoding encoding)
   return {colors->r, colors->g, colors->b};
 }
 
-// TextureReading::glossiness of values.
+// Converts values as TextureReading::glossiness says.
 void TurnGlossIntoRoughness(double glossiness, std::span<float> values) {
   const auto factor = static_cast<float>(glossiness);
   if (factor > 0) {
@@ -105,7 +107,7 @@ void TurnGlossIntoRoughness(double glossiness, std::span<float> values) {
   }
 }
 
-// The values of an integer file as its codes, if each is one of these.
+// The values of an integer file as codes, if each of them is one.
 template <typename Code>
 std::optional<Texels> FindCodes(const TextureReading& reading, std::span<float> values) {
   const auto codes = TableOf<1 << 8 * sizeof(Code)>(reading.encoding);
@@ -132,7 +134,7 @@ std::optional<Texels> FindCodes(const TextureReading& reading, std::span<float> 
   return texels;
 }
 
-// `middle`: the code that a normal map has as 0.
+// *middle is set to the code that means 0 in a normal map.
 Texels DecodeIntegers(const TextureReading& reading, std::span<float> values, float* middle) {
   *middle = 128.0f / 255;
   if (auto bytes = FindCodes<uint8_t>(reading, values)) return *std::move(bytes);
@@ -161,7 +163,7 @@ void TexelBudget::AddFile(const std::filesystem::path& path) {
 }
 
 void TexelBudget::Spend(const std::string& where, int64_t width, int64_t height, size_t channels) {
-  // Sides fit 32 bits; the product may need more than 64.
+  // Each side fits 32 bits, but the product may need more than 64.
   const double values =
       static_cast<double>(width) * static_cast<double>(height) * static_cast<double>(channels);
   const auto total = [&](uint64_t before) { return static_cast<double>(before) + values; };
@@ -186,11 +188,11 @@ void TexelBudget::Spend(const std::string& where, int64_t width, int64_t height,
 
 namespace {
 
-// An image file whose header has been read and judged.
+// An image file whose header has been read and checked.
 struct OpenTexture {
   ImageFile image;
   Window window;
-  std::vector<size_t> channels;  // of the file; none: the alpha of an opaque image
+  std::vector<size_t> channels;  // indices in the file; empty: the alpha of an opaque image
   bool is_integer = false;
   ColorConversion conversion;
 
@@ -228,7 +230,7 @@ DecodedImage DecodeTextureImage(const OpenTexture& open, const TextureReading& r
   if (channels.empty()) {
     std::fill(values.begin(), values.end(), 1.0f);  // opaque
   } else {
-    // Row by row from the bottom, channels together.
+    // Rows from the bottom up, with interleaved channels.
     const auto step_x = static_cast<ptrdiff_t>(kept);
     const ptrdiff_t step_y = step_x * window.width();
     std::vector<SampleTarget> targets;
@@ -242,7 +244,7 @@ DecodedImage DecodeTextureImage(const OpenTexture& open, const TextureReading& r
   DecodedImage decoded;
   SceneImage& texture = decoded.image;
   texture.lacks_alpha = channels.empty();
-  // What comes from a table is finite.
+  // Values from a table are finite; others are checked.
   const auto decode = [&]() -> Texels {
     if (open.is_integer) return DecodeIntegers(reading, values, &texture.middle);
     if (!AreFinite(values, reading.threads)) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/unique_names.h: names for what a file names as it likes: twice, or not at all.
+// scene_io/unique_names.h: makes unique names for items of a file whose names may be missing or
+// repeated.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +13,14 @@ namespace nacre {
 
 class UniqueNames {
  public:
-  // `wanted`, or, if that is empty or was returned before, `wanted`, `separator` and the first
-  // number from `number` on that make a name that was not. Takes constant time on average,
-  // whatever the names are.
+  // Returns `wanted`. If that is empty or was returned before, returns `wanted`, `separator` and
+  // the first number from `number` on that give a name not returned before. Takes constant time on
+  // average, whatever the names are.
   std::string Take(const std::string& wanted, std::string_view separator, size_t number);
 
  private:
   std::unordered_set<std::string> taken_;
-  std::unordered_map<std::string, size_t> next_;  // numbers below are taken, by wanted name
+  std::unordered_map<std::string, size_t> next_;  // by wanted name: the next number to try
 };
 
 }  // namespace nacre

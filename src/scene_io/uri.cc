@@ -9,7 +9,7 @@
 namespace nacre {
 namespace {
 
-// Schemes and "base64" are the same in upper case.
+// Schemes and "base64" are case-insensitive.
 bool StartsWithIgnoringCase(std::string_view text, std::string_view lower_case) {
   return text.size() >= lower_case.size() &&
          std::equal(lower_case.begin(), lower_case.end(), text.begin(), [](char lower, char c) {
@@ -17,7 +17,7 @@ bool StartsWithIgnoringCase(std::string_view text, std::string_view lower_case) 
          });
 }
 
-// The value of a base64 digit, of either alphabet; below 0 for what is none.
+// The value of a base64 digit in either alphabet; negative for other characters.
 int Base64Digit(char c) {
   if (c >= 'A' && c <= 'Z') return c - 'A';
   if (c >= 'a' && c <= 'z') return c - 'a' + 26;
@@ -28,7 +28,7 @@ int Base64Digit(char c) {
 
 std::optional<std::string> DecodeBase64(std::string_view text) {
   while (text.ends_with('=')) text.remove_suffix(1);
-  if (text.size() % 4 == 1) return std::nullopt;  // six bits are no byte
+  if (text.size() % 4 == 1) return std::nullopt;  // a single digit has only six bits
   std::string bytes;
   bytes.reserve(text.size() / 4 * 3 + 2);
   uint32_t bits = 0;
@@ -74,7 +74,7 @@ std::optional<std::string> DecodeDataUri(std::string_view uri) {
   const bool is_base64 = last != std::string_view::npos && comma - last == 7 &&
                          StartsWithIgnoringCase(parameters.substr(last), ";base64");
   if (!is_base64) return PercentDecoded(data);
-  // Some encoders write + and = as codes.
+  // Some encoders write + and = percent-encoded.
   if (data.find('%') == std::string_view::npos) return DecodeBase64(data);
   return DecodeBase64(PercentDecoded(data));
 }

@@ -11,8 +11,8 @@ void WatchedFiles::Add(const std::filesystem::path& file, SceneParts parts) {
   const auto [found, is_new] = files_.try_emplace(file);
   File& known = found->second;
   known.parts |= parts;
-  // The key of a file that is known stays: what was read of it then may be older than the file is
-  // now, and would never be read again.
+  // The key of a known file stays: what was read may be older than the file is now, and updating
+  // the key would hide that change.
   if (is_new) known.key = known.present_key = KeyOfFile(file);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/watched_files.h: notices that files have changed which a scene was read from.
+// scene_io/watched_files.h: notices changes of the files that a scene was read from.
 //
-// Files are looked at, and not reported by the system (inotify): that works on every file system,
+// Files are polled instead of watched by the system (inotify): polling works on every file system,
 // for files that do not exist yet, and for files that are replaced by renaming, as editors do.
 #pragma once
 
@@ -16,24 +16,24 @@ namespace nacre {
 
 class WatchedFiles {
  public:
-  // To be called before the file is read, with the parts of the scene that are made from it. A file
-  // that is missing is watched, too.
+  // To be called before a file is read, with the parts of the scene that are made from it. A
+  // missing file is watched, too.
   void Add(const std::filesystem::path& file, SceneParts parts);
 
   // Whether a file has changed since it was added, or since the last call that returned true, and
-  // all of them have been the same for `rest`: a file that is still being written is not complete.
-  // To be called several times a second.
+  // no file has changed for `rest`: a file that is still being written is incomplete. To be called
+  // several times a second.
   bool Changed(std::chrono::milliseconds rest = std::chrono::milliseconds(100));
 
-  // The parts that are made from files for which Changed() has returned true, until ForgetChanges.
+  // The parts made from files for which Changed() has returned true since the last ForgetChanges.
   SceneParts ChangedParts() const;
   void ForgetChanges();
 
  private:
   struct File {
     SceneParts parts;
-    std::string key;          // KeyOfFile() when it was added, or when its change was reported
-    std::string present_key;  // as of the last look
+    std::string key;          // KeyOfFile() when it was added, or when its last change was reported
+    std::string present_key;  // KeyOfFile() at the last look
     bool changed = false;
   };
   std::map<std::filesystem::path, File> files_;

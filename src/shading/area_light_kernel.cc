@@ -33,12 +33,14 @@ HWY_INLINE DiskLightV<V> DiskAt(const SampledLight& light, const HitBatch& hits,
           hn::Set(D(), static_cast<float>(light.radius))};
 }
 
-// Where a direction meets the light: how far off, and the cosine there.
+// Where a direction meets the light: the distance, and the cosine at the light, of which callers
+// use the sign only.
 struct MeetingV {
   V distance, cos_light;
 };
 
-// The product of both distances over the farther one.
+// The distance to a sphere is the product of the distances to both intersections, divided by the
+// farther one.
 HWY_INLINE MeetingV Meet(const SphereLightV<V>& light, const Vec3V<V>& direction) {
   const D d;
   const V zero = hn::Zero(d);
@@ -62,7 +64,7 @@ HWY_INLINE MeetingV MeetPlane(const Vec3V<V>& point, const Vec3V<V>& normal,
           hn::Neg(towards)};
 }
 
-// Stores a direction's distance and pdf, or that it misses the light, or sees a side of it
+// Stores a direction's distance and pdf. Both are 0 if it misses the light or meets a side of it
 // that does not emit.
 HWY_INLINE void Keep(const SampledLight& light, V distance, V pdf, V cos_light, size_t i,
                      LightDirections* directions) {
@@ -74,7 +76,7 @@ HWY_INLINE void Keep(const SampledLight& light, V distance, V pdf, V cos_light, 
   hn::StoreU(hn::IfThenElseZero(seen, pdf), d, directions->pdf.data() + i);
 }
 
-// at(i): the light as seen from hits i...
+// at(i) is the light relative to hits i...
 template <class At>
 void SampleShape(const SampledLight& light, size_t count, const UnitPoints& points,
                  LightDirections* directions, const At& at) {
@@ -134,7 +136,7 @@ void FindAreaT(const SampledLight& light, const HitBatch& hits, LightDirections*
            HWY_ATTR { return MeetPlane(disk.centre, normal, direction); });
 }
 
-// front(i): the hits that see a side that emits.
+// front(shape) selects the hits that see a side that emits.
 template <class At, class Front>
 void ShapeIrradiance(const SampledLight& light, const Surface& surface, size_t count,
                      float* irradiance, const At& at, const Front& front) {
@@ -172,7 +174,7 @@ void AreaIrradianceT(const SampledLight& light, const HitBatch& hits, const Surf
 using DD = hn::ScalableTag<double>;
 using VD = hn::Vec<DD>;
 
-// Meet and MeetPlane in double, the directions of nearly unit length.
+// Meet in double, for directions of nearly unit length.
 HWY_INLINE VD EndOnSphere(const Vec3V<VD>& centre, double radius, const Vec3V<VD>& direction) {
   const DD d;
   const VD dd = Dot(direction, direction);
@@ -200,7 +202,7 @@ void AreaEndsT(const SampledLight& light, const HitBatch& hits, const Soa3<float
     const VD end = light.form == SampledForm::kSphere
                        ? EndOnSphere(offset, light.radius, direction)
                        : hn::Div(Dot(offset, normal), Dot(direction, normal));
-    // False also of what is not a number, as from directions that nobody asks about.
+    // This is false for NaN, too, which directions that are not asked for may give.
     const auto exists = hn::And(hn::Gt(end, zero), hn::Lt(end, hn::Inf(d)));
     hn::StoreU(hn::IfThenElse(hn::And(exists, asked), end, given), d, t_max + i);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/area_light_view-inl.h: views of area lights from the hits of a batch: what the kernels of
-// area and of mesh lights share.
+// shading/area_light_view-inl.h: area lights relative to the hits of a batch: code that the kernels
+// of area and of mesh lights share.
 #if defined(NACRE_SHADING_AREA_LIGHT_VIEW_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_SHADING_AREA_LIGHT_VIEW_INL_H_
 #undef NACRE_SHADING_AREA_LIGHT_VIEW_INL_H_
@@ -25,7 +25,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using AreaLightTag = hn::ScalableTag<float>;
 using AreaLightV = hn::Vec<AreaLightTag>;
 
-// From hits i... to a point of the light, formed in double.
+// The offset from hits i... to a point of the light, computed in double and rounded.
 HWY_INLINE Vec3V<AreaLightV> Offset(const SampledLight& light, const HitBatch& hits,
                                     const Vec3d& point, size_t i) {
   const AreaLightTag d;
@@ -46,13 +46,14 @@ HWY_INLINE TriangleLightV<AreaLightV> TriangleFrom(const SampledLight& light, co
           SetVec3(AreaLightTag(), t.edge_y)};
 }
 
-// What products of a mesh's edges are multiplied by, a power of two, so that floats hold them: the
-// square of the mesh's size is 1e-30 for some, and the height of a face over the point its cube.
+// A power of two by which products of two edges of a mesh are multiplied, so that they stay in the
+// range of float: the square of a mesh's size may be 1e-30, and the height of a face over the
+// point, which is computed from such a product, is of the order of the cube.
 inline double ByArea(const SampledLight& light) {
   return std::ldexp(1.0, -2 * std::ilogb(light.radius));
 }
 
-// The faces of a mesh with an outline, as Irradiance of mesh_outline-inl.h asks for them.
+// The faces of a mesh with an outline, in the form that Irradiance of mesh_outline-inl.h takes.
 struct EmittingFaces {
   AreaLightV shines[kMaxClosedFormTriangles];
   AreaLightV orientation;
@@ -74,8 +75,8 @@ HWY_INLINE void FindFaces(const SampledLight& light, const HitBatch& hits, size_
   }
 }
 
-// What the outline of a mesh lights of a surface, once map(offset) has been applied to all offsets
-// from hits i...
+// The irradiance by the outline of a mesh, after map(offset) has been applied to all offsets from
+// hits i...
 template <class Map>
 HWY_INLINE AreaLightV OutlineIrradiance(const SampledLight& light, const HitBatch& hits, size_t i,
                                         const EmittingFaces& faces, const Vec3V<AreaLightV>& normal,
@@ -83,7 +84,7 @@ HWY_INLINE AreaLightV OutlineIrradiance(const SampledLight& light, const HitBatc
   const AreaLightTag d;
   const MeshOutline& outline = light.mesh->outline;
   OutlineCornersV<AreaLightV> seen;
-  // Scaled as other lights are by ScaleToUnit.
+  // All lengths are scaled as ScaleToUnit scales other lights.
   const Vec3V<AreaLightV> first = map(Offset(light, hits, outline.corners[0], i));
   const AreaLightV size = hn::Set(d, static_cast<float>(light.radius));
   const AreaLightV unit = PowerOfTwo(d, hn::Max(LargestComponent(first), size)).inverse;

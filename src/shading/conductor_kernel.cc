@@ -16,7 +16,7 @@ void ShadeConductorT(const MicrofacetUniforms<float>& uniforms, const ShadeRange
   ShadeMicrofacet<FresnelForm::kConductor>(uniforms, range);
 }
 
-// Of materials with maps.
+// For materials with maps.
 void ShadeConductorMapsT(const MicrofacetUniforms<float*>& uniforms, const ShadeRange& range) {
   ShadeMicrofacet<FresnelForm::kConductor>(uniforms, range);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/coordinates_kernel.cc: texture coordinates of hits, their gradients, and how they change
-// from pixel to pixel: analytic, so that neither a seam nor a neighbour counts.
+// shading/coordinates_kernel.cc: texture coordinates of hits, their gradients, and their change
+// from pixel to pixel, all analytic, so that they depend neither on seams nor on neighbouring hits.
 #include <algorithm>
 
 #include "scene/texture_mapping.h"
@@ -32,9 +32,9 @@ HWY_INLINE Vec3V<V> Combine(V a, const Vec3V<V>& x, V b, const Vec3V<V>& y) {
           hn::MulAdd(a, x.z, hn::Mul(b, y.z))};
 }
 
-// Where the ray through the next pixel, `step` away on the film, meets the tangent plane: the ray
-// differentials of Igehy 1999.
-// `scaled` is the normal over its product with `along`, the direction of the rays.
+// The offset to the point where the ray through the next pixel, `step` away on the film, meets the
+// tangent plane: the ray differentials of Igehy 1999. `along` is the direction of the rays, and
+// `scaled` the normal divided by its dot product with `along`.
 HWY_INLINE Vec3V<V> NextPixel(const Vec3V<V>& step, const Vec3V<V>& along, const Vec3V<V>& scaled) {
   const V back = FusedDot(step, scaled);
   return {hn::NegMulAdd(along.x, back, step.x), hn::NegMulAdd(along.y, back, step.y),
@@ -50,7 +50,8 @@ void FindSteps(const TexturedRun& run, const HitBatch& hits, HitTextures* t) {
   const Vec3V<V> step_y = SetVec3(d, camera.step_y * run.scene.footprint);
   for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
     const Vec3V<V> position = LoadSoa(d, hits.position, i), normal = LoadSoa(d, t->geometric, i);
-    // Perspective: steps grow with the depth, for `forward` and the film's rays have product 1.
+    // In perspective, steps grow with the depth, because the film's rays have a dot product of 1
+    // with `forward`.
     const V depth = perspective ? FusedDot(position, forward) : hn::Set(d, 1.0);
     const Vec3V<V> along = perspective ? position : forward;
     const Vec3V<V> scaled = Scale(normal, hn::Div(hn::Set(d, 1.0), FusedDot(along, normal)));
@@ -59,7 +60,7 @@ void FindSteps(const TexturedRun& run, const HitBatch& hits, HitTextures* t) {
   }
 }
 
-// The point of meshes as the mapping sees it; spheres' have been found.
+// Sets t->point at hits on meshes, in the units of the mapping. FindPoints has set it on spheres.
 void PlaceMeshPoints(const TexturedRun& run, const PreparedTexture& texture, const HitBatch& hits,
                      HitTextures* t) {
   const auto sphere_count = static_cast<uint32_t>(run.scene.scene->spheres.size());
@@ -91,8 +92,8 @@ void MapRun(const TexturedRun& run, const PreparedTexture& texture, HitTextures*
   }
 }
 
-// v made to point up, the texture's own transform, and footprints. `upside_down` is 1 or, where v
-// points up already, 0.
+// Makes v point up, applies the texture's own transform, and computes footprints. `upside_down`
+// selects the hits whose v points down.
 HWY_INLINE void TransformHit(const PreparedTexture& texture, hn::Mask<D> upside_down, size_t i,
                              HitTextures* t) {
   const D d;
@@ -126,7 +127,7 @@ void MakeCoordinatesT(const TexturedRun& run, const PreparedTexture& texture, co
   const bool own = texture.mapping == MappingKind::kUv;
   FindSteps(run, hits, t);
   if (t->any_mesh && !own) PlaceMeshPoints(run, texture, hits, t);
-  MapRun(run, texture, t);  // where a mesh has its own coordinates, of whatever point
+  MapRun(run, texture, t);  // at hits on meshes with their own (u, v), the result is not used
   if (t->any_mesh && own) FindMeshCoordinates(run, texture, hits, t);
   const auto sphere_count = static_cast<uint32_t>(run.scene.scene->spheres.size());
   const bool down = IsUpsideDown(texture.mapping);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // shading/derive.h: from the parameters of a material to the constants of its model, in double.
 //
-// One function for each step, called once per material (material.cc) and, where maps give hits
-// parameters of their own, at each hit (mapped_kernel.cc): a map that is constant gives the bits of
-// the constant. They are inline and without branches on their numbers, so that the compiler makes
-// vectors of the loops over hits.
+// There is one function for each step. It is called once per material (material.cc) and, where maps
+// give hits parameters of their own, at each hit (mapped_kernel.cc): a map that is constant gives
+// the same bits as the constant. The functions are inline and without branches on their arguments,
+// so that the compiler vectorises the loops over hits.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@
 #include "brdf/multi_scatter.h"
 #include "brdf/phong.h"
 #include "shading/constants.h"
-#include "shading/material.h"
+#include "shading/models.h"
 
 #if defined(__GNUC__)
 #define NACRE_DERIVE inline __attribute__((always_inline))
@@ -28,21 +28,21 @@
 
 namespace nacre {
 
-// --- Diffuse surfaces and bases. One channel each. ---
+// --- Diffuse surfaces and bases, for one channel. ---
 
-// What a diffuse colour reflects: albedo / pi.
+// The BRDF of a Lambertian surface: albedo / pi.
 NACRE_DERIVE double DeriveDiffuse(double albedo) { return albedo * M_1_PI; }
 
 // --- The Phong family. ---
 
-// What the convention multiplies the lobe by.
+// The scale of the lobe by the material's convention.
 inline double DerivePhongScale(const PhongMaterial& material, double shininess) {
   if (material.convention == PhongConvention::kClassic) return 1;
   return material.model == PhongModel::kBlinnPhong ? BlinnNormalization(shininess)
                                                    : PhongNormalization(shininess);
 }
 
-// One channel.
+// One channel of a Phong material.
 struct PhongChannel {
   double diffuse, specular;
 };
@@ -54,13 +54,13 @@ NACRE_DERIVE PhongChannel DerivePhong(PhongConvention convention, double kd, dou
 
 // --- Microfacet models. ---
 
-// What follows from the roughness of a lobe.
+// Constants that follow from the roughness of a lobe.
 struct LobeWidth {
   double alpha;
   bool delta;
-  double shown_alpha;  // 1 of a delta lobe
+  double shown_alpha;  // alpha, but 1 for a delta lobe
   double schlick_k;    // SchlickK
-  double sharp_alpha;  // of lobes whose terms are formed in double; else -1
+  double sharp_alpha;  // alpha if the lobe's terms are computed in double, else -1
 };
 NACRE_DERIVE LobeWidth DeriveWidth(Shadowing shadowing, double roughness) {
   const double alpha = AlphaFromRoughness(roughness);
@@ -72,11 +72,11 @@ NACRE_DERIVE LobeWidth DeriveWidth(Shadowing shadowing, double roughness) {
           .sharp_alpha = IsSharp(roughness, alpha) ? alpha : -1};
 }
 
-// One channel of what lies under and over a lobe: the colour of the base, what that reflects, and
-// both Fresnel curves.
+// One channel of the colours of a microfacet material: the base's colour and BRDF, and the Fresnel
+// curves of dielectric and metal.
 struct MicrofacetColors {
   double base_color;
-  double diffuse;  // base_color / pi, less what is metal
+  double diffuse;  // base_color / pi, times 1 - metallic
   double metallic;
   double dielectric_f0, dielectric_f90;
   double metal_f0, f82_slope;
@@ -94,7 +94,7 @@ NACRE_DERIVE MicrofacetColors DeriveMetallicRoughness(double base_color, double 
           .f82_slope = F82SlopeFromTint(base_color, f82_tint)};
 }
 
-// The Fresnel curve's numbers are the material's: f0 by FresnelF0.
+// f0 is FresnelF0 of the material's index of refraction.
 NACRE_DERIVE MicrofacetColors DeriveConductor(double f0, double f82_slope) {
   return {.base_color = 0,
           .diffuse = 0,
@@ -115,13 +115,14 @@ NACRE_DERIVE MicrofacetColors DeriveDielectric(double base_color, double f0) {
           .f82_slope = 0};
 }
 
-// F90 of the mix: 1, not nearly, of the default.
+// F90 of the mix, in a form that is exactly 1 for the default dielectric_f90 of 1.
 NACRE_DERIVE double MixedF90(double dielectric_f90, double metallic) {
   return 1 - (1 - dielectric_f90) * (1 - metallic);
 }
 
-// One channel of the mix of both curves at normal incidence; and for Turquin's compensation of
-// Schlick's curve F0 F of both, mixed, at normal and at grazing incidence (TurquinTerm).
+// One channel of the mix of both Fresnel curves: the reflectance at normal incidence and, for
+// Turquin's compensation of Schlick's curve, the mix of F0 F of both at normal and at grazing
+// incidence (TurquinTerm).
 struct MixedCurve {
   double f0, turquin_f0, turquin_f90;
 };
@@ -133,9 +134,9 @@ NACRE_DERIVE MixedCurve MixCurves(const MicrofacetColors& at) {
           .turquin_f90 = not_metal * dielectric * at.dielectric_f90 + m * metal};
 }
 
-// Channel c of a model's.
+// The colours of channel c of a model.
 inline MicrofacetColors ColorsOf(const MicrofacetModel& model, int c) {
-  return {.base_color = 0,  // which the model has used
+  return {.base_color = 0,  // not kept by the model, and not needed any more
           .diffuse = model.diffuse[c],
           .metallic = model.metallic,
           .dielectric_f0 = model.dielectric_f0[c],
@@ -144,13 +145,14 @@ inline MicrofacetColors ColorsOf(const MicrofacetModel& model, int c) {
           .f82_slope = model.f82_slope[c]};
 }
 
-// Means over the hemisphere of a lobe's directional albedos: for F = 1, for Schlick's weight, and
-// of kDielectric for its curve.
+// Means over the hemisphere of a lobe's directional albedos: for F = 1, for Schlick's weight, and,
+// if kDielectric, for the exact Fresnel curve.
 struct AlbedoAverages {
   double one = 1, schlick = 0, dielectric = 0;
 };
 
-// The means of both curves over the hemisphere, F_avg, where they are Schlick's and F82's.
+// The means over the hemisphere, F_avg, of the Fresnel curves of dielectric and metal; by
+// DeriveAverages, where they are Schlick's and F82's.
 struct CurveAverages {
   double dielectric, metal;
 };
@@ -159,9 +161,9 @@ NACRE_DERIVE CurveAverages DeriveAverages(const MicrofacetColors& at) {
           AverageF82(at.metal_f0, at.f82_slope)};
 }
 
-// Kulla and Conty 2017, one channel: what light that bounced more than once has left of the
-// dielectric's reflection, and of the mix; and the base, which their form scales by what the albedo
-// of its cover leaves, over the mean of that.
+// One channel of the compensation of Kulla and Conty 2017: the colour F_ms of the second lobe for
+// the dielectric and for the mix; and the base's `diffuse`, which kAlbedoScaled divides by the mean
+// of 1 - the albedo of the dielectric above the base.
 struct KullaContyChannel {
   double dielectric_f_multiple, f_multiple;
   double diffuse;
@@ -183,25 +185,25 @@ NACRE_DERIVE KullaContyChannel DeriveKullaConty(const MicrofacetForm& form,
           .diffuse = form.coupling == DiffuseCoupling::kAlbedoScaled ? scaled : at.diffuse};
 }
 
-// --- What layers of files show. ---
+// --- The albedo and ambient layers of output images. ---
 
-// One channel of the layers of these names: the albedo, and the share of ambient light.
+// One channel of the albedo layer, and of the fraction of ambient light that is reflected.
 struct ShownColors {
   double albedo, of_ambient;
 };
-// Of metallic-roughness, too: base_color is what both the diffuse base and a metal reflect. The
-// gloss of its dielectric is left out, as lessons do.
+// Used for metallic-roughness materials, too: base_color is the reflectance of both the diffuse
+// base and a metal. The dielectric's specular reflection is left out, as in introductory texts.
 NACRE_DERIVE ShownColors DeriveShown(double color) { return {color, color}; }
 NACRE_DERIVE ShownColors DerivePhongShown(double color, double kd, double ka) {
   return {color * kd, color * ka};
 }
-// `gloss`: AverageDielectric of the index.
+// `gloss` is AverageDielectric of the index.
 NACRE_DERIVE ShownColors DeriveDielectricShown(double color, double gloss) {
   return {color, gloss + color * (1 - gloss)};
 }
 
-// --- Constants as kernels read them. put(number, place): Rounded of a material, AtHit of a hit.
-// ---
+// --- Constants in the form that kernels read. put(number, place) stores a number as float: Rounded
+// for the constants of a material, AtHit for those of hit i. ---
 
 struct Rounded {
   void operator()(double number, float& to) const { to = static_cast<float>(number); }
@@ -221,7 +223,7 @@ NACRE_DERIVE void PutWidth(const LobeWidth& width, const Put& put, Constants* to
   put(width.schlick_k, to->schlick_k);
 }
 
-// Those of channel c; those that channels share with the first.
+// Stores the constants of channel c, and with the first channel those that all channels share.
 template <class Put, class Constants>
 NACRE_DERIVE void PutCurve(const MicrofacetColors& at, int c, const Put& put, Constants* to) {
   put(MixCurves(at).f0, to->f0[c]);
@@ -244,10 +246,10 @@ NACRE_DERIVE void PutKullaConty(const KullaContyChannel& at, int c, const Put& p
   put(at.dielectric_f_multiple, to->dielectric_f_multiple[c]);
 }
 
-// --- Products of a channel with a light. ---
+// --- Products of one channel with a light. ---
 
-// What Schlick's curve makes of it; the names are MicrofacetLight's. `not_delta`: 0 for a delta
-// lobe, which punctual lights cannot show.
+// The products with Schlick's curve; the names are those of MicrofacetLight. `not_delta` is 0 for a
+// delta lobe, which punctual lights cannot show, else 1.
 struct SchlickLight {
   double specular_f0, specular_rise, diffuse_normal, diffuse_grazing;
 };
@@ -270,7 +272,7 @@ NACRE_DERIVE void PutSchlickLight(const SchlickLight& from, int c, const Put& pu
   put(from.diffuse_grazing, to->diffuse_grazing[c]);
 }
 
-// `specular`: the light, or 0 for a delta lobe.
+// `specular` is the light, or 0 for a delta lobe.
 template <class Put, class Light>
 NACRE_DERIVE void PutTurquinLight(const MicrofacetColors& at, double specular, int c,
                                   const Put& put, Light* to) {

@@ -16,7 +16,7 @@ void ShadeDielectricT(const MicrofacetUniforms<float>& uniforms, const ShadeRang
   ShadeMicrofacet<FresnelForm::kDielectric>(uniforms, range);
 }
 
-// Of materials with maps.
+// For materials with maps.
 void ShadeDielectricMapsT(const MicrofacetUniforms<float*>& uniforms, const ShadeRange& range) {
   ShadeMicrofacet<FresnelForm::kDielectric>(uniforms, range);
 }

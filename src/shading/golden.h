@@ -31,15 +31,15 @@ double GoldenMinimum(const Function& f, double low, double high) {
       f2 = f(x2);
     }
   }
-  // The ends themselves are minima of monotonous functions.
+  // A monotonic function has its minimum at one of the ends.
   const double middle = (low + high) / 2;
   const double f_middle = f(middle);
   if (f(low) <= f_middle) return low;
   return f(high) < f_middle ? high : middle;
 }
 
-// The lowest of `intervals` + 1 evenly spaced values first, then golden section around it: for
-// functions that may have several minima.
+// Finds the lowest of `intervals` + 1 evenly spaced values, and then runs GoldenMinimum around it.
+// For functions that may have several minima.
 template <class Function>
 double ScannedMinimum(const Function& f, double low, double high, int intervals) {
   const double step = (high - low) / intervals;

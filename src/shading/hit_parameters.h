@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/hit_parameters.h: derive.h at hits whose parameters are HitTextures::numbers.
+// shading/hit_parameters.h: applies derive.h to hits with parameters of their own, which are in
+// HitTextures::numbers.
 #pragma once
 
 #include <variant>
 
 #include "scene/material.h"
 #include "shading/derive.h"
-#include "shading/textures.h"
+#include "shading/hit_textures.h"
+#include "shading/material.h"
 
 namespace nacre {
 
@@ -18,7 +20,18 @@ inline Rgb ColorOfHit(const HitTextures& t, MappedNumber number, size_t i) {
   return {NumbersOf(t, number, 0)[i], NumbersOf(t, number, 1)[i], NumbersOf(t, number, 2)[i]};
 }
 
-// One channel of microfacet materials: colors(i) and averages(colors) at hit i.
+// A layer of a material with maps, with the parameters of hit i.
+inline SheenModel ModelAtHit(const SheenModel& sheen, const HitTextures& textures, size_t i) {
+  return {ColorOfHit(textures, MappedNumber::kSheenColor, i),
+          MakeCharlie(NumbersOf(textures, MappedNumber::kSheenRoughness)[i]), sheen.scaling};
+}
+inline LayerModel LayerAtHit(const LayerModel& layer, const HitTextures& textures, size_t i) {
+  return std::visit([&](const auto& model) -> LayerModel { return ModelAtHit(model, textures, i); },
+                    layer);
+}
+
+// MetallicRoughnessHits, ConductorHits and DielectricHits give one channel of a microfacet material
+// at hit i: Colors(i), and Averages(colors) of these.
 struct MetallicRoughnessHits {
   MetallicRoughnessHits(const MetallicRoughnessMaterial& material, const MicrofacetModel& model,
                         const HitTextures& t, int c)
@@ -65,7 +78,8 @@ struct DielectricHits {
   double f0, average;
 };
 
-// Calls use(hits) with that of a channel of the material, whose model is a MicrofacetModel.
+// Calls use(hits) with one of these for channel c of the material, which must have a
+// MicrofacetModel.
 template <class Use>
 void VisitChannel(const ShadingMaterial& material, const HitTextures& t, int c, const Use& use) {
   const auto& model = std::get<MicrofacetModel>(material.model);

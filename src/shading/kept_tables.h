@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/kept_tables.h: tables that take long to make, by what they were made of: those that a
-// plan made are there for the next one of the same scene.
+// shading/kept_tables.h: a cache of tables that take long to make, keyed by what they were made of.
+// The tables of one plan are reused by the next plan of the same scene.
 #pragma once
 
 #include <cstddef>
@@ -18,12 +18,13 @@ namespace nacre {
 
 template <class Source, class Table>
 struct KeptTable {
-  std::shared_ptr<const Source> source;  // never changed; held, so that no other has its address
+  // Never changed. Held here, so that no other source can have the same address.
+  std::shared_ptr<const Source> source;
   std::shared_ptr<const Table> table;
 };
 
 struct KeptTangents {
-  size_t mesh;  // its number in the scene
+  size_t mesh;  // index in the scene
   bool second_uvs;
   UvRows rows;
   std::shared_ptr<const CornerTangents> tangents;
@@ -32,10 +33,10 @@ struct KeptTangents {
 struct KeptTables {
   std::vector<KeptTable<SkyPicture, EnvironmentMap>> skies;
   std::vector<KeptTable<Mesh, MeshLight>> mesh_lights;
-  std::vector<KeptTangents> tangents;  // of the scene's meshes as they are
+  std::vector<KeptTangents> tangents;  // valid while the scene's meshes do not change
 };
 
-// The table of a source, made by make() if it is not there.
+// Returns the table of a source, which is made by make() if `kept` does not have it.
 template <class Source, class Table, class Make>
 std::shared_ptr<const Table> TableOf(const std::shared_ptr<const Source>& source, const Make& make,
                                      std::vector<KeptTable<Source, Table>>* kept) {
@@ -47,7 +48,7 @@ std::shared_ptr<const Table> TableOf(const std::shared_ptr<const Source>& source
   return table;
 }
 
-// Drops tables that nobody but `kept` holds.
+// Drops the tables that only `kept` still refers to.
 template <class Source, class Table>
 void DropUnused(std::vector<KeptTable<Source, Table>>* kept) {
   std::erase_if(*kept, [](const auto& entry) { return entry.table.use_count() == 1; });

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "shading/hit_parameters.h"
-
 namespace nacre {
 namespace {
 
@@ -32,11 +30,6 @@ double PdfOf(const SheenModel& sheen, double n_dot_l) {
   return CharliePdf(n_dot_l, sheen.charlie.roughness);
 }
 
-SheenModel ModelAtHit(const SheenModel& sheen, const HitTextures& textures, size_t i) {
-  return {ColorOfHit(textures, MappedNumber::kSheenColor, i),
-          MakeCharlie(NumbersOf(textures, MappedNumber::kSheenRoughness)[i]), sheen.scaling};
-}
-
 bool ShowsSheen(const MetallicRoughnessMaterial& material) {
   return !IsBlack(material.sheen_color) &&
          !IsDeltaLobe(AlphaFromRoughness(material.sheen_roughness));
@@ -62,11 +55,6 @@ std::vector<std::string_view> RemoveLayers(Material* material) {
   if (ShowsSheen(*model)) names.push_back(SheenModel::kName);
   model->sheen_color = Rgb(0, 0, 0);
   return names;
-}
-
-LayerModel LayerAtHit(const LayerModel& layer, const HitTextures& textures, size_t i) {
-  return std::visit([&](const auto& model) -> LayerModel { return ModelAtHit(model, textures, i); },
-                    layer);
 }
 
 LayerReflection EvaluateLayer(const LayerModel& layer, const Angles<double>& angles) {

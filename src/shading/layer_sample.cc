@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/layer_sample.cc: directions to light for the diffuse component of materials with layers:
-// of each layer's own sampler and of the cosine law, in the shares of what they reflect.
+// shading/layer_sample.cc: samples directions to light for the diffuse component of materials with
+// layers: each layer has its own sampler, the base is sampled by cosine, and they are chosen in
+// proportion to what they reflect.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +12,7 @@
 namespace nacre {
 namespace {
 
-// A hit of the material, and how likely a layer is sampled rather than what lies below it.
+// The layers at one hit, and the probability of sampling each of them rather than what lies below.
 class LayersOfHit {
  public:
   LayersOfHit(const ShadingMaterial& material, const LobeRange& range, size_t i)
@@ -20,7 +21,7 @@ class LayersOfHit {
         i_(i),
         normal_(VectorAt(range.surface.normal, i)),
         n_dot_v_(std::clamp(normal_.dot(VectorAt(range.surface.to_view, i)), 0.0, 1.0)),
-        // Rounded as the maps' is: a map of one value changes no direction.
+        // Rounded to float as the maps' albedo is, so that a constant map changes no direction.
         base_(LargestChannel(maps_ != nullptr ? Rgb(VectorAt(maps_->albedo, i))
                                               : Rgb(Vec3f(material.albedo)))) {
     for (size_t k = 0; k < material.layers.size(); ++k) {
@@ -28,7 +29,7 @@ class LayersOfHit {
     }
   }
 
-  // Whether any layer does.
+  // Whether any layer reflects light.
   bool Reflects() const { return reflects_; }
 
   Vec3d Sample(double u0, double u1) const {
@@ -36,10 +37,10 @@ class LayersOfHit {
       const LayerModel layer = Layer(k);
       const double share = Share(layer);
       if (u0 < share) return SampleLayer(layer, normal_, u0 / share, u1);
-      u0 = (u0 - share) / (1 - share);  // what chose it is used again
+      u0 = (u0 - share) / (1 - share);  // the number that made the choice is rescaled to [0, 1)
     }
-    // In polar coordinates as layers are, not by SampleCosine: the direction is a continuous
-    // function of the point then, which keeps the strata of Sobol points.
+    // Sampled in polar coordinates, as layers are, not by SampleCosine: the direction is then a
+    // continuous function of the point, which keeps the strata of Sobol points.
     const double sin = std::sqrt(std::clamp(u0, 0.0, 1.0)), phi = 2 * M_PI * u1;
     return BasisAbout(normal_).ToWorld(
         {sin * std::cos(phi), sin * std::sin(phi), std::sqrt(std::max(1 - sin * sin, 0.0))});
@@ -62,7 +63,7 @@ class LayersOfHit {
     return maps_ != nullptr ? LayerAtHit(material_.layers[k], *maps_, i_) : material_.layers[k];
   }
 
-  // Of the albedo of the layer and of the base as the layer shows it, the layer's.
+  // The layer's fraction of its albedo plus that of the base below it.
   double Share(const LayerModel& layer) const {
     const LayerReflection albedo = LayerAlbedo(layer, n_dot_v_);
     const double lobe = LargestChannel(albedo.lobe), sum = lobe + albedo.below * base_;

@@ -69,7 +69,7 @@ ShadingLight PrepareLight(const Light& light, const Vec3d& camera_position) {
 bool OffsetFromSpheres(std::span<const Sphere> spheres, const Vec3d& camera_position,
                        ShadingLight* light) {
   light->from_spheres.clear();
-  // Spots need exact positions: float normals are too coarse for the penumbra.
+  // Spot lights need exact positions: float normals are too coarse for the penumbra.
   if (light->form != LightForm::kInverseSquare && light->form != LightForm::kPoint) return false;
   for (const Sphere& sphere : spheres) {
     const Vec3d offset = light->position - (sphere.center - camera_position);
@@ -80,6 +80,11 @@ bool OffsetFromSpheres(std::span<const Sphere> spheres, const Vec3d& camera_posi
     light->from_spheres.push_back({Vec3f(offset), static_cast<float>(sphere.radius)});
   }
   return !light->from_spheres.empty();
+}
+
+bool EvaluatedInPlace(const ShadingLight& light) {
+  return light.form == LightForm::kDirectional ||
+         (light.form == LightForm::kInverseSquare && !light.from_spheres.empty());
 }
 
 }  // namespace nacre

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/light_at-inl.h: what a light is at a packet of hits: its direction and its irradiance.
+// shading/light_at-inl.h: direction and irradiance of a punctual light at a packet of hits.
 #if defined(NACRE_SHADING_LIGHT_AT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_SHADING_LIGHT_AT_INL_H_
 #undef NACRE_SHADING_LIGHT_AT_INL_H_
@@ -14,7 +14,8 @@
 #include "base/target_ops-inl.h"
 #include "base/vec3-inl.h"
 #include "light/punctual-inl.h"
-#include "shading/shade.h"
+#include "shading/light.h"
+#include "shading/surface.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -24,8 +25,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 using FloatTag = hn::ScalableTag<float>;
 using FloatV = hn::Vec<FloatTag>;
 
-// The direction l = offset times inverse_length. It is formed only where it is needed as such: n.l
-// and l + v take fewer operations and roundings without, in shorter chains.
+// The direction l = offset times inverse_length. It is computed only where it is needed as such:
+// n.l and l + v take fewer operations and roundings without it, in shorter dependency chains.
 struct TowardV {
   Vec3V<FloatV> offset;
   FloatV inverse_length;
@@ -42,16 +43,16 @@ struct TowardV {
   HWY_INLINE Vec3V<FloatV> Direction() const { return Scale(offset, inverse_length); }
 };
 
-// Where a light is and its irradiance perpendicular to that direction, whichever way the surface
-// faces. A light at the hit itself, or farther off than the root of float's range, has no
-// irradiance and a direction that means nothing.
+// The direction to a light, and its irradiance perpendicular to that direction, whichever way the
+// surface faces. A light at the hit itself, or farther away than the square root of float's range,
+// has an irradiance of 0 and a meaningless direction.
 struct LightV {
   TowardV toward;
   FloatV irradiance;
 };
 
-// Where a positional light lies from hits i..., by their positions. Formed in double and rounded to
-// float: a light close to a far-away or huge surface keeps its direction.
+// The offset from hits i... to a positional light, from the hits' positions. It is computed in
+// double and rounded to float: a light close to a far-away or huge surface keeps its direction.
 HWY_INLINE Vec3V<FloatV> OffsetByPosition(FloatTag d, const ShadingLight& light,
                                           const HitBatch& hits, size_t i) {
   return {SubtractAndRound(d, light.position.x, hits.position.x.data() + i),
@@ -59,15 +60,16 @@ HWY_INLINE Vec3V<FloatV> OffsetByPosition(FloatTag d, const ShadingLight& light,
           SubtractAndRound(d, light.position.z, hits.position.z.data() + i)};
 }
 
-// The same by their normals, of hits on spheres that are far from the light
-// (ShadingLight::from_spheres). `center`: the light's offset from the spheres' centres.
+// The offset from hits to a positional light, from the hits' normals, for hits on spheres that are
+// far from the light (ShadingLight::from_spheres). `center` is the offset from the spheres' centres
+// to the light.
 HWY_INLINE Vec3V<FloatV> OffsetByNormal(const Vec3V<FloatV>& center, FloatV radius,
                                         const Vec3V<FloatV>& normal) {
   return {hn::NegMulAdd(radius, normal.x, center.x), hn::NegMulAdd(radius, normal.y, center.y),
           hn::NegMulAdd(radius, normal.z, center.z)};
 }
 
-// Of hits that are all on the sphere of the first.
+// OffsetByNormal for hits that are all on the same sphere.
 HWY_INLINE auto OffsetsFromSphere(FloatTag d, const ShadingLight& light, const HitBatch& hits) {
   const SphereOffset& from = light.from_spheres[hits.primitive[0]];
   const Vec3V<FloatV> center{hn::Set(d, from.offset.x), hn::Set(d, from.offset.y),
@@ -77,7 +79,7 @@ HWY_INLINE auto OffsetsFromSphere(FloatTag d, const ShadingLight& light, const H
              HWY_ATTR { return OffsetByNormal(center, radius, normal); };
 }
 
-// Of hits on any spheres: the same bits.
+// OffsetByNormal for hits on any spheres, with the same bits.
 HWY_INLINE auto OffsetsFromSpheres(const ShadingLight& light, const HitBatch& hits) {
   return [&](FloatTag d, size_t i, const Vec3V<FloatV>& normal) HWY_ATTR {
     constexpr size_t kMostLanes = kVectorBytes / sizeof(float);
@@ -95,8 +97,8 @@ HWY_INLINE auto OffsetsFromSpheres(const ShadingLight& light, const HitBatch& hi
   };
 }
 
-// Calls use(offset) with offset(d, i, normal): where a positional light lies from hits i... In the
-// form that suits the batch, so that what its hits share stays in registers.
+// Calls use(offset), where offset(d, i, normal) is the offset from hits i... to a positional light,
+// in the form that suits the batch, so that constants that its hits share stay in registers.
 template <class Use>
 HWY_INLINE void VisitOffsets(FloatTag d, const ShadingLight& light, const HitBatch& hits,
                              const Use& use) {
@@ -119,7 +121,7 @@ HWY_INLINE LightV DirectionalAt(FloatTag d, const ShadingLight& light) {
           one};
 }
 
-// Of a light of any positional form at `offset` from the hits; of a spot without its cone.
+// A light of any positional form at `offset` from the hits. For a spot light the cone is left out.
 template <LightForm kForm>
 HWY_INLINE LightV PositionalAt(FloatTag d, const ShadingLight& light, const Vec3V<FloatV>& offset) {
   const FloatV squared = FusedDot(offset, offset);
@@ -133,8 +135,8 @@ HWY_INLINE LightV PositionalAt(FloatTag d, const ShadingLight& light, const Vec3
   }
 }
 
-// A spot's factor at hits i... Their angles are formed in double, from double positions: the factor
-// falls to 0 at the cutoff, where it cancels in float, and cones may be narrow.
+// A spot light's factor at hits i... The angles are computed in double, from double positions: the
+// factor falls to 0 at the cutoff, where it cancels in float, and cones may be narrow.
 HWY_INLINE FloatV SpotFactorAt(FloatTag d, const ShadingLight& light, const HitBatch& hits,
                                size_t i) {
   const hn::ScalableTag<double> dd;
@@ -149,7 +151,7 @@ HWY_INLINE FloatV SpotFactorAt(FloatTag d, const ShadingLight& light, const HitB
                                  hits.position.z.data() + k),
                           place);
     const auto squared = FusedDot(away, away);
-    const auto apart = hn::Gt(squared, hn::Zero(dd));  // else there is no direction, and no light
+    const auto apart = hn::Gt(squared, hn::Zero(dd));  // else there is no direction
     const auto inverse = hn::Div(one, hn::Sqrt(hn::IfThenElse(apart, squared, one)));
     const auto off_axis = Sub(Scale(away, inverse), axis);
     const auto angle = hn::Mul(FusedDot(off_axis, off_axis), hn::Set(dd, 0.5));

@@ -16,8 +16,8 @@
 namespace nacre {
 namespace {
 
-// The original's lobe at the samples of all views. Their weights are such that squared differences
-// add up to that of MaterialResidual::rms, but for its denominator.
+// The original's lobe at the samples of all views. With their weights, the squared differences add
+// up to the square of MaterialResidual::rms, except for its denominator.
 struct LobeTable {
   struct Entry {
     Vec3d to_view;
@@ -43,7 +43,7 @@ LobeTable Tabulate(const Material& original) {
   return table;
 }
 
-// The error of the best strengths in [0, 1], which minimise a quadratic each.
+// Finds the strength of each channel in [0, 1] that minimises the error, a quadratic function.
 FittedLobe SolvePhong(const LobeTable& table, PhongModel model, double shininess) {
   Material unit;
   unit.model = PhongMaterial{.model = model, .kd = Rgb(0), .ks = Rgb(1), .shininess = shininess};
@@ -97,7 +97,7 @@ GgxMoments MakeMoments(const LobeTable& table, double alpha) {
     const double lobe = GgxDistribution(a, alpha) *
                         VisibilityHeightCorrelated(a.n_dot_l, a.n_dot_v, alpha) * to_light.z;
     const double one = AlbedoOne(albedo, to_view.z);
-    const double more = AlbedoLoss(albedo, to_view.z) / one;  // Turquin: times 1 + F0 more
+    const double more = AlbedoLoss(albedo, to_view.z) / one;  // Turquin's factor: 1 + F0 more
     const double grazing = lobe * SchlickWeight(a);
     const double head_on = lobe - grazing;
     const std::array<double, 3> terms = {grazing, head_on + more * grazing, more * head_on};

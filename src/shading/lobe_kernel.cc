@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/lobe_kernel.cc: directions chosen by what surfaces reflect, and their pdfs.
+// shading/lobe_kernel.cc: samples directions from the lobes of surfaces, and computes their pdfs.
 #include <algorithm>
 #include <variant>
 
@@ -15,7 +15,8 @@
 namespace nacre {
 namespace {
 
-// A GGX lobe to sample, of all hits or of each: `fit` as in MicrofacetUniforms.
+// A GGX lobe to sample, with constants that all hits share or those of each hit. `fit` is as in
+// MicrofacetUniforms.
 template <class Number>
 struct GgxLobe {
   const MicrofacetModel& model;
@@ -23,10 +24,10 @@ struct GgxLobe {
   const float* fit;
 };
 
-// The exponent of a Phong lobe: of all hits, or of each.
+// The exponent of a Phong lobe.
 struct PhongExponent {
-  float uniform;
-  const float* by_hit;  // or null
+  float uniform;        // of all hits, if by_hit is null
+  const float* by_hit;  // of each hit, or null
 };
 
 }  // namespace
@@ -84,8 +85,9 @@ HWY_INLINE V MaxChannel(const Number (&rgb)[3], size_t i) {
   return hn::Max(hn::Max(NumberAt(rgb[0], i), NumberAt(rgb[1], i)), NumberAt(rgb[2], i));
 }
 
-// Probability of sampling the multiple-scattering lobe (Kulla and Conty's) in the place of the
-// single-scattering one, proportional to the estimated albedo of each lobe; and its spread.
+// The probability of sampling the multiple-scattering lobe (Kulla and Conty's) rather than the
+// single-scattering one, in proportion to the estimated albedo of each lobe; and the spread of the
+// former.
 template <class Number>
 class KullaContyShares {
  public:
@@ -95,7 +97,7 @@ class KullaContyShares {
         form_(lobe.model.albedo.lobe.shape.form),
         spread_(KullaContySpread(lobe.model.albedo.lobe.shape)) {}
 
-  // The probability of a sample of Kulla and Conty's lobe: all where the other one is a mirror's.
+  // The probability of sampling Kulla and Conty's lobe, which is 1 where the other is a mirror's.
   HWY_INLINE V Share(size_t i) const {
     const D d;
     const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
@@ -106,7 +108,7 @@ class KullaContyShares {
     const V loss = hn::Min(hn::IfThenElseZero(loses, hn::Div(hn::LoadU(d, multiple_ + i),
                                                              hn::IfThenElse(loses, scale, one))),
                            one);
-    // The mean of Schlick's curve stands for that of all.
+    // The mean of Schlick's curve approximates that of all Fresnel curves.
     const V f_average = hn::MulAdd(hn::Sub(f90, f0), hn::Set(d, 1.0f / 21), f0);
     const V single =
         hn::Mul(hn::Mul(f_average, hn::Sub(one, loss)), NumberAt(constants.not_delta, i));
@@ -245,7 +247,7 @@ void PhongPdfT(PhongModel model, const PhongExponent& exponents, const LobeRange
                                 : PhongCosine(d, SquaredFromReflection(normal, to_light, to_view));
     if (sharp != nullptr) {
       const V exact = hn::LoadU(d, sharp->one_minus_cos.data() + i);
-      const auto is_sharp = hn::Ge(exact, hn::Zero(d));  // others have -1
+      const auto is_sharp = hn::Ge(exact, hn::Zero(d));  // wide lobes have -1
       cosine = {hn::IfThenElse(is_sharp, exact, cosine.one_minus_c),
                 hn::IfThenElse(is_sharp, hn::LoadU(d, sharp->cos.data() + i), cosine.c)};
     }
@@ -282,7 +284,7 @@ HWY_EXPORT(MirrorDirectionsT);
 namespace {
 
 bool HasLobe(const PhongFamilyModel& phong) { return phong.specular.length2() > 0; }
-// Of a mirror, what Kulla and Conty give back is one.
+// A mirror has a lobe to sample only if Kulla and Conty's compensation adds one.
 bool HasLobe(const MicrofacetModel& microfacet) {
   const bool multiple =
       microfacet.compensation == Compensation::kKullaConty && microfacet.multiple > 0;
@@ -294,7 +296,7 @@ const ShadingLight& GivenLight() {
   return kGiven;
 }
 
-// The maps of hits that have constants each; else null.
+// The textures of the range if its hits have constants each; else null.
 const HitTextures* MapsOf(const ShadingMaterial& material, const LobeRange& range) {
   return material.mapped_model ? range.textures : nullptr;
 }
@@ -310,7 +312,7 @@ GgxLobe<float*> LobeOf(const MicrofacetModel& model, const HitTextures& maps, bo
           widths ? maps.fit.data() : nullptr};
 }
 
-// The model's Fresnel curve is that of hit i, and its shadowing.
+// Sets the model's Fresnel curve and shadowing to those of hit i.
 void TakeHit(const ShadingMaterial& material, const HitTextures& t, size_t i,
              MicrofacetModel* model) {
   for (int c = 0; c < 3; ++c) {
@@ -326,7 +328,7 @@ void TakeHit(const ShadingMaterial& material, const HitTextures& t, size_t i,
   model->schlick_k = SchlickK<double>(model->shadowing, NumbersOf(t, MappedNumber::kWidth)[i]);
 }
 
-// What the layers over hit i leave of a mirror's reflection.
+// The factor by which the layers over hit i attenuate a mirror's reflection.
 double LeftByLayers(const ShadingMaterial& material, const LobeRange& range, size_t i,
                     double n_dot_v) {
   const HitTextures* const maps = MapsOf(material, range);
@@ -337,9 +339,10 @@ double LeftByLayers(const ShadingMaterial& material, const LobeRange& range, siz
   return left;
 }
 
-// What a mirror's shadowing leaves: all, but for the lesson's curve, whose k is 1/8 there (Karis
-// 2013); Turquin's compensation gives back of that what the reflectance at normal incidence says.
-// Kulla and Conty's is a lobe of its own.
+// The reflectance of a perfect mirror at this n.v. Its shadowing loses nothing, except with
+// kSchlickDirect, whose k is 1/8 at roughness 0 (Karis 2013); of that loss, Turquin's compensation
+// returns the fraction given by the reflectance at normal incidence. Kulla and Conty's compensation
+// is a lobe of its own.
 Rgb MirrorAt(const MicrofacetModel& model, double cosine) {
   const Rgb fresnel = FresnelOf(model, cosine, 1 - cosine);
   if (model.shadowing != Shadowing::kSchlickDirect) return fresnel;
@@ -360,12 +363,12 @@ bool HasSampledLobe(const ShadingMaterial& material) {
 }
 
 bool DiffuseIsFlat(const ShadingMaterial& material) {
-  if (material.turned) return false;  // the surface's own horizon cuts the light
+  if (material.turned) return false;  // the unmapped surface's horizon cuts off light
   if (!material.layers.empty()) return false;
   if (const auto* matte = std::get_if<MatteModel>(&material.model)) {
     return matte->form == DiffuseForm::kLambert;
   }
-  // One with a sampler has no diffuse component.
+  // A user model with a sampler has no diffuse component.
   if (std::holds_alternative<UserModel>(material.model)) return HasSampledLobe(material);
   const auto* model = std::get_if<MicrofacetModel>(&material.model);
   if (model == nullptr) return true;

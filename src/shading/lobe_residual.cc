@@ -16,7 +16,8 @@ namespace {
 constexpr int kRadialPoints = 48;
 constexpr int kAzimuthPoints = 32;
 
-// Narrower lobes are sampled as if they had this alpha: half vectors stay apart in double.
+// Narrower lobes are sampled as if they had this alpha, so that half vectors stay distinct in
+// double.
 constexpr double kLeastAlpha = 1e-6;
 
 Vec3d Direction(double cosine, double azimuth) {
@@ -24,8 +25,8 @@ Vec3d Direction(double cosine, double azimuth) {
   return {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine};
 }
 
-// The part of the light that comes from everywhere and is reflected towards the viewer diffusely.
-// The base depends on azimuths, if at all, weakly: they are a quarter turn apart.
+// The diffuse directional albedo seen from n.v. The base depends weakly, if at all, on the azimuth
+// between light and viewer, so a single one is used, a quarter turn.
 Rgb DiffuseAlbedoAt(const ShadingMaterial& material, double n_dot_v) {
   const QuadratureRule& rule = GaussLegendre(12);
   Rgb sum(0);
@@ -37,10 +38,10 @@ Rgb DiffuseAlbedoAt(const ShadingMaterial& material, double n_dot_v) {
   return sum;
 }
 
-// Of both materials at one view; squares and albedos still to be divided.
+// Sums over the samples of one view, for both materials.
 struct ViewSums {
   double difference2 = 0, original2 = 0;
-  Rgb albedo{0, 0, 0};  // of the other's lobe, minus the original's
+  Rgb albedo{0, 0, 0};  // the directional albedo of the other's lobe, minus the original's
 };
 
 ViewSums SumView(const ShadingMaterial& original, const ShadingMaterial& other, double alpha,
@@ -61,7 +62,7 @@ ViewSums SumView(const ShadingMaterial& original, const ShadingMaterial& other, 
 // A highlight in the plane of incidence, all channels together.
 struct Highlight {
   double peak = 0;   // the largest BRDF n.l
-  double width = 0;  // the angle of light between the halves of it, or where the surface ends
+  double width = 0;  // full width at half maximum, as an angle of light, up to the horizon
 };
 
 Highlight MeasureHighlight(const ShadingMaterial& material, double view_deg) {
@@ -71,9 +72,9 @@ Highlight MeasureHighlight(const ShadingMaterial& material, double view_deg) {
     const Rgb rgb = Reflect(material, Vec3d(0, 0, 1), to_light, ViewDirection(view_deg)).specular;
     return rgb.x + rgb.y + rgb.z;
   };
-  // Angles of light from one end of the surface to the other. Their distance from the mirror
-  // direction grows by a tenth a step, from a tenth of the narrowest lobe's width, so that lobes of
-  // every width are met.
+  // Angles of light from horizon to horizon. Their distance from the mirror direction grows by a
+  // tenth per step, starting at a tenth of the narrowest lobe's width, so that lobes of every width
+  // are found.
   std::vector<double> lights = {-M_PI / 2, mirror, M_PI / 2};
   for (double distance = kLeastAlpha / 10; distance < M_PI; distance *= 1.1) {
     if (mirror - distance > -M_PI / 2) lights.push_back(mirror - distance);
@@ -94,7 +95,7 @@ Highlight MeasureHighlight(const ShadingMaterial& material, double view_deg) {
   while (low > 0 && lobe(lights[low]) >= half) --low;
   size_t high = top;
   while (high < last && lobe(lights[high]) >= half) ++high;
-  // The lobe falls through its half between `outside` and `inside`.
+  // The lobe crosses half its maximum between `outside` and `inside`.
   const auto at_half = [&](double outside, double inside) {
     if (lobe(outside) >= half) return outside;
     for (int i = 0; i < 60; ++i) {
@@ -108,7 +109,7 @@ Highlight MeasureHighlight(const ShadingMaterial& material, double view_deg) {
 
 double RelativeRms(double difference2, double original2) {
   if (difference2 == 0) return 0;
-  return std::sqrt(difference2 / original2);  // infinite where there was no lobe
+  return std::sqrt(difference2 / original2);  // infinite where the original has no lobe
 }
 
 }  // namespace
@@ -157,7 +158,7 @@ double AlphaFromExponent(PhongModel model, double shininess) {
 }
 
 double ExponentFromAlpha(PhongModel model, double alpha) {
-  // Finite for a mirror, as exponents of scenes are.
+  // The result is finite for a mirror, too, as exponents of scenes must be.
   const double blinn = std::max(2 / (alpha * alpha) - 2, 0.0);
   return std::min(model == PhongModel::kBlinnPhong ? blinn : blinn / 4, limits::kExponent.max);
 }

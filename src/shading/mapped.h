@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/mapped.h: what shading takes of hits that maps give a model of their own, and of lobes
-// that are too sharp for float.
+// shading/mapped.h: light products for hits whose constants vary by maps, and terms of lobes that
+// are too sharp for float.
 #pragma once
 
+#include "shading/hit_textures.h"
 #include "shading/kernels.h"
-#include "shading/textures.h"
+#include "shading/material.h"
 
 namespace nacre {
 
 // Fills HitTextures::products with the MatteLight, PhongLight or MicrofacetLight of hits
-// [begin, end), in double and rounded once, as those of other materials are.
+// [begin, end), computed in double and rounded once, as for materials without maps.
 struct MappedProducts {
   const ShadingMaterial& material;
   Rgb color;
@@ -17,8 +18,8 @@ struct MappedProducts {
 };
 void MakeProducts(const MappedProducts& products, HitTextures* textures);
 
-// SharpLobeTerms under the first light of a range, in `terms`; null if no hit has a sharp lobe.
-// `maps`: of hits with a width each; or null.
+// Computes SharpLobeTerms under the light of a range in `terms`, and returns it, or null if no hit
+// has a sharp lobe. `maps` is null unless hits have a lobe width each.
 const SharpLobeTerms* FormSharpTerms(const PhongFamilyModel& model, const ShadeRange& range,
                                      const HitTextures* maps, SharpLobeTerms* terms);
 const SharpLobeTerms* FormSharpTerms(const MicrofacetModel& model, const ShadeRange& range,

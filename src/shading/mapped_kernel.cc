@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/mapped_kernel.cc: the parameters of materials with maps at each hit, and what is derived
-// from them, by the functions of derive.h. Plain loops, which the compiler makes vectors of for
+// shading/mapped_kernel.cc: the parameters of materials with maps at each hit, and the constants
+// that the functions of derive.h derive from them. Plain loops, which the compiler vectorises for
 // each target.
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ namespace {
 struct Hits {
   size_t begin, end;
 
-  // do(i) for each hit.
+  // Calls at(i) for each hit.
   template <class Do>
   HWY_INLINE void Each(const Do& at) const {
     for (size_t i = begin; i < end; ++i) at(i);
@@ -64,8 +64,8 @@ void MultiplyNumberT(const TexturedRun& run, const MapTarget& target, HitTexture
   }
 }
 
-// What layers of files show of hits with numbers of their own. shown_of(c, i): of a channel of hit
-// i.
+// Stores the albedo and ambient output layers of hits with parameters of their own. shown_of(c, i)
+// is channel c of hit i.
 template <class ShownOf>
 void PutShown(const TexturedRun& run, const ShownOf& shown_of, HitTextures* t) {
   const Hits hits{run.begin, run.end};
@@ -98,7 +98,7 @@ void PutShown(const TexturedRun& run, HitTextures* t) {
     const double gloss = AverageDielectric(dielectric->ior);
     PutShown(
         run, [&](int c, size_t i) { return DeriveDielectricShown(color[c][i], gloss); }, t);
-  } else if (std::holds_alternative<ConductorMaterial>(material.model)) {  // not of colours
+  } else if (std::holds_alternative<ConductorMaterial>(material.model)) {  // has no colour map
     for (int c = 0; c < 3; ++c) {
       hits.Fill(ChannelOf(t->albedo, c).data(), [&](size_t) { return run.material.albedo[c]; });
       const double ambient =
@@ -111,7 +111,7 @@ void PutShown(const TexturedRun& run, HitTextures* t) {
   }
 }
 
-// EonMultipleRatio of the colours of a rough surface; roughness(i) is that of a hit.
+// Stores the constants of a rough diffuse surface; roughness(i) is that of hit i.
 template <class Roughness>
 void PutMatte(const TexturedRun& run, DiffuseForm form, const Roughness& roughness,
               const MatteConstants<float*>& to, HitTextures* t) {
@@ -160,9 +160,9 @@ void PutFit(const AlbedoFit& fit, const AlbedoPolynomial& second, size_t i, HitT
   for (const float coefficient : second) put(coefficient);
 }
 
-// The albedos of the hits' lobes: fits of those with a roughness each, of which the second curve is
-// Schlick's, or that of a dielectric's index; and, for Kulla and Conty's compensation, averages.
-// Hits of the same roughness as the one before have the same.
+// Stores the albedos of the hits' lobes: the fits of hits with a roughness each, whose second curve
+// is Schlick's or that of a dielectric's index; and, for Kulla and Conty's compensation, the
+// averages. Hits with the same roughness as the hit before reuse its fit.
 void PutAlbedos(const TexturedRun& run, const MicrofacetModel& model, HitTextures* t) {
   const bool kulla_conty = model.compensation == Compensation::kKullaConty;
   if (!run.material.mapped_width && !kulla_conty) return;
@@ -184,7 +184,7 @@ void PutAlbedos(const TexturedRun& run, const MicrofacetModel& model, HitTexture
   }
 }
 
-// Kulla and Conty's part of a channel at hit i.
+// DeriveKullaConty of a channel at hit i.
 template <class Channel>
 struct KullaContyAt {
   KullaContyAt(const MicrofacetModel& model, const Channel& hits, const HitTextures& t)
@@ -218,7 +218,7 @@ void PutBase(const TexturedRun& run, const MicrofacetModel& model,
              const MicrofacetConstants<float*>& to, HitTextures* t) {
   if (model.base_form == DiffuseForm::kLambert) return;
   const Material& material = *run.material.textured;
-  std::optional<double> own;  // none: the lobe's
+  std::optional<double> own;  // empty: the base has the lobe's roughness
   if (const auto* metallic = std::get_if<MetallicRoughnessMaterial>(&material.model)) {
     own = metallic->diffuse_roughness;
   } else if (const auto* dielectric = std::get_if<DielectricMaterial>(&material.model)) {
@@ -362,7 +362,7 @@ void MultiplyNumber(const TexturedRun& run, const MapTarget& target, HitTextures
 }
 
 void FinishNumbers(const TexturedRun& run, HitTextures* textures) {
-  textures->products_end = 0;  // are of other numbers
+  textures->products_end = 0;  // the products were made of other parameters
   HWY_DYNAMIC_DISPATCH(FinishNumbersT)(run, textures);
 }
 

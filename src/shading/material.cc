@@ -59,7 +59,8 @@ PhongFamilyModel MakeModel(const PhongMaterial& material) {
   return model;
 }
 
-// What all microfacet materials have; the Fresnel curve and the base are the caller's.
+// Makes what all microfacet materials have in common. The caller adds the Fresnel curve and the
+// base.
 template <class Microfacet>
 MicrofacetModel MakeLobe(const Microfacet& material) {
   MicrofacetModel model{};
@@ -76,7 +77,7 @@ MicrofacetModel MakeLobe(const Microfacet& material) {
   return model;
 }
 
-// A base that is not Lambert's. EON at roughness 0 is.
+// Sets the form of the diffuse base. EON at roughness 0 is Lambertian.
 template <class Microfacet>
 void PrepareBase(const Microfacet& material, MicrofacetModel* model) {
   model->base_roughness = material.diffuse_roughness.value_or(material.roughness);
@@ -86,8 +87,8 @@ void PrepareBase(const Microfacet& material, MicrofacetModel* model) {
   if (model->base_roughness == 0) model->base_form = DiffuseForm::kLambert;
 }
 
-// of_channel(c): the colours of a channel. The averages of both curves, which Kulla and Conty's
-// compensation asks for, are those of the model already.
+// Sets the model's colours; of_channel(c) are those of a channel. The averages of both Fresnel
+// curves, which Kulla and Conty's compensation needs, must already be set in the model.
 template <class OfChannel>
 void TakeColors(const OfChannel& of_channel, MicrofacetModel* model) {
   const AlbedoFit& lobe = model->albedo.lobe;
@@ -125,7 +126,7 @@ MicrofacetModel MakeModel(const MetallicRoughnessMaterial& material) {
   MicrofacetModel model = MakeLobe(material);
   model.coupling = material.diffuse_coupling;
   PrepareBase(material, &model);
-  // Of a material that is no metal the tint does not show.
+  // The tint has no effect on a material that is not metallic.
   const bool tinted = material.metallic > 0 && material.f82_tint != Rgb(1);
   const Rgb tint = tinted ? material.f82_tint : Rgb(1);
   model.fresnel = tinted ? FresnelForm::kF82 : FresnelForm::kSchlick;
@@ -143,7 +144,7 @@ MicrofacetModel MakeModel(const MetallicRoughnessMaterial& material) {
 }
 
 MicrofacetModel MakeModel(const ConductorMaterial& material) {
-  const double one_minus_seventh = 6.0 / 7;  // of the cosine that the F82 curve goes through
+  const double one_minus_seventh = 6.0 / 7;  // 1 - the cosine at which F82 matches the exact curve
   MicrofacetModel model = MakeLobe(material);
   model.eta = material.eta;
   model.k = material.k;
@@ -209,8 +210,9 @@ void FindMaps(const Material& material, ShadingMaterial* prepared) {
   if (prepared->mapped || prepared->turned) prepared->textured = &material;
 }
 
-// A metal's base reflects nothing, whatever share of the light it would get: an albedo need not be
-// asked for it. What Fresnel's curve leaves is at hand, and kernels of most materials take it.
+// A black base, such as a metal's, reflects nothing, so how it is coupled to the lobe does not
+// matter: the coupling is dropped if it would need an albedo. The coupling by Fresnel's curve is
+// kept, because the curve's value is at hand and the kernels of most materials use it.
 void SkipBlackBase(ShadingMaterial* prepared) {
   auto* const model = std::get_if<MicrofacetModel>(&prepared->model);
   if (model == nullptr || prepared->mapped || model->diffuse != Rgb(0)) return;
@@ -222,7 +224,7 @@ void SkipBlackBase(ShadingMaterial* prepared) {
 
 namespace {
 
-// All but the coat.
+// Prepares a material without its coat.
 ShadingMaterial PrepareUncoated(const Material& material) {
   ShadingMaterial prepared{};
   prepared.emission = material.emission;
@@ -272,7 +274,7 @@ ShadingMaterial PrepareUncoated(const Material& material) {
   return prepared;
 }
 
-// Once the couplings of a model are decided.
+// Sets `prepared`. To be called once the couplings of the model are final.
 void FinishModel(ShadingMaterial* prepared) {
   auto* const microfacet = std::get_if<MicrofacetModel>(&prepared->model);
   if (microfacet == nullptr) return;
@@ -284,7 +286,8 @@ std::shared_ptr<const ShadingMaterial> PrepareCoat(const Material& material) {
   const std::optional<Material> coat = CoatOf(material);
   if (!coat) return nullptr;
   const auto own = std::make_shared<const Material>(*coat);
-  // Its base is black, but what its albedo leaves is asked for: it is what the material shows.
+  // SkipBlackBase is not called: the coat's base is black, but 1 - the coat's albedo is needed as
+  // the coat's transmittance.
   ShadingMaterial prepared = PrepareUncoated(*own);
   prepared.own = own;
   FinishModel(&prepared);
@@ -299,8 +302,8 @@ ShadingMaterial PrepareMaterial(const Material& material, bool in_ambient) {
   SkipBlackBase(&prepared);
   FinishModel(&prepared);
   prepared.coat = PrepareCoat(material);
-  // What coats and layers reflect of ambient light, and what coats leave of emission, depends on
-  // the hit.
+  // The ambient light that coats and layers reflect, and the emission that coats transmit, depend
+  // on the view direction of the hit.
   const bool covered = prepared.coat || !prepared.layers.empty();
   if ((covered && in_ambient) || (prepared.coat && !IsBlack(prepared.emission))) {
     prepared.mapped = true;
@@ -343,7 +346,7 @@ double CoverAlbedo(const MicrofacetModel& model, double n_dot_v, int channel) {
 }
 
 bool HasDoubleTerms(const ShadingMaterial& material) {
-  if (material.textured != nullptr) return true;  // mappings start from the exact normal, too
+  if (material.textured != nullptr) return true;  // mappings need the exact normal, too
   return std::visit(
       Overloaded{[](const PhongFamilyModel& phong) { return phong.double_terms; },
                  [](const MicrofacetModel& microfacet) { return microfacet.double_terms; },

@@ -21,10 +21,10 @@ namespace {
 constexpr std::array<std::string_view, 5> kTargets = {"phong", "modified_phong", "blinn_phong",
                                                       "metallic_roughness", "dielectric"};
 
-// Perfect mirrors have no lobe to fit: this is the roughness that the largest exponent stands for.
+// Perfect mirrors have no lobe to fit. This roughness corresponds to the largest exponent.
 constexpr double kLeastRoughness = 0.007;
 
-// A base whose albedo changes by more than this is told of: one 8-bit code of middle grey.
+// A change of the base's albedo by more than this is reported. It is one 8-bit code of middle grey.
 constexpr double kToldAlbedo = 0.005;
 
 constexpr const char* kColoredLobe = "the lobe is coloured; a dielectric's is grey";
@@ -35,8 +35,8 @@ Rgb ClampUnit(const Rgb& rgb) {
 
 double Mean(const Rgb& rgb) { return (rgb.x + rgb.y + rgb.z) / 3; }
 
-// What the closed forms start from: reflectance of the lobe at normal incidence, of the base, and
-// of light from everywhere by the model's own ambient term.
+// The input of the closed forms: the reflectance of the lobe at normal incidence, the albedo of the
+// base, and the reflectance for ambient light by the model's own ambient term.
 struct Summary {
   Rgb lobe, base, ambient;
 };
@@ -52,8 +52,8 @@ Summary Summarize(const Material& material) {
   return summary;
 }
 
-// The part of the light that the base of a dielectric of this F0 gets, averaged over all views:
-// what is left of the lobe's albedo, compensated as Turquin has it.
+// The fraction of the light that the base of a dielectric of this F0 gets, averaged over all views:
+// 1 - the lobe's albedo with Turquin's compensation.
 double FittedBaseShare(const AlbedoFit& albedo, double f0) {
   const QuadratureRule& rule = GaussLegendre(8);
   double sum = 0;
@@ -66,8 +66,8 @@ double FittedBaseShare(const AlbedoFit& albedo, double f0) {
   return sum;
 }
 
-// The base colour and metallic whose F0, by this weight, and diffuse albedo are nearest to those
-// wanted.
+// The base colour and metallic whose F0 and diffuse albedo are nearest to the wanted ones. `weight`
+// is the weight of F0's error.
 struct MetallicBase {
   Rgb base_color;
   double metallic = 0;
@@ -75,7 +75,7 @@ struct MetallicBase {
 
 MetallicBase SolveMetallic(const Rgb& f0, double weight, const Rgb& diffuse, double roughness) {
   const AlbedoFit albedo = MakeAlbedoFit(Shadowing::kHeightCorrelated, roughness);
-  // Metallic mixes two surfaces: the metal takes nothing from the base of the dielectric.
+  // `metallic` mixes two surfaces: the metal takes no light from the base of the dielectric.
   const double base_share = FittedBaseShare(albedo, kDielectricF0);
   const auto channel_error = [&](double metallic, double base, int c) {
     const double own_f0 = kDielectricF0 * (1 - metallic) + base * metallic;
@@ -135,8 +135,8 @@ bool IsTinted(const Rgb& f0) {
   return std::max({f0.x, f0.y, f0.z}) - std::min({f0.x, f0.y, f0.z}) > 0.005;
 }
 
-// A dielectric with as much of its lobe as comes nearest to the original's, which is weaker than a
-// whole one, over a base that reflects what the original's does.
+// Fits a dielectric whose `specular` scales its lobe to the original's, which is weaker than a full
+// dielectric's, over a base with the diffuse albedo of the original's.
 void FitWeakLobe(const Material& original, const Summary& summary, MaterialFit* fit) {
   MetallicRoughnessMaterial material = std::get<MetallicRoughnessMaterial>(fit->fitted.model);
   material.metallic = 0;
@@ -148,15 +148,15 @@ void FitWeakLobe(const Material& original, const Summary& summary, MaterialFit* 
     return candidate;
   };
   const auto error = [&](double specular) { return MeasureResidual(original, with(specular)).rms; };
-  // Without a lobe that is the only one at a finite distance.
+  // If the original has no lobe, only `specular` = 0 has a finite residual.
   const Material white = with(error(0) == 0 ? 0 : GoldenMinimum(error, 0, 1));
   material = std::get<MetallicRoughnessMaterial>(white.model);
   material.base_color = BaseUnder(white, summary.base);
   fit->fitted.model = material;
 }
 
-// The roughness at which the lobe of the fit, a dielectric whose index is at its limit, comes
-// nearest to the original's.
+// Fits the roughness again for a dielectric whose index is at its limit, so that its lobe is as
+// near as possible to the original's.
 void RefitRoughness(const Material& original, MaterialFit* fit) {
   const double from = std::get<DielectricMaterial>(fit->fitted.model).roughness;
   const auto with = [&](double log_roughness) {
@@ -178,7 +178,7 @@ double IndexFromF0(double f0) {
 constexpr double kLeastPlasticIor = 1.3;
 constexpr double kMostPlasticIor = 1.75;
 
-// A lobe of Phong's may be of any strength, whatever it lies on: what no plastic reflects is told.
+// A Phong lobe may have any strength. Notes a strength that no plastic has.
 void NoteStrength(double f0, MaterialFit* fit) {
   const double ior = IndexFromF0(f0);
   if (ior >= kLeastPlasticIor && ior <= kMostPlasticIor) return;
@@ -214,8 +214,8 @@ void FitMetallic(const Material& original, MaterialFit* fit) {
   material.roughness = std::sqrt(free.width);
   const double guess_rms = MeasureResidual(original, fit->guess).rms;
   MetallicBase base;
-  // One colour serves lobe and base. As much of the base is kept as leaves a lobe that is no
-  // further away than where the fit starts.
+  // One colour determines both lobe and base. The fit keeps as much of the base's colour as leaves
+  // the lobe's residual no larger than that of the guess.
   for (double weight = 1; weight < 1e6; weight *= 2) {
     base = SolveMetallic(free.strength, weight, summary.base, material.roughness);
     material.base_color = base.base_color;
@@ -260,7 +260,7 @@ void FitDielectric(const Material& original, MaterialFit* fit) {
   NoteStrength(Mean(lobe.strength), fit);
 }
 
-// What all models have, but for maps.
+// The material without its model and without maps.
 Material WithoutModel(Material material) {
   material.model = {};
   material.user = nullptr;
@@ -270,7 +270,7 @@ Material WithoutModel(Material material) {
   return material;
 }
 
-// What no fit of these models keeps.
+// Notes what no fit between these models can preserve.
 void NoteLosses(const Material& original, bool to_phong, MaterialFit* fit) {
   const bool from_phong = std::holds_alternative<PhongMaterial>(original.model);
   if (to_phong && !from_phong) {
@@ -304,7 +304,7 @@ Material WithoutLayers(Material material, std::vector<std::string>* notes) {
   return material;
 }
 
-// The original with a lobe that can be looked at.
+// The original, with a lobe that is wide enough to be fitted.
 Material WithLobe(Material material, std::vector<std::string>* notes) {
   const auto raise = [&](double* roughness) {
     if (*roughness >= kLeastRoughness) return;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/material_fit.h: a material of one reflection model as the nearest one of another:
-// Phong family <-> metallic-roughness and dielectric. The closed forms that books give
-// (n = 2 / alpha^2 - 2 for Blinn's lobe, a fourth of it for Phong's) are where a fit starts.
+// shading/material_fit.h: converts a material of one reflection model to the nearest one of
+// another: Phong family <-> metallic-roughness and dielectric. A fit starts from the closed forms
+// that books give (n = 2 / alpha^2 - 2 for Blinn's lobe, a fourth of it for Phong's).
 //
 // The lobe is fitted by least squares over the directions of light at HighlightViews(); the base
-// keeps its mean albedo. What the other model cannot say is told in words.
+// keeps its mean albedo. What the other model cannot express is noted in words.
 #pragma once
 
 #include <span>
@@ -18,16 +18,16 @@
 namespace nacre {
 
 struct MaterialFit {
-  Material guess;  // by the closed forms
+  Material guess;  // by the closed forms alone
   Material fitted;
   MaterialResidual guess_residual, residual;
-  std::vector<std::string> notes;  // what is lost
+  std::vector<std::string> notes;  // what the conversion loses, for users
 };
 
-// Names of the models that FitMaterial makes.
+// The names of the models to which FitMaterial converts.
 std::span<const std::string_view> FitTargets();
 
-// `target` is one of FitTargets(). Throws Error (kBadInput) for a split, which is no one material.
+// `target` is one of FitTargets(). Throws Error (kBadInput) for a split, which is not one material.
 MaterialFit FitMaterial(const Material& original, std::string_view target);
 
 }  // namespace nacre

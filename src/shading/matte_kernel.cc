@@ -31,7 +31,7 @@ template <DiffuseForm kForm, class Number>
 struct RoughMatte {
   using Incident = IncidentV;
   using View = typename RoughDiffuse<kForm>::View;
-  const MatteUniforms<Number> uniforms;  // a copy: nothing that a kernel stores is in it
+  const MatteUniforms<Number> uniforms;  // a copy, which no store can alias
 
   HWY_INLINE View SeenBy(FloatTag d, const PacketV& p, const Surface&) const {
     return RoughDiffuse<kForm>::SeenBy(d, p);
@@ -40,7 +40,7 @@ struct RoughMatte {
                               const IncidentV& in) const {
     const FloatV roughness = NumberAt(d, uniforms.constants.roughness, p.i);
     const SpreadV spread = RoughDiffuse<kForm>::Spread(d, view, p, in, roughness);
-    // Grazing light spreads by as much more as its weight is less: their product stays in range.
+    // At grazing light the spread grows as much as the weight falls: their product stays in range.
     const RgbV lambert = RgbAt(d, uniforms.light.diffuse, p.i);
     if constexpr (kForm == DiffuseForm::kBurley) {
       return {ScaledPart(lambert, hn::Mul(spread.single, in.weight))};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/mesh_light_kernel.cc: directions to lights made of triangles, and what is met along
-// directions. Triangles are chosen hit by hit, and what is met is put into batches of its own; all
-// else runs on vectors.
+// shading/mesh_light_kernel.cc: directions to mesh lights, and the triangles that directions meet.
+// Triangles are chosen hit by hit, and those that directions meet are gathered into batches of
+// their own; all else runs on vectors.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -48,7 +48,7 @@ void TrianglePdfT(const TriangleBatch& seen, size_t count, const Soa3<float>& to
   }
 }
 
-// The sum of the triangles that emit towards hits i...
+// The irradiance at hits i..., as a sum over the triangles that emit towards them.
 HWY_INLINE V SumTriangles(const SampledLight& light, const HitBatch& hits, const Vec3V<V>& normal,
                           size_t i) {
   const D d;
@@ -66,7 +66,7 @@ HWY_INLINE V SumTriangles(const SampledLight& light, const HitBatch& hits, const
   return sum;
 }
 
-// The same by the outline of the mesh.
+// The irradiance at hits i..., from the outline of the mesh.
 HWY_INLINE V SumOutline(const SampledLight& light, const HitBatch& hits, const Vec3V<V>& normal,
                         size_t i) {
   EmittingFaces faces;
@@ -90,8 +90,8 @@ void MeshIrradianceT(const SampledLight& light, const HitBatch& hits, const Surf
 using DD = hn::ScalableTag<double>;
 using VD = hn::Vec<DD>;
 
-// Finds all triangles that the ray of hit i meets. Sets where it meets the nearest one (infinity:
-// it meets none), and the product of its direction and that triangle's normal.
+// Finds all triangles that the ray of hit i meets. Stores where it meets the nearest one (infinity
+// if it meets none), and the dot product of its direction and that triangle's normal.
 HWY_INLINE void MeetTriangles(const MeshLight& mesh, const LightBoxRays& boxes, size_t lane,
                               const Vec3d& point, const Vec3d& direction, size_t i,
                               MeshLightScratch* scratch) {
@@ -150,7 +150,7 @@ HWY_EXPORT(MeetMeshT);
 
 namespace {
 
-// Entry i becomes the triangle relative to a hit; the offset is computed in double.
+// Sets entry i to a triangle relative to a hit; the offset is computed in double.
 void SetTriangle(const SampledLight& light, const HitBatch& hits, uint32_t triangle, size_t hit,
                  size_t i, TriangleBatch* seen) {
   const TriangleLight<double>& t = light.mesh->triangles[triangle];
@@ -159,7 +159,7 @@ void SetTriangle(const SampledLight& light, const HitBatch& hits, uint32_t trian
   SetVector(t.edge_y, i, &seen->edge_y);
 }
 
-// Adds up the pdfs of triangles along the directions of hits, in batches.
+// Adds up, for each hit, the pdfs of triangles along its direction. Computes them in batches.
 class PdfSum {
  public:
   PdfSum(const SampledLight& light, const HitBatch& hits, LightDirections* directions)

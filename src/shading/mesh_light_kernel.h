@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/mesh_light_kernel.h: triangles of a light as vectors read and write them: one for each
-// entry of a batch, and those that rays meet.
+// shading/mesh_light_kernel.h: triangles of a mesh light as structure of arrays: one for each entry
+// of a batch, and those that rays meet.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@
 namespace nacre {
 
 struct TriangleBatch {
-  Soa3<float> corner, edge_x, edge_y;  // as TriangleLight's, relative to the hit
+  Soa3<float> corner, edge_x, edge_y;  // as in TriangleLight, relative to the hit
 };
 
 // A triangle that the ray from a hit meets, whether it is the nearest or not.
@@ -28,16 +28,17 @@ struct CrossedTriangles {
   }
 };
 
-// What directions to a light of triangles are worked out in. It takes longer to make than a small
-// batch's directions do, so it is kept with them.
+// Buffers for directions to a mesh light. Making them takes longer than the directions of a small
+// batch, so they are kept with LightDirections.
 struct MeshLightScratch {
   TriangleBatch seen;
-  AlignedArray<float> rest{kBatchCapacity};  // what is left of the numbers that chose triangles
+  AlignedArray<float> rest{kBatchCapacity};  // the numbers that chose triangles, rescaled to [0, 1)
   CrossedTriangles meetings;
-  // Where directions meet the nearest triangle, in units of them, and their product with its
-  // normal.
+  // For each hit, where its direction meets the nearest triangle, in units of the direction, and
+  // the dot product of the direction and the triangle's normal.
   AlignedArray<double> end{kBatchCapacity}, towards{kBatchCapacity};
-  // Of triangles in `seen`, on their way into the pdf of directions.
+  // For each triangle in `seen`: the direction, its pdf, the probability of choosing the triangle,
+  // and the hit to whose pdf the product is added.
   Soa3<float> to_light;
   AlignedArray<float> pdf{kBatchCapacity}, probability{kBatchCapacity};
   AlignedArray<uint32_t> hit{kBatchCapacity};

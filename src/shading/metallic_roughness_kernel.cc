@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/metallic_roughness_kernel.cc: GGX with Schlick's Fresnel curve, or the same with
-// the dip of real metals before grazing (F82).
+// shading/metallic_roughness_kernel.cc: GGX with Schlick's Fresnel curve, or with the F82 curve,
+// which adds the dip of real metals before grazing incidence.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/metallic_roughness_kernel.cc"
 #include "hwy/foreach_target.h"
@@ -21,7 +21,7 @@ void ShadeF82T(const MicrofacetUniforms<float>& uniforms, const ShadeRange& rang
   ShadeMicrofacet<FresnelForm::kF82>(uniforms, range);
 }
 
-// Of materials with maps.
+// For materials with maps.
 void ShadeSchlickMapsT(const MicrofacetUniforms<float*>& uniforms, const ShadeRange& range) {
   ShadeMicrofacet<FresnelForm::kSchlick>(uniforms, range);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/microfacet_albedo-inl.h: what a microfacet lobe reflects in all, and so what is left for
-// the base under it and for light that bounces more than once. Scalar twin: CoverAlbedo
+// shading/microfacet_albedo-inl.h: the directional albedo of a microfacet lobe, and so the light
+// that is left for the base under it and for multiple scattering. Scalar twin: CoverAlbedo
 // (material.h).
 #if defined(NACRE_SHADING_MICROFACET_ALBEDO_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_SHADING_MICROFACET_ALBEDO_INL_H_
@@ -16,9 +16,9 @@ HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
-// The albedo of single scattering, seen from one direction, is F0 scale + bias.
+// The directional albedo of single scattering is F0 scale + bias.
 struct AlbedoV {
-  FloatV one, loss;  // for F = 1, and 1 minus that
+  FloatV one, loss;  // the albedo for F = 1, and 1 minus that
   FloatV scale, bias;
 };
 
@@ -27,7 +27,7 @@ HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model, Floa
   const AlbedoFit& fit = model.albedo.lobe;
   const FloatV one = AlbedoOne(d, fit, x);
   const FloatV loss = AlbedoLoss(d, fit, x);
-  // Vectors, not structs, are what the branch chooses: GCC takes structs through memory.
+  // The branch selects vectors, not structs, because GCC would pass a struct through memory.
   FloatV scale, bias;
   if (model.fresnel == FresnelForm::kDielectric) {
     scale = hn::Zero(d);
@@ -40,7 +40,7 @@ HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model, Floa
   return {one, loss, scale, bias};
 }
 
-// From the fit of each hit, whose second curve is Schlick's, or that of the dielectric.
+// EvaluateAlbedo with the fit of each hit, whose second curve is Schlick's or the dielectric's.
 HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model,
                                   const AlbedoFitLanes& fit, FloatV f90,
                                   const AlbedoVariablesV<FloatV>& x) {
@@ -60,7 +60,7 @@ HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model,
   return {one, AlbedoLoss(d, fit, x), scale, bias};
 }
 
-// The same from n.v, or n.l, alone.
+// EvaluateAlbedo from n.v, or n.l, alone.
 HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model, FloatV f90,
                                   FloatV cosine) {
   const AlbedoFit& fit = model.albedo.lobe;
@@ -72,7 +72,7 @@ HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model,
   return EvaluateAlbedo(d, model, fit, f90, ComputeAlbedoVariables(d, fit.shape, cosine));
 }
 
-// The fits of hits from `fit` on, whose entries are `stride` apart.
+// The fits of the hits at `fit`, whose entries are `stride` apart.
 HWY_INLINE AlbedoFitLanes FitAt(const float* fit, size_t stride, Shadowing shadowing) {
   AlbedoFitLanes lanes;
   lanes.shape = {fit, fit + stride, fit + 2 * stride, fit + 3 * stride, AlbedoFormOf(shadowing)};
@@ -81,9 +81,9 @@ HWY_INLINE AlbedoFitLanes FitAt(const float* fit, size_t stride, Shadowing shado
   return lanes;
 }
 
-// 1 minus the albedo of the whole lobe, Kulla and Conty's part included: what reaches the base,
-// of light from that direction or on its way there. Rounding may leave it below 0 where nothing
-// is left.
+// 1 minus the albedo of the whole lobe, including Kulla and Conty's lobe: the fraction of the light
+// from that direction that reaches the base or, equally, that gets from the base to that direction.
+// Clamped, because rounding may make it negative where nothing is left.
 HWY_INLINE FloatV KullaContyBase(FloatTag d, const AlbedoV& albedo, FloatV f0, FloatV f_multiple) {
   const FloatV one = hn::Set(d, 1.0f);
   const FloatV single = hn::MulAdd(f0, albedo.scale, albedo.bias);
@@ -91,7 +91,7 @@ HWY_INLINE FloatV KullaContyBase(FloatTag d, const AlbedoV& albedo, FloatV f0, F
   return hn::Max(hn::Sub(one, whole), hn::Zero(d));
 }
 
-// The same with Turquin's scale on the lobe, `multiple` = 1 / E - 1.
+// KullaContyBase, but with Turquin's scale on the lobe, where `multiple` = 1 / E - 1.
 HWY_INLINE FloatV TurquinBase(FloatTag d, const AlbedoV& albedo, FloatV f0, FloatV multiple) {
   const FloatV one = hn::Set(d, 1.0f);
   const FloatV single = hn::MulAdd(f0, albedo.scale, albedo.bias);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/microfacet_curve-inl.h: what a Fresnel curve makes of light: the part that a lobe
-// reflects, and the part that it leaves for a base under it.
+// shading/microfacet_curve-inl.h: Fresnel curves applied to light: the part that a lobe reflects,
+// and the part that is left for a base under it.
 #if defined(NACRE_SHADING_MICROFACET_CURVE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_SHADING_MICROFACET_CURVE_INL_H_
 #undef NACRE_SHADING_MICROFACET_CURVE_INL_H_
@@ -17,8 +17,8 @@ HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
-// A curve's value: Schlick's weight W, F = F0 + (F90 - F0) W; F of each channel; or what dielectric
-// and metal reflect, each times its share of the mix.
+// The value of a Fresnel curve, in one of three forms: Schlick's weight W, where F = F0 + (F90 -
+// F0) W; F of each channel; or F of dielectric and metal, each times its share of the mix.
 struct SchlickCurveV {
   FloatV weight;
 };
@@ -77,8 +77,8 @@ HWY_INLINE RgbV ReflectedBy(FloatTag d, const Curve& curve, size_t i,
   return MulRgb(FresnelOf(curve), RgbAt(d, light.specular, i));
 }
 
-// F0 F times the light, each of the two of a mix by its own F0: what Turquin's compensation adds,
-// but for the factor 1 / E - 1 (TurquinTerm of scalar_material.h).
+// F0 F times the light, where dielectric and metal of a mix each have their own F0: Turquin's
+// compensation adds this times 1 / E - 1 (TurquinTerm of scalar_material.h).
 template <class Number>
 HWY_INLINE RgbV TurquinTerm(FloatTag d, const SchlickCurveV& curve, size_t i,
                             const MicrofacetUniforms<Number>&,
@@ -94,14 +94,13 @@ HWY_INLINE RgbV TurquinTerm(FloatTag d, const MixedCurveV& curve, size_t i,
   return MulRgb(AddRgb(of_dielectric, of_metal), RgbAt(d, light.specular, i));
 }
 
-// What the base gets of the light, times its colour and `weight`: all, or 1 - F of it
-// (DiffuseCoupling::kOneMinusFresnel), which is (1 - F0) (1 - W) + (1 - F90) W by Schlick.
+// The light that the base gets, times its colour and `weight`: all of it, or the fraction 1 - F
+// (DiffuseCoupling::kOneMinusFresnel), which by Schlick is (1 - F0) (1 - W) + (1 - F90) W.
 template <class Number>
 HWY_INLINE PartV LeftForBase(FloatTag d, const SchlickCurveV& curve, size_t i,
                              const MicrofacetModel& model, const MicrofacetLight<Number>& light,
                              FloatV weight) {
-  // Vectors, not structs, are what the branch chooses: GCC takes a struct that it chooses through
-  // memory.
+  // The branch selects vectors, not structs, because GCC would pass a struct through memory.
   FloatV r = NumberAt(d, light.diffuse_normal[0], i);
   FloatV g = NumberAt(d, light.diffuse_normal[1], i);
   FloatV b = NumberAt(d, light.diffuse_normal[2], i);

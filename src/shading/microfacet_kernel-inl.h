@@ -24,14 +24,15 @@ namespace HWY_NAMESPACE {
 template <FresnelForm kFresnel, class Number>
 struct Microfacet {
   using Incident = HalfIncidentV;
-  static constexpr bool kSame = std::is_same_v<Number, float>;  // for all hits
-  // Of a dielectric and a metal, which Turquin's compensation scales each by its own F0.
+  static constexpr bool kSame = std::is_same_v<Number, float>;  // all hits share the constants
+  // Whether a dielectric and a metal are mixed, which Turquin's compensation scales each by its own
+  // F0.
   static constexpr bool kIsMix = kFresnel == FresnelForm::kSchlick || kFresnel == FresnelForm::kF82;
-  MicrofacetUniforms<Number> uniforms;  // a copy: nothing that a kernel stores is in it
+  MicrofacetUniforms<Number> uniforms;  // a copy, which no store can alias
   const MicrofacetModel& model;
 
   struct View {
-    const Surface* surface;  // with what was prepared, loaded where it is needed
+    const Surface* surface;  // what PrepareRun has stored is loaded where it is needed
   };
 
   HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface& surface) const {
@@ -54,22 +55,23 @@ struct Microfacet {
                                         NumberAt(d, uniforms.schlick_k, p.i), scale);
   }
 
-  // Distribution, visibility, cosine and irradiance.
+  // The product of distribution, visibility, n.l and irradiance.
   HWY_INLINE FloatV Lobe(FloatTag d, const PacketV& p, const Incident& in) const {
     if (kSame && uniforms.sharp_distribution != nullptr) return SharpLobe(d, p, in);
     const FloatV q = GgxRootDenominator(d, in.half, NumberAt(d, uniforms.alpha, p.i));
     const FloatV masking = Masking(d, p, in, NumberAt(d, uniforms.pi_over_alpha2, p.i));
-    // As a rule the square of |u|^2 is far from float's limits, and no root need be waited for.
+    // Usually the square of |u|^2 is far from float's limits, and this need not wait for |u|.
     FloatV wide = LobeBy(d, hn::Mul(hn::Mul(q, q), masking),
                          hn::Mul(hn::Mul(in.half.u_squared, in.half.u_squared), in.weight));
-    // On spheres n.v of what is seen, and n.u of what is lit, too, round to above -4e-7: that is 0.
+    // On spheres, n.v of visible points rounds to above -4e-7, and so does n.u of lit points. Such
+    // values count as 0, not as below the surface.
     wide = hn::IfThenElseZero(hn::Gt(in.half.n_dot_u, hn::Set(d, -0x1p-20f)), wide);
     if (in.any_short) {
       const FloatV inverse = hn::Div(hn::Set(d, 4.0f), in.twice_u_length);  // 2 / |u|
       const FloatV four_q = hn::Mul(q, hn::Mul(inverse, inverse));
       const FloatV sixteenth = hn::Mul(masking, hn::Set(d, 0.0625f));
       const FloatV of_short = LobeBy(d, hn::Mul(hn::Mul(four_q, four_q), sixteenth), in.weight);
-      // h lies above the surface, and |u|^2 is a normal number: 0 and below there is no lobe.
+      // There is a lobe only where h lies above the surface and |u|^2 is a normal number.
       const auto above = hn::Gt(in.half.n_dot_u, hn::Set(d, 0x1p-63f));
       wide = hn::IfThenElse(IsUpright(d, in.half), wide, hn::IfThenElseZero(above, of_short));
     }
@@ -78,17 +80,18 @@ struct Microfacet {
     return hn::IfThenElse(is_sharp, SharpLobe(d, p, in), wide);
   }
 
-  // `weight` is 0 where the surface is not lit.
+  // weight / denominator. `weight` is 0 where the surface is not lit.
   static HWY_INLINE FloatV LobeBy(FloatTag d, FloatV denominator, FloatV weight) {
-    // Not less than the smallest normal number, for unlit lanes and for cosines below that; nor
-    // more than the largest: infinity times a lobe, or a colour, of 0 would be NaN.
+    // The denominator is at least the smallest normal number, for unlit lanes and for cosines below
+    // that. The result is at most the largest number: infinity times a lobe, or a colour, of 0
+    // would be NaN.
     const FloatV smallest = hn::Set(d, std::numeric_limits<float>::min());
     const FloatV largest = hn::Set(d, std::numeric_limits<float>::max());
     const FloatV inverse = Reciprocal(d, hn::Max(denominator, smallest));
     return hn::Min(hn::Mul(weight, inverse), largest);
   }
 
-  // The same with the distribution that was formed in double.
+  // Lobe with the distribution that was computed in double.
   HWY_INLINE FloatV SharpLobe(FloatTag d, const PacketV& p, const Incident& in) const {
     const FloatV smallest = hn::Set(d, std::numeric_limits<float>::min());
     const FloatV largest = hn::Set(d, std::numeric_limits<float>::max());
@@ -101,7 +104,7 @@ struct Microfacet {
   HWY_INLINE ReflectedV Reflect(FloatTag d, const View& view, const PacketV& p,
                                 const Incident& in) const {
     const MicrofacetLight<Number>& light = uniforms.light;
-    // Grazing light spreads by as much more as its weight is less: their product stays in range.
+    // At grazing light the spread grows as much as the weight falls: their product stays in range.
     const bool spreads = kFresnel != FresnelForm::kConductor && uniforms.spread != nullptr;
     const FloatV base_weight = spreads ? hn::Set(d, 1.0f) : in.weight;
     const auto curve = EvaluateCurve<kFresnel>(d, in, p.i, uniforms);
@@ -109,7 +112,8 @@ struct Microfacet {
     PartV reflected = ScaledPart(ReflectedBy(d, curve, p.i, light), lobe);
     PartV base = LeftForBase(d, curve, p.i, model, light, base_weight);
     if (model.compensation == Compensation::kTurquin) {
-      // The lobe first: a bright light's colour times the weight may be beyond float's range.
+      // `multiple` is multiplied by the lobe, not by the term: a bright light's colour times the
+      // weight may be beyond float's range.
       const FloatV multiple = hn::LoadU(d, view.surface->multiple.data() + p.i);
       if constexpr (kIsMix) {
         const FloatV largest = hn::Set(d, std::numeric_limits<float>::max());
@@ -133,7 +137,7 @@ struct Microfacet {
     return MulAddRgb(RgbAt(d, uniforms.base.ratio, i), multiple, {single, single, single});
   }
 
-  // Of what covers the base.
+  // The albedo of the lobe that covers the base.
   HWY_INLINE AlbedoV AlbedoAt(FloatTag d, size_t i, FloatV cosine) const {
     const FloatV f90 = NumberAt(d, uniforms.dielectric_f90, i);
     if constexpr (kSame) {
@@ -145,7 +149,8 @@ struct Microfacet {
     }
   }
 
-  // Adds Kulla and Conty's lobe, and takes from the base what the albedo of its cover does.
+  // Adds Kulla and Conty's lobe, and, if kAlbedoScaled, scales the base by 1 - the albedo of the
+  // lobe that covers it.
   HWY_INLINE void Complete(FloatTag d, const View& view, size_t i, const IncidentV& in,
                            const MicrofacetLight<Number>& light, PartV* reflected,
                            RgbV* base) const {

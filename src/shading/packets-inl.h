@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // shading/packets-inl.h: the loops of all shading kernels over a range of hits.
 //
-// A shading formula is one long chain of dependent operations, and a processor's window holds few
-// of them. So it is cut in pieces: for a block of hits, small enough for the nearest cache, first
-// what the light is, then the half vector's angles or the lobe's cosine, then what is reflected.
-// Each loop is short enough for several of its turns to overlap.
+// A shading formula is one long chain of dependent operations, and a processor's out-of-order
+// window holds few of them. It is therefore cut into pieces: for a block of hits, small enough for
+// the L1 cache, the first loop evaluates the light, the next one the half vector's angles or the
+// lobe's cosine, and the last one the reflection. Each loop is short enough for several of its
+// iterations to overlap.
 #if defined(NACRE_SHADING_PACKETS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_SHADING_PACKETS_INL_H_
 #undef NACRE_SHADING_PACKETS_INL_H_
@@ -52,7 +53,7 @@ class IncidentBlock {
   alignas(64) float n_dot_l_[kBlockHits], irradiance_[kBlockHits];
 };
 
-// With the angles of their half vectors.
+// The light on a block of hits, with the angles of their half vectors.
 class HalfBlock : public IncidentBlock {
  public:
   HWY_INLINE void StoreHalf(FloatTag d, size_t at, const HalfAnglesV<FloatV>& half,
@@ -63,7 +64,8 @@ class HalfBlock : public IncidentBlock {
     hn::Store(half.lv_squared, d, lv_squared_ + at);
   }
 
-  // |u| and 1 - v.h of `count` half vectors that were stored, in a loop of their own, as TakeLogs.
+  // Computes |u| and 1 - v.h of the `count` half vectors that were stored. This has a loop of its
+  // own, for the reason that LobeBlock::TakeLogs states.
   HWY_INLINE void TakeLengths(FloatTag d, size_t count) {
     for (size_t at = 0; at < count; at += hn::Lanes(d)) {
       const FloatV n_dot_u = hn::Load(d, n_dot_u_ + at);
@@ -95,7 +97,7 @@ class HalfBlock : public IncidentBlock {
   bool any_short_;
 };
 
-// With the logarithms of the cosines of their lobes.
+// The light on a block of hits, with the logarithms of the cosines of their lobes.
 class LobeBlock : public IncidentBlock {
  public:
   HWY_INLINE void StoreLobe(FloatTag d, size_t at, const LobeCosineV<FloatV>& lobe) {
@@ -103,8 +105,9 @@ class LobeBlock : public IncidentBlock {
     hn::Store(lobe.c, d, c_ + at);
   }
 
-  // The logarithms of `count` cosines that were stored, in a loop of their own: with them either of
-  // the loops around it would be one chain longer than a processor's window overlaps.
+  // Computes the logarithms of the `count` cosines that were stored. This has a loop of its own: as
+  // a part of the loop before or after, it would make that one's dependency chain too long for
+  // iterations to overlap in a processor's window.
   HWY_INLINE void TakeLogs(FloatTag d, size_t count) {
     for (size_t at = 0; at < count; at += hn::Lanes(d)) {
       const LobeCosineV<FloatV> cosine{hn::Load(d, one_minus_c_ + at), hn::Load(d, c_ + at)};
@@ -120,7 +123,7 @@ class LobeBlock : public IncidentBlock {
   alignas(64) float one_minus_c_[kBlockHits], c_[kBlockHits], log2_cosine_[kBlockHits];
 };
 
-// The light on hits [begin, end). Not inlined, as it is the same for all models.
+// Stores the light on hits [begin, end). Not inlined, because it is the same for all models.
 inline HWY_NOINLINE void FillLight(const ShadeRange& range, size_t begin, size_t end,
                                    IncidentBlock* block) {
   const FloatTag d;
@@ -129,9 +132,9 @@ inline HWY_NOINLINE void FillLight(const ShadeRange& range, size_t begin, size_t
   });
 }
 
-// Calls use(at, half, n_dot_v) with the half vector's angles of all hits of a block. Hits choose
-// how they are formed by their own |u|^2, whatever else is in the block; but as a rule none of a
-// block's needs more than u as it is.
+// Calls use(at, half, n_dot_v) with the half vector's angles of all hits of a block. Each hit's own
+// |u|^2 decides between UprightHalfAngles and ComputeHalfAngles, whatever else is in the block.
+// Usually no hit of a block needs the latter; returns whether one does.
 template <class Use>
 HWY_INLINE bool ForHalfAngles(const ShadeRange& range, size_t begin, size_t end,
                               const IncidentBlock& block, const Use& use) {
@@ -165,7 +168,7 @@ inline HWY_NOINLINE void FillHalf(const ShadeRange& range, size_t begin, size_t 
                                   HalfBlock* block) {
   const FloatTag d;
   const auto store = [&](size_t at, const HalfAnglesV<FloatV>& half, FloatV n_dot_v) HWY_ATTR {
-    // Interpolated mesh normals may lean away from the viewer: that counts as 0.
+    // Interpolated mesh normals may lean away from the viewer; n.v then counts as 0.
     block->StoreHalf(d, at, half, hn::Max(n_dot_v, hn::Zero(d)));
   };
   block->SetAnyShort(ForHalfAngles(range, begin, end, *block, store));
@@ -184,12 +187,12 @@ HWY_INLINE void ReflectLight(FloatTag d, const Model& model, const ShadeRange& r
   }
 }
 
-// For each packet of the range: what `model` reflects of the light.
-//   view = model.SeenBy(packet, surface)        what does not depend on the light
-//   model.Reflect(view, packet, incident)       what it makes of the light
-// Model::Incident: IncidentV, HalfIncidentV or LobeIncidentV. The last has a meaning only if
-// model.ReadsLobe(); model.FillLobe(range, begin, end, block) then stores the light, too, and the
-// lobes' cosines.
+// Stores, for each packet of the range, what `model` reflects of the light.
+//   view = model.SeenBy(packet, surface)        terms that do not depend on the light
+//   model.Reflect(view, packet, incident)       the reflected light
+// Model::Incident is IncidentV, HalfIncidentV or LobeIncidentV. The logarithm in the latter is
+// valid only if model.ReadsLobe(); then model.FillLobe(range, begin, end, block) must store both
+// the light and the lobes' cosines.
 template <class Model>
 HWY_INLINE void ShadePackets(FloatTag d, const Model& model, const ShadeRange& range) {
   constexpr bool kHalf = std::is_same_v<typename Model::Incident, HalfIncidentV>;

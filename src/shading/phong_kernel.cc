@@ -15,8 +15,8 @@ HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
-// The light on a block's hits and the cosines of their lobes. In one loop, as the direction to the
-// light need not be loaded again.
+// Stores the light on a block's hits and the cosines of their lobes, in one loop, so that the
+// direction to the light need not be loaded again.
 HWY_NOINLINE void FillPhong(const ShadeRange& range, size_t begin, size_t end, LobeBlock* block) {
   const FloatTag d;
   ForEachLit(d, range, begin, end, [&](const PacketV& p, const LightV& light) HWY_ATTR {
@@ -42,7 +42,8 @@ struct PhongFamily {
   struct View {};
   const PhongUniforms<Number>& uniforms;
 
-  // Lobes of one exponent are all sharp, and theirs come from elsewhere, or none.
+  // Whether cosines of wide lobes are needed. If all lobes have the same exponent, either all are
+  // sharp, and their cosines are in uniforms.sharp, or none is.
   HWY_INLINE bool ReadsLobe() const {
     return !std::is_same_v<Number, float> || uniforms.sharp == nullptr;
   }
@@ -71,7 +72,7 @@ struct PhongFamily {
     const FloatV shininess = NumberAt(d, uniforms.constants.shininess, p.i);
     const FloatV lobe = kModel == PhongModel::kBlinnPhong ? LobePowerOfSquare(d, log2, shininess)
                                                           : LobePower(d, log2, shininess);
-    // The irradiance is 0 where n.l <= 0: that gates the lobes without a cosine of their own.
+    // The irradiance is 0 where n.l <= 0, which cuts off the lobes that have no factor of n.l.
     const FloatV light = kModel == PhongModel::kModifiedPhong ? in.weight : in.irradiance;
     return {{ScaledPart(RgbAt(d, uniforms.light.diffuse, p.i), in.weight)},
             ScaledPart(RgbAt(d, uniforms.light.specular, p.i), hn::Mul(lobe, light))};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/prepare_kernel.cc: what microfacet materials need of a hit whatever the light: the
-// weight of multiple scattering and the base's share of the light, once per hit.
+// shading/prepare_kernel.cc: terms of microfacet materials that do not depend on the light: the
+// weight of multiple scattering and the base's share of the light, computed once per hit.
 #include <algorithm>
 
 #undef HWY_TARGET_INCLUDE
@@ -15,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
-// Stores `count` lanes at most: a packet may reach into the next run.
+// Stores at most `count` lanes, because a packet may extend into the next run.
 HWY_INLINE void StoreLanes(FloatTag d, size_t count, FloatV value, float* to) {
   if (count >= hn::Lanes(d)) {
     hn::StoreU(value, d, to);
@@ -24,8 +24,9 @@ HWY_INLINE void StoreLanes(FloatTag d, size_t count, FloatV value, float* to) {
   }
 }
 
-// Kulla and Conty's weight carries the scale of their lobe: 1 / (pi (1 - E_avg)) of a smooth
-// surface times a light would leave float's range before the small losses bring it back.
+// The weight of multiple scattering. Kulla and Conty's includes the scale of their lobe,
+// 1 / (pi (1 - E_avg)): for a smooth surface, that times a light would leave float's range before
+// the small losses bring it back.
 HWY_INLINE FloatV Multiple(FloatTag d, Compensation compensation, const AlbedoV& albedo,
                            FloatV scale) {
   switch (compensation) {
@@ -39,8 +40,8 @@ HWY_INLINE FloatV Multiple(FloatTag d, Compensation compensation, const AlbedoV&
   return hn::Zero(d);
 }
 
-// The numbers of hits: one model's for all of them, or each hit's. Those of the dielectric, which
-// covers the base.
+// The constants of hits, which are one model's for all hits, or each hit's own. F0, albedo and
+// F_ms are those of the dielectric, which covers the base.
 template <class Number>
 struct Numbers {
   const PrepareUniforms<Number>& uniforms;
@@ -71,8 +72,8 @@ struct Numbers {
   }
 };
 
-// A block of hits on its way through the steps: the albedo is a long chain of dependent operations,
-// cut here as those of lights are (packets-inl.h).
+// The intermediate results of a block of hits: the albedo is a long chain of dependent operations,
+// which is cut into several loops as shading is (packets-inl.h).
 struct AlbedoBlock {
   static constexpr size_t kHits = 128;  // a multiple of every target's lanes
   alignas(64) float z[kHits], n_dot_v[kHits], factor[kHits];
@@ -117,7 +118,7 @@ HWY_INLINE void FillAlbedos(const Numbers& numbers, size_t begin, size_t end, Al
   }
 }
 
-// kScaled: DiffuseCoupling::kAlbedoScaled. Others do not read the base's share.
+// kScaled is true for DiffuseCoupling::kAlbedoScaled; other couplings do not read Surface::base.
 template <bool kScaled, class Numbers>
 HWY_INLINE void PrepareBlock(const MicrofacetModel& model, const Numbers& numbers, size_t begin,
                              size_t end, const AlbedoBlock& block, Surface* surface) {

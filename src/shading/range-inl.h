@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/range-inl.h: what all shading kernels share: loading a hit's vectors, the light on it,
-// storing its radiance. The loops over hits: shading/packets-inl.h.
+// shading/range-inl.h: code that all shading kernels share: loading a hit's vectors and the light
+// on it, storing its radiance. The loops over hits are in shading/packets-inl.h.
 #if defined(NACRE_SHADING_RANGE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_SHADING_RANGE_INL_H_
 #undef NACRE_SHADING_RANGE_INL_H_
@@ -28,7 +28,7 @@ HWY_INLINE RgbV SetRgb(FloatTag d, const float (&rgb)[3]) {
   return {hn::Set(d, rgb[0]), hn::Set(d, rgb[1]), hn::Set(d, rgb[2])};
 }
 
-// A number that all hits share, or that of each of hits i...
+// A constant that all hits share, or the constants of hits i...
 HWY_INLINE FloatV NumberAt(FloatTag d, float number, size_t) { return hn::Set(d, number); }
 HWY_INLINE FloatV NumberAt(FloatTag d, const float* numbers, size_t i) {
   return hn::LoadU(d, numbers + i);
@@ -72,15 +72,15 @@ HWY_INLINE FloatV CosineToView(FloatTag d, const PacketV& p) {
   return hn::Max(FusedDot(p.normal, p.to_view), hn::Zero(d));
 }
 
-// One light on them. Where n_dot_l is not above 0 the surface faces away: `irradiance` and
-// `weight`, its share that falls on the surface, are then 0, and whatever else is made of the
-// direction must be kept from the sum by IsLit.
+// One light on the hits of a packet. `irradiance` is perpendicular to the light, `weight` is
+// irradiance n.l. Where n_dot_l is not above 0, the surface faces away: both are 0, and terms that
+// are computed from the direction must be masked by IsLit.
 struct IncidentV {
   TowardV toward;
   FloatV n_dot_l, irradiance, weight;
 };
 
-// The same with the angles of the half vector and to the viewer.
+// IncidentV with the angles of the half vector and to the viewer.
 struct HalfIncidentV : IncidentV {
   HalfAnglesV<FloatV> half;
   FloatV n_dot_v;
@@ -88,7 +88,7 @@ struct HalfIncidentV : IncidentV {
   bool any_short;  // false: all half vectors of the block are IsUpright
 };
 
-// With LobeLog2 of the cosine of Phong's lobe, or of the square of Blinn's.
+// IncidentV with LobeLog2 of the cosine of Phong's lobe, or of the squared cosine of Blinn's.
 struct LobeIncidentV : IncidentV {
   FloatV log2_cosine;
 };
@@ -119,7 +119,7 @@ HWY_INLINE void StoreWhole(FloatTag d, const RgbV& value, const Pointers3<float>
   hn::StoreU(value.b, d, to.z() + i);
 }
 
-// Stores `count` lanes at most.
+// Stores at most `count` lanes.
 HWY_INLINE void StoreRgb(FloatTag d, size_t count, const RgbV& value, const Pointers3<float>& to,
                          size_t i) {
   if (count >= hn::Lanes(d)) {
@@ -132,7 +132,8 @@ HWY_INLINE void StoreRgb(FloatTag d, size_t count, const RgbV& value, const Poin
   }
 }
 
-// What packets reflect: each part is the product of two, such as a colour and what falls on it.
+// The light that a packet reflects. Each component is a product of two factors, such as a colour
+// and the light that falls on it.
 struct PartV {
   RgbV color, scale;
 };
@@ -151,8 +152,8 @@ HWY_INLINE PartV WholePart(FloatTag d, const RgbV& value) {
 }
 HWY_INLINE RgbV RgbOf(const PartV& part) { return MulRgb(part.color, part.scale); }
 
-// A range's arrays. Arrays are padded to whole vectors and ranges of a batch follow one another, so
-// a packet may reach past its range: the lanes that do are not stored.
+// The arrays of a range. Arrays are padded to whole vectors, and ranges of a batch follow one
+// another, so a packet may extend past its range; lanes past the end are not stored.
 struct RangeArrays {
   Pointers3<const float> normal, to_view;
   Pointers3<float> sum, diffuse, specular;
@@ -194,7 +195,7 @@ struct RangeArrays {
   }
 };
 
-// Calls use(at) with at(d, i, normal): the light at hits i..., which was evaluated before
+// Calls use(at), where at(d, i, normal) is the light at hits i..., which was evaluated before
 // (ShadeRange::on_hits) or is evaluated here.
 template <class Use>
 HWY_INLINE void VisitLight(FloatTag d, const ShadeRange& range, const Use& use) {
@@ -224,7 +225,7 @@ HWY_INLINE void VisitLight(FloatTag d, const ShadeRange& range, const Use& use) 
 template <class Use>
 HWY_INLINE void ForEachLit(FloatTag d, const ShadeRange& range, size_t begin, size_t end,
                            const Use& use) {
-  const RangeArrays arrays(range);  // kept in registers: what is stored cannot be this copy
+  const RangeArrays arrays(range);  // a local copy stays in registers: no store can alias it
   VisitLight(d, range, [&](const auto& light_at) HWY_ATTR {
     for (size_t i = begin; i < end; i += hn::Lanes(d)) {
       const PacketV p = arrays.Packet(d, i);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/rough_base_kernel.cc: how the rough diffuse bases of microfacet materials spread a light,
-// ahead of the kernel of the lobe: few bases are rough, and the kernels of the others stay as they
-// are.
+// shading/rough_base_kernel.cc: the factors of rough diffuse bases of microfacet materials
+// (BaseSpread), computed before the kernel of the lobe runs. Few bases are rough, so the kernels of
+// lobes are not burdened with them.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/rough_base_kernel.cc"
 #include "hwy/foreach_target.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/rough_diffuse-inl.h: how rough diffuse surfaces spread light, apart from their colour: of
-// matte materials (matte_kernel.cc) and of bases under a lobe (rough_base_kernel.cc).
+// shading/rough_diffuse-inl.h: the factors by which rough diffuse surfaces differ from Lambertian
+// ones, for matte materials (matte_kernel.cc) and for bases under a lobe (rough_base_kernel.cc).
 #if defined(NACRE_SHADING_ROUGH_DIFFUSE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_SHADING_ROUGH_DIFFUSE_INL_H_
 #undef NACRE_SHADING_ROUGH_DIFFUSE_INL_H_
@@ -16,8 +16,8 @@ HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
-// What Lambert's reflection is multiplied by: single + ratio multiple, with EonMultipleRatio of
-// each channel's albedo.
+// Lambertian reflection is multiplied by single + ratio multiple, where `ratio` is EonMultipleRatio
+// of each channel's albedo.
 struct SpreadV {
   FloatV single, multiple;
 };

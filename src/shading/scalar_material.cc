@@ -15,7 +15,7 @@
 namespace nacre {
 namespace {
 
-// A diffuse model's share of Lambert's: of channel c, with EonMultipleRatio of its colour.
+// A diffuse model's reflection over Lambert's. `ratio` is EonMultipleRatio of the channel's colour.
 double SpreadOf(DiffuseForm form, const Angles<double>& a, double roughness, double ratio) {
   switch (form) {
     case DiffuseForm::kOrenNayar:
@@ -49,7 +49,7 @@ Reflection ReflectModel(const PhongFamilyModel& model, const Vec3d& n, const Vec
   return {model.diffuse * n_dot_l, model.specular * (lobe * weight)};
 }
 
-// What dielectric and metal reflect, each times its share of the mix, of channel c.
+// Fresnel's term of dielectric and metal for one channel, each times its share of the mix.
 struct FresnelShares {
   double dielectric = 0, metal = 0;
 };
@@ -70,7 +70,7 @@ FresnelShares SharesOf(const MicrofacetModel& model, double v_dot_h, double one_
   return {};
 }
 
-// What reaches the base and leaves it again, of channel c.
+// The fraction of the light of channel c that reaches the base and leaves it again.
 double BaseShare(const MicrofacetModel& model, const Angles<double>& a, double fresnel, int c) {
   switch (model.coupling) {
     case DiffuseCoupling::kAlbedoScaled: {

@@ -13,7 +13,8 @@
 namespace nacre {
 namespace {
 
-// How often a lobe is sampled rather than the cosine law: its part of about what both reflect.
+// The probability of sampling the lobe rather than a cosine-weighted direction: the lobe's fraction
+// of what both reflect, approximately.
 double LobeShareOf(double lobe, double diffuse) {
   return lobe + diffuse > 0 ? lobe / (lobe + diffuse) : 0;
 }
@@ -23,7 +24,8 @@ double LobeChance(const PhongFamilyModel& model, double) {
   return LobeShareOf(LargestChannel(model.specular) * scale, LargestChannel(model.diffuse) * M_PI);
 }
 
-// The cosine law also stands for the lobe of Kulla and Conty's compensation, which is flatter.
+// Cosine-weighted directions also serve for the lobe of Kulla and Conty's compensation, which is
+// flatter.
 double LobeChance(const MicrofacetModel& model, double n_dot_v) {
   const double single = model.delta ? 0 : LargestChannel(FresnelOf(model, n_dot_v, 1 - n_dot_v));
   double diffuse = LargestChannel(model.diffuse) * M_PI;
@@ -38,8 +40,8 @@ double LobeChance(const Model&, double) {
   return 0;
 }
 
-// What is over the model, as often as it reflects: of a coat its albedo, of a layer its part of it
-// and of what it leaves.
+// The probability of sampling a coat is its albedo, that of a layer the layer's fraction of its
+// albedo plus the light that it leaves for what is below.
 double CoatChance(const ShadingMaterial& material, double n_dot_v) {
   const Rgb left = LeftByCoat(*material.coat, n_dot_v);
   const double coat = 1 - std::min({left.x, left.y, left.z});
@@ -87,7 +89,7 @@ double ModelPdf(const ShadingMaterial& material, const Vec3d& n, const Vec3d& v,
 Vec3d SampleReflection(const ShadingMaterial& material, const Vec3d& normal, const Vec3d& to_view,
                        double u0, double u1) {
   const double n_dot_v = std::clamp(normal ^ to_view, 0.0, 1.0);
-  // What chose a part is used again for a direction of it.
+  // The number that chooses a component is rescaled to [0, 1), and used again for a direction.
   if (material.coat) {
     const double chance = CoatChance(material, n_dot_v);
     if (u0 < chance) {

@@ -32,7 +32,8 @@ PhongLight<float> MakeLight(const PhongFamilyModel& model, const Rgb& color) {
   return light;
 }
 
-// What the model's curve and compensation ask for alone: a batch has few hits of each material.
+// Computes only the products that the model's curve and compensation need: a batch has few hits of
+// each material.
 MicrofacetLight<float> MakeLight(const MicrofacetModel& model, const Rgb& color) {
   MicrofacetLight<float> light;
   const double not_delta = model.delta ? 0 : 1;
@@ -54,14 +55,14 @@ MicrofacetLight<float> MakeLight(const MicrofacetModel& model, const Rgb& color)
   return light;
 }
 
-// Of hits with constants of their own; else `textures` is null.
+// The maps of a run of hits.
 struct RunMaps {
-  const HitTextures* textures = nullptr;
-  bool widths = false;  // ShadingMaterial::mapped_width
+  const HitTextures* textures = nullptr;  // null unless hits have constants of their own
+  bool widths = false;                    // ShadingMaterial::mapped_width
 };
 
-// By the kernel of a model, whose constants, and `light` times its colours, are all hits' or each
-// hit's.
+// ShadeByModel runs the kernel of a model. `constants`, and `light`, their products with the light,
+// are shared by all hits or belong to each hit.
 template <class Number>
 void ShadeByModel(const MatteModel& model, const MatteConstants<Number>& constants,
                   const MatteLight<Number>& light, const ShadeRange& range, const RunMaps&,
@@ -122,13 +123,13 @@ const MicrofacetConstants<float>& ConstantsOf(const MicrofacetModel& model) {
   return model.constants;
 }
 
-// Hits that share the constants of their material.
+// Shades hits that share the constants of their material.
 template <class Model>
 void Shade(const Model& model, const ShadeRange& range, ShadeScratch* scratch) {
   ShadeByModel(model, ConstantsOf(model), MakeLight(model, range.light.color), range, {}, scratch);
 }
 
-// Hits with constants of their own.
+// Shades hits with constants of their own.
 template <template <class> class Constants, template <class> class Light, class Model>
 void ShadeMapped(const ShadingMaterial& material, const Model& model, const ShadeRange& range,
                  ShadeScratch* scratch, HitTextures* maps) {
@@ -168,11 +169,6 @@ const SharpLobeTerms* FormSharpTerms(const MicrofacetModel& model, const ShadeRa
   return terms;
 }
 
-bool EvaluatedInPlace(const ShadingLight& light) {
-  return light.form == LightForm::kDirectional ||
-         (light.form == LightForm::kInverseSquare && !light.from_spheres.empty());
-}
-
 void PrepareRun(const ShadingMaterial& material, size_t begin, size_t end, Surface* surface,
                 const HitTextures* textures) {
   const auto* microfacet = std::get_if<MicrofacetModel>(&material.model);
@@ -191,7 +187,7 @@ void PrepareRun(const ShadingMaterial& material, size_t begin, size_t end, Surfa
 
 namespace {
 
-// All but the layers.
+// Shades a material without its layers.
 void ShadeModel(const ShadingMaterial& material, const ShadeRange& range, ShadeScratch* scratch,
                 HitTextures* maps) {
   if (!material.mapped_model) {
@@ -217,7 +213,8 @@ void ShadeModel(const ShadingMaterial& material, const ShadeRange& range, ShadeS
       material.model);
 }
 
-// below = below * left + over: what a coat leaves of what is below it, and reflects itself.
+// below = below * left + over: the light from below that a coat transmits (`left` is its
+// transmittance), plus the light that it reflects itself.
 void Cover(const Soa3<float>& left, const Soa3<float>& over, size_t count, Soa3<float>* below) {
   for (size_t i = 0; i < count; ++i) {
     below->x[i] = below->x[i] * left.x[i] + over.x[i];
@@ -251,18 +248,6 @@ void ShadeWithCoat(const ShadingMaterial& material, const HitBatch& hits, const 
   Cover(surface->base, of_coat->diffuse, hits.count, &radiance->diffuse);
   Cover(surface->base, of_coat->specular, hits.count, &radiance->specular);
   Cover(surface->base, of_coat->sum, hits.count, &radiance->sum);
-}
-
-void ClearSoa(size_t count, Soa3<float>* soa) {
-  std::fill_n(soa->x.data(), count, 0.0f);
-  std::fill_n(soa->y.data(), count, 0.0f);
-  std::fill_n(soa->z.data(), count, 0.0f);
-}
-
-void ClearRadiance(size_t count, ReflectedRadiance* radiance) {
-  ClearSoa(count, &radiance->sum);
-  ClearSoa(count, &radiance->diffuse);
-  ClearSoa(count, &radiance->specular);
 }
 
 }  // namespace nacre

@@ -14,9 +14,10 @@ namespace nacre {
 namespace {
 
 // int f(direction) d(direction) over the hemisphere, for an f that is symmetric about the x-z plane
-// and may have a narrow lobe about `peak` in it (x >= 0): polar angles about the peak, out to where
-// circles reach the horizon, and on; panels halve towards both beginnings. Of each circle only what
-// is above the horizon is summed.
+// and may have a narrow lobe about `peak`, which lies in that plane (x >= 0). The integral is over
+// polar angles about the peak, first up to the circle that touches the horizon, then beyond it;
+// panels halve towards the beginning of both intervals. The part of each circle above the horizon
+// is summed.
 template <class Function>
 double IntegrateAround(const Vec3d& peak, const Function& f) {
   const Vec3d across(0, 1, 0);
@@ -24,7 +25,7 @@ double IntegrateAround(const Vec3d& peak, const Function& f) {
   const QuadratureRule& rule = GaussLegendre(32);
   const auto circle = [&](double angle) {
     const double height = std::cos(angle) * peak.z;
-    const double swing = std::sin(angle) * peak.x;  // the circle's lowest point is that much lower
+    const double swing = std::sin(angle) * peak.x;  // height of its centre over its lowest point
     if (height <= -swing) return 0.0;
     const double begin = height < swing ? std::acos(height / swing) : 0;
     double sum = 0;
@@ -45,7 +46,7 @@ Vec3d InPlane(double cosine, double sign) {
   return {sign * std::sqrt((1 - cosine) * (1 + cosine)), 0, cosine};
 }
 
-// Of channel c of the diffuse part, which has no narrow lobe.
+// ReflectedShare of channel c of the diffuse component, which has no narrow lobe.
 double DiffuseShare(const ShadingMaterial& material, ShareOf what, double cosine, int c) {
   const Vec3d normal(0, 0, 1);
   const Vec3d fixed = InPlane(cosine, -1);
@@ -69,7 +70,7 @@ Rgb ShareOfModel(const PhongFamilyModel& model, ShareOf what, double cosine) {
   const Vec3d normal(0, 0, 1);
   const Vec3d fixed = InPlane(cosine, -1);
   const bool blinn = model.model == PhongModel::kBlinnPhong;
-  // f n.l without ks, with its other cosine.
+  // The lobe's f n.l without ks; for kOneLight, f n.v instead.
   const auto lobe = [&](const Vec3d& other) {
     const double value = blinn ? BlinnLobe(ComputeAngles(normal, fixed, other), model.shininess)
                                : PhongLobe(normal, fixed, other, model.shininess);
@@ -82,12 +83,12 @@ Rgb ShareOfModel(const PhongFamilyModel& model, ShareOf what, double cosine) {
   return model.diffuse * M_PI + model.specular * specular;
 }
 
-// What is reflected of the lobe of channel c, compensation included.
+// ReflectedShare of channel c of the lobe, including compensation.
 double LobeShare(const MicrofacetModel& model, ShareOf what, double cosine, int c) {
   const double roughness = std::sqrt(model.alpha);
   const AlbedoFit& fit = model.albedo.lobe;
   const bool turquin = model.compensation == Compensation::kTurquin;
-  // Fresnel's term, compensated as seen from this cosine.
+  // Fresnel's term with Turquin's compensation for this n.v.
   const auto curve_from = [&](double n_dot_v) {
     const double loss = turquin ? AlbedoLoss(fit, n_dot_v) : 0;
     return [&model, c, more = loss / (1 - loss)](double vh, double one_minus_vh) {
@@ -110,7 +111,7 @@ double LobeShare(const MicrofacetModel& model, ShareOf what, double cosine, int 
   return share;
 }
 
-// 2 int (1 - albedo) mu dmu: what the lobe leaves on average.
+// 2 int (1 - albedo) mu dmu: the mean fraction that the lobe leaves for the base.
 double MeanBaseShare(const MicrofacetModel& model, int c) {
   return IntegrateTowardsZero([&](double mu) { return 2 * mu * (1 - CoverAlbedo(model, mu, c)); },
                               20);
@@ -161,7 +162,7 @@ Rgb ShareOfModel(const MicrofacetModel& model, ShareOf what, double cosine) {
   return share;
 }
 
-// As if it were isotropic: it is asked for both halves of the hemisphere, though.
+// The model is treated as isotropic, but evaluated and averaged in both halves of the hemisphere.
 Rgb ShareOfModel(const UserModel& model, ShareOf what, double cosine) {
   ShadingMaterial material;
   material.model = model;
@@ -180,8 +181,8 @@ Rgb ShareOfModel(const UserModel& model, ShareOf what, double cosine) {
   return share;
 }
 
-// With layers over a model that reflects `share`: under them each pair of directions gets its own
-// part of the light.
+// ReflectedShare with layers over a model whose own is `share`. The integral is computed again,
+// because the layers scale each pair of directions differently.
 Rgb ShareWithLayers(const ShadingMaterial& material, const Rgb& share, ShareOf what,
                     double cosine) {
   ShadingMaterial below = material, whole = material;
@@ -195,7 +196,7 @@ Rgb ShareWithLayers(const ShadingMaterial& material, const Rgb& share, ShareOf w
                  : part(Reflect(of, normal, fixed, other))[c] * other.z / fixed.z;
     });
   };
-  double left = 1;  // of a mirror
+  double left = 1;  // the factor for a mirror below the layers
   for (const LayerModel& layer : material.layers) left *= LayerAlbedo(layer, cosine).below;
   Rgb all;
   for (int c = 0; c < 3; ++c) {
@@ -206,8 +207,8 @@ Rgb ShareWithLayers(const ShadingMaterial& material, const Rgb& share, ShareOf w
   return all;
 }
 
-// Of light from one direction, what a coat lets through of what is below, `share` without it: the
-// coat takes its part on the way to the viewer.
+// For kOneLight: the light that the material below a coat reflects, `share` without the coat, and
+// that the coat transmits. The coat attenuates it on the way to the viewer.
 Rgb ShareThroughCoat(const ShadingMaterial& material, const Rgb& share, double cosine) {
   ShadingMaterial below = material;
   below.coat = nullptr;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/share.h: how much light a material reflects in all, in double and by quadrature: what a
-// furnace shows, and what becomes of the light from one direction. 1 is all of it; more is made
-// from nothing.
+// shading/share.h: the fraction of light that a material reflects in total, in double and by
+// quadrature: as seen in a furnace, and for light from one direction. 1 is all of the light; more
+// than 1 violates energy conservation.
 //
-// Both are the same for reciprocal models. Those that are not (the Phong family, Turquin's
-// compensation) reflect otherwise than they look.
+// Both are the same for reciprocal models. They differ for models that are not reciprocal: the
+// Phong family, and Turquin's compensation.
 #pragma once
 
 #include "shading/material.h"
@@ -13,14 +13,14 @@ namespace nacre {
 
 enum class ShareOf : uint8_t {
   kFurnace,   // the radiance seen at this angle under radiance 1 from everywhere
-  kOneLight,  // of light from this angle, all that is reflected
+  kOneLight,  // the fraction of light from this angle that is reflected in all directions
 };
 
-// cosine: n.v of the furnace, n.l of the one light, in (0, 1].
+// `cosine` is n.v for kFurnace and n.l for kOneLight, in (0, 1].
 Rgb ReflectedShare(const ShadingMaterial& material, ShareOf what, double cosine);
 
-// int (r.v)^n n.v dv over the hemisphere of v, for light from this angle: the table phong_albedo's
-// P. By quadrature.
+// int (r.v)^n n.v dv over the hemisphere of v, for light at n.l = `cosine`, by quadrature: P in the
+// table phong_albedo.
 double PhongLobeIntegral(double shininess, double cosine);
 
 }  // namespace nacre

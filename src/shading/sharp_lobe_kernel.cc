@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // shading/sharp_lobe_kernel.cc: the half-vector terms of sharp lobes, in double: float directions
-// are 6e-8 rad coarse, and a highlight 1e-4 rad wide shows it.
+// have a resolution of 6e-8 rad, which is visible in a highlight 1e-4 rad wide.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/sharp_lobe_kernel.cc"
 #include "hwy/foreach_target.h"
@@ -30,8 +30,8 @@ HWY_INLINE void StoreRounded(DoubleTag, DoubleV value, float* to) {
   hn::StoreU(hn::DemoteTo(df, value), df, to);
 }
 
-// Calls form(directions, i) for each packet of the range. Arrays are padded, and what a packet
-// writes past the end of its run is scratch.
+// Calls form(directions, i) for each packet of the range. Arrays are padded, and entries that a
+// packet writes past the end of its run are not used.
 template <class Form>
 HWY_INLINE void ForEachHit(const ShadeRange& range, const Form& form) {
   const DoubleTag d;
@@ -41,7 +41,7 @@ HWY_INLINE void ForEachHit(const ShadeRange& range, const Form& form) {
   const Vec3V<DoubleV> origin{hn::Set(d, from.x), hn::Set(d, from.y), hn::Set(d, from.z)};
   const DoubleV one = hn::Set(d, 1.0);
   const auto offset_at = [&](size_t i) HWY_ATTR {
-    // A direction that was chosen in float is that direction, to the last digit.
+    // A direction that was sampled in float is exact as it is.
     if (light.form == LightForm::kGiven) {
       return PromoteSoa(d, range.on_hits->to_light, i);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/sky_kernel.cc: what skies show along directions, and their irradiance.
+// shading/sky_kernel.cc: the radiance of skies along directions, and their irradiance.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/sky_kernel.cc"
 #include "hwy/foreach_target.h"
@@ -20,7 +20,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
 
-// to[i] = of(from[i]), three channels.
+// to[i] = of(from[i]) for vectors of three.
 template <class Of>
 HWY_INLINE void ForEach(const Soa3<float>& from, size_t count, Soa3<float>* to, const Of& of) {
   for (size_t i = 0; i < count; i += hn::Lanes(D()))
@@ -53,20 +53,20 @@ void EvaluateQuadraticT(const ShadingSky& sky, const Soa3<float>& directions, si
                         Soa3<float>* radiance) {
   const D d;
   ForEach(directions, count, radiance, [&](const Vec3V<V>& l) HWY_ATTR {
-    // Rounding may leave a touch less than 0 where the quadratic has its root.
+    // Rounding may make the value slightly negative where the quadratic has its root.
     const V value = hn::Max(Radiance(d, sky.quadratic, l), hn::Zero(d));
     return Vec3V<V>{value, value, value};
   });
 }
 
-// v turned about +y by the angle of that cosine and sine.
+// v rotated about +y by the angle with this cosine and sine.
 HWY_INLINE Vec3V<V> Turn(const Vec3V<V>& v, double cosine, double sine) {
   const D d;
   const V c = hn::Set(d, static_cast<float>(cosine)), s = hn::Set(d, static_cast<float>(sine));
   return {hn::MulAdd(v.x, c, hn::Mul(v.z, s)), v.y, hn::MulSub(v.z, c, hn::Mul(v.x, s))};
 }
 
-// Radiance, and the pdf of sampling if it is asked for.
+// Stores the radiance and, unless `pdf` is null, the pdf of SampleSky.
 void EvaluatePictureT(const ShadingSky& sky, const Soa3<float>& directions, size_t count,
                       Soa3<float>* radiance, float* pdf) {
   const D d;

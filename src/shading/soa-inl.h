@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/soa-inl.h: vectors of three out of the arrays of a batch, and into them.
+// shading/soa-inl.h: loads and stores Vec3V from and to the arrays of a batch.
 #if defined(NACRE_SHADING_SOA_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_SHADING_SOA_INL_H_
 #undef NACRE_SHADING_SOA_INL_H_
@@ -15,7 +15,7 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Entries i... of a vector's worth, which may reach past the batch: arrays are padded.
+// Loads entries i... of a whole vector, which may extend past the batch: arrays are padded.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Vec3V<V> LoadSoa(D d, const Soa3<hn::TFromD<D>>& soa, size_t i) {
   return LoadU3(d, soa.x.data() + i, soa.y.data() + i, soa.z.data() + i);
@@ -28,7 +28,7 @@ HWY_INLINE void StoreSoa(D d, const Vec3V<V>& v, size_t i, Soa3<hn::TFromD<D>>* 
   hn::StoreU(v.z, d, to->z.data() + i);
 }
 
-// In the lanes of `mask` only.
+// Stores the lanes of `mask` only.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE void BlendedStoreSoa(D d, const Vec3V<V>& v, hn::Mask<D> mask, size_t i,
                                 Soa3<hn::TFromD<D>>* to) {
@@ -37,7 +37,7 @@ HWY_INLINE void BlendedStoreSoa(D d, const Vec3V<V>& v, hn::Mask<D> mask, size_t
   hn::BlendedStore(v.z, mask, d, to->z.data() + i);
 }
 
-// Floats as vectors of doubles.
+// Loads floats as a vector of doubles.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V PromoteAt(D d, const AlignedArray<float>& from, size_t i) {
   return hn::PromoteTo(d, hn::LoadU(hn::Rebind<float, D>(), from.data() + i));

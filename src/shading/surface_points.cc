@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/surface_points.cc: where hits lie on their shapes: what mappings take, and the triangles
-// behind hits on meshes.
+// shading/surface_points.cc: where hits lie on their shapes: the input of mappings, and data of the
+// triangles that were hit on meshes.
 #include <algorithm>
 #include <cmath>
 
@@ -13,10 +13,10 @@ namespace {
 // A triangle, relative to its first corner.
 struct Corners {
   const Mesh* mesh;
-  size_t mesh_number;  // in the scene
-  size_t first;        // the place of its first corner in Mesh::triangles
+  size_t mesh_number;  // index in the scene
+  size_t first;        // index of the first corner in Mesh::triangles
   uint32_t index[3];
-  Vec3d a, e1, e2;  // a: in the world
+  Vec3d a, e1, e2;  // the first corner, in world space, and the edges from it
 };
 
 Corners CornersOf(const TextureScene& scene, uint32_t primitive) {
@@ -32,7 +32,7 @@ Corners CornersOf(const TextureScene& scene, uint32_t primitive) {
   return corners;
 }
 
-// The gradients of the barycentric coordinates: dual to the edges, in their plane.
+// The gradients of the barycentric coordinates: the dual basis of the edges, in their plane.
 struct Gradients {
   Vec3d of_b1, of_b2;
 };
@@ -50,7 +50,7 @@ void FindPoints(const TexturedRun& run, const HitBatch& hits, HitTextures* textu
   const Scene& scene = *run.scene.scene;
   const auto sphere_count = static_cast<uint32_t>(scene.spheres.size());
   t.any_mesh = false;
-  uint32_t last = kNoPrimitive;  // of spheres: neighbours lie on the same one
+  uint32_t last = kNoPrimitive;  // the last sphere: neighbouring hits are mostly on the same one
   Vec3d center(0, 0, 0);
   double inverse_radius = 1;
   for (size_t i = run.begin; i < run.end; ++i) {
@@ -124,14 +124,14 @@ bool FindTangents(const TexturedRun& run, const PreparedTexture& texture, const 
     const bool smooth = HasSmoothNormals(*corners.mesh);
     Vec3d normal = smooth ? Vec3d(0) : corners.e1.cross(corners.e2).normalized();
     Vec3d tangent(0);
-    double sign = 0;  // the same at all corners, unless a file has it otherwise
+    double sign = 0;  // the signs are equal at all corners, unless a file says otherwise
     for (size_t k = 0; k < 3; ++k) {
       const Tangent& corner = made.tangents[made.corners[corners.first + k]];
       tangent += corner.direction * weights[k];
       sign += corner.sign * weights[k];
       if (smooth) normal += corners.mesh->normals[corners.index[k]] * weights[k];
     }
-    // Seen from behind the frame is the one in front, mirrored at the point.
+    // Seen from behind, the frame is that of the front, mirrored at the point.
     const double side = normal.dot(VectorAt(hits.normal, i)) < 0 ? -1 : 1;
     SetVector(tangent * side, i, &t.tangent);
     SetVector(normal.cross(tangent) * (sign < 0 ? -side : side), i, &t.bitangent);

@@ -22,8 +22,8 @@ bool SameCoordinates(const Texture& a, const Texture& b) {
   return key(a) == key(b);
 }
 
-// The tangents of each normal map on each mesh. Textures that rotate coordinates alike share them,
-// however they scale them.
+// Prepares the tangents of each normal map on each mesh. Textures that rotate coordinates by the
+// same angle share them, however they scale coordinates.
 void PrepareTangents(int threads, KeptTables* kept, TextureScene* prepared) {
   const Scene& scene = *prepared->scene;
   struct Made {
@@ -31,7 +31,7 @@ void PrepareTangents(int threads, KeptTables* kept, TextureScene* prepared) {
     UvRows rows;
     uint32_t index;
   };
-  std::vector<Made> made;  // of one mesh
+  std::vector<Made> made;  // the tangents made for the current mesh
   const auto prepare_map = [&](TextureId map, size_t number) {
     if (!map.valid() || scene.textures[map.index].mapping != MappingKind::kUv) return;
     const Mesh& mesh = scene.meshes[number];
@@ -82,7 +82,7 @@ void PrepareTangents(int threads, KeptTables* kept, TextureScene* prepared) {
   }
 }
 
-// Coordinates made last; kNone before any.
+// The value of RunTexturer::made_ before any coordinates are made.
 constexpr size_t kNone = static_cast<size_t>(-1);
 
 class RunTexturer {
@@ -194,7 +194,8 @@ class RunTexturer {
 
 TextureScene PrepareTextures(const Scene& scene, const CameraFrame& camera, double footprint,
                              int threads, KeptTables* kept) {
-  // Those that no plan uses any more, as of a rotation that a slider has passed.
+  // Drops tangents that no plan uses any more, such as those of a rotation that a slider has
+  // passed.
   std::erase_if(kept->tangents,
                 [](const KeptTangents& entry) { return entry.tangents.use_count() == 1; });
   TextureScene prepared;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/turn_kernel.cc: shading normals turned by normal maps and by the slopes of bump maps.
+// shading/turn_kernel.cc: applies normal maps and the slopes of bump maps to shading normals.
 #include "shading/texture_kernels.h"
+#include "shading/textures.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/turn_kernel.cc"
@@ -25,7 +26,7 @@ HWY_INLINE Vec3V<V> Normalized(const Vec3V<V>& v) {
   return Scale(v, hn::Div(hn::Set(D(), 1.0), hn::Sqrt(FusedDot(v, v))));
 }
 
-// v less its part along the unit normal n.
+// v minus its component along the unit normal n.
 HWY_INLINE Vec3V<V> Across(const Vec3V<V>& v, const Vec3V<V>& n) {
   return Sub(v, Scale(n, FusedDot(v, n)));
 }
@@ -34,9 +35,9 @@ HWY_INLINE hn::Mask<D> IsSound(const Vec3V<V>& v) {
   return hn::And(hn::IsFinite(v.x), hn::And(hn::IsFinite(v.y), hn::IsFinite(v.z)));
 }
 
-// Stores a normal-mapped normal in the lanes of `mask`. One that leans below the surface is
-// mirrored at it, as the viewer sees the upper side only; then it is bent to where reflection
-// models can use it.
+// Stores a normal-mapped normal in the lanes of `mask`. A normal that points below the surface is
+// first mirrored at it, because the viewer sees the upper side only; then BendNormal bends it to
+// where reflection models can use it.
 HWY_INLINE void StoreNormal(const Vec3V<V>& turned, const Vec3V<V>& unturned, hn::Mask<D> mask,
                             size_t i, HitBatch* hits, Surface* surface) {
   const D d;
@@ -56,7 +57,7 @@ HWY_INLINE void StoreNormal(const Vec3V<V>& turned, const Vec3V<V>& unturned, hn
   store(normal.z, &hits->normal.z, &surface->normal.z);
 }
 
-// What the components of a normal map are multiplied by.
+// The vectors by which the components of a normal map are multiplied.
 struct Frame {
   Vec3V<V> tangent, bitangent, normal;
 };
@@ -76,7 +77,7 @@ HWY_INLINE Frame FrameOfGradients(const HitTextures& t, size_t i, const Vec3V<V>
   return {Scale(tangent, side), Scale(FusedCross(n, tangent), hn::Mul(hand, side)), n};
 }
 
-// Where there is one, the frame that was interpolated between a mesh's corners.
+// The frame that was interpolated between a mesh's corners, or `otherwise` where there is none.
 HWY_INLINE Frame FrameOfCorners(const HitTextures& t, size_t i, const Frame& otherwise) {
   const D d;
   const V length = hn::LoadU(d, t.normal_length.data() + i);
@@ -104,7 +105,8 @@ void TurnNormalsT(const TexturedRun& run, float middle, float scale, bool frames
     const V z = component(t.texels.z);
     const Vec3V<V> turned = Normalized(
         Add(Add(Scale(frame.tangent, x), Scale(frame.bitangent, y)), Scale(frame.normal, z)));
-    // A level map leaves every bit as it is; so do one of length 0, and a place without tangents.
+    // The normal is left bit for bit where the map is level, where its vector has length 0, and
+    // where there are no tangents.
     const auto level = hn::And(hn::And(hn::Eq(x, zero), hn::Eq(y, zero)), hn::Gt(z, zero));
     const auto sound = IsSound(turned);
     const auto mask = hn::And(hn::AndNot(level, sound), hn::FirstN(d, run.end - i));
@@ -112,14 +114,14 @@ void TurnNormalsT(const TexturedRun& run, float middle, float scale, bool frames
   }
 }
 
-// Blinn 1978: the surface P + h n has, but for h times the curvature, the normal n - grad h.
+// Blinn 1978: the surface P + h n has the normal n - grad h, up to h times the curvature.
 void TurnNormalsBySlopesT(const TexturedRun& run, double distance, const HitTextures& t,
                           HitBatch* hits, Surface* surface) {
   const D d;
   const V zero = hn::Zero(d);
   for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
     const Vec3V<V> n = LoadSoa(d, hits->normal, i), unturned = LoadSoa(d, t.unturned, i);
-    // Heights are outwards, seen from wherever.
+    // Heights point outwards, from whichever side the surface is seen.
     const V scale = hn::Mul(hn::LoadU(d, t.side.data() + i), hn::Set(d, distance));
     const V slope_u = hn::Mul(PromoteAt(d, t.texels.x, i), scale);
     const V slope_v = hn::Mul(PromoteAt(d, t.texels.y, i), scale);

@@ -28,7 +28,7 @@ std::string InWords(const Vec3d& v) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z);
 }
 
-// The directions of sample i of a batch, for an error.
+// Describes the directions of sample i of a batch, for an error message.
 std::string Describe(const UserBrdf::Batch& batch, size_t i) {
   const auto at = [&](const UserBrdf::Vectors& v) {
     return v[0] == nullptr ? std::string("to be chosen") : InWords({v[0][i], v[1][i], v[2][i]});
@@ -65,7 +65,7 @@ void Sample(const UserBrdf& brdf, const UserBrdf::Batch& batch, const double* u,
     const DefaultFloatMode mode;
     brdf.sample(batch, u, v, to_light);
   }
-  // As for the directions that Brdf takes.
+  // The same tolerance as for the directions that Brdf takes.
   constexpr double kTolerance = 16 * 0x1p-24;
   for (size_t i = 0; i < batch.count; ++i) {
     const Vec3d at(to_light[0][i], to_light[1][i], to_light[2][i]);
@@ -86,7 +86,7 @@ void Pdf(const UserBrdf& brdf, const UserBrdf::Batch& batch, double* pdf) {
   }
 }
 
-// Hits in the caller's arrays, without gaps.
+// Hits gathered into arrays without gaps, for the caller's functions.
 class Gathered {
  public:
   explicit Gathered(std::unique_ptr<UserRoom>* room) {
@@ -107,7 +107,7 @@ class Gathered {
     return {count_, VectorsOf(room_->normal), VectorsOf(room_->to_view), {}};
   }
 
-  // Leaves out what is below the surface.
+  // Adds a hit, unless light or viewer is below the surface.
   void Add(size_t hit, const Vec3d& normal, const Vec3d& to_view, const Vec3d& to_light) {
     const double n_dot_l = normal.dot(to_light);
     if (!(n_dot_l > 0) || !(normal.dot(to_view) > 0)) return;
@@ -126,7 +126,7 @@ class Gathered {
   size_t count_ = 0;
 };
 
-// Where the light of hit i is, exactly: as sharp_lobe_kernel.cc has it.
+// The exact direction to the light from hit i, computed as in sharp_lobe_kernel.cc.
 Vec3d ToLight(const ShadeRange& range, size_t i) {
   const ShadingLight& from = range.light;
   if (from.form == LightForm::kDirectional) return from.to_light;
@@ -241,7 +241,8 @@ double UserPdf(const UserModel& model, const Vec3d& normal, const Vec3d& to_view
 }
 
 double UserLobeWidth(const UserModel& model) {
-  // The half vector turns across the plane of incidence, where the light stays above the surface.
+  // The half vector is tilted perpendicular to the plane of incidence, so that the light stays
+  // above the surface.
   constexpr size_t kAngles = 48;
   constexpr double kLargest = 0.5;
   double angle[kAngles] = {};  // the first is 0

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kDark = -std::numeric_limits<double>::infinity();
 
-// A place where both lobes are compared: its weight, Phong's value, and the logarithm of Blinn's
-// cosine, -infinity where the lobe is 0.
+// A sample at which both lobes are compared: its weight, Phong's value, and the logarithm of
+// Blinn's cosine, -infinity where the lobe is 0.
 struct Node {
   double weight, phong, log_blinn;
 };
@@ -24,8 +24,8 @@ double BlinnAt(const Node& node, double exponent) {
   return node.log_blinn == kDark ? 0 : std::exp(exponent * node.log_blinn);
 }
 
-// Where the derivative of the squares' sum is 0: that of (phong - c^m)^2 by m is
-// -2 (phong - c^m) c^m log(c).
+// Minimises the sum of squares by finding the zero of its derivative; that of (phong - c^m)^2 with
+// respect to m is -2 (phong - c^m) c^m log(c).
 BlinnMatch Fit(const std::vector<Node>& nodes, double n) {
   const auto slope = [&](double exponent) {
     double sum = 0;
@@ -36,8 +36,8 @@ BlinnMatch Fit(const std::vector<Node>& nodes, double n) {
     }
     return sum;
   };
-  // Blinn's lobe is too wide at the lower end, too narrow at the upper one. Between them by false
-  // position; the end that stays twice counts half (Dowell and Jarratt 1971).
+  // Blinn's lobe is too wide at the lower end and too narrow at the upper one. The zero between is
+  // found by false position, where a retained end is halved (Dowell and Jarratt 1971).
   double low = n;
   double high = 6 * n;
   double slope_low = slope(low);
@@ -72,7 +72,7 @@ Node MakeNode(double weight, const Vec3d& normal, const Vec3d& to_light, const V
   return {weight, PhongLobe(normal, to_light, to_view, n), blinn > 0 ? std::log(blinn) : kDark};
 }
 
-// Gauss-Legendre nodes of [0, 1] in equal panels.
+// Gauss-Legendre nodes in [0, 1], in equal panels.
 QuadratureRule Panels(int panels) {
   const QuadratureRule& rule = GaussLegendre(16);
   QuadratureRule all;
@@ -93,7 +93,7 @@ BlinnMatch MatchInPlane(double n) {
   std::vector<Node> nodes;
   const QuadratureRule rule = Panels(64);
   for (size_t i = 0; i < rule.x.size(); ++i) {
-    const double angle = rule.x[i] * M_PI / 2;  // of the viewer from the mirror direction
+    const double angle = rule.x[i] * M_PI / 2;  // between viewer and mirror direction
     nodes.push_back({rule.w[i], std::pow(std::cos(angle), n), std::log(std::cos(angle / 2))});
   }
   return Fit(nodes, n);
@@ -110,7 +110,8 @@ BlinnMatch MatchOnSphere(double n, const Vec3d& to_light) {
   std::vector<Node> nodes;
   const QuadratureRule rule = Panels(24);
   for (size_t i = 0; i < rule.x.size(); ++i) {
-    // Of the disc: r dr. In sines the rim, where normals turn fast, has as many nodes as the rest.
+    // The area of the disc is r dr. With r = sin(polar), the rim, where normals vary fast, has as
+    // many nodes as the rest.
     const double polar = rule.x[i] * M_PI / 2;
     const double radius = std::sin(polar);
     const double weight = rule.w[i] * radius * std::cos(polar) / kAzimuths;

@@ -8,9 +8,9 @@
 namespace nacre {
 namespace {
 
-constexpr int kSlicePoints = 180;       // along each axis, at the middles of half degrees
-constexpr double kGrazingCosine = 0.1;  // light and viewer 84 degrees from the normal
-constexpr double kDecades = 1e4;        // of the scale at most, as the heat maps of errors have
+constexpr int kSlicePoints = 180;       // along each axis, centred in half degrees
+constexpr double kGrazingCosine = 0.1;  // a direction 84 degrees from the normal
+constexpr double kDecades = 1e4;        // maximum of the scale, as in heat maps of errors
 
 Field FieldOf(const ShadingMaterial& material, ColorChannel channel) {
   Field field;
@@ -33,8 +33,9 @@ Field FieldOf(const ShadingMaterial& material, ColorChannel channel) {
   return field;
 }
 
-// Powers of ten around all values but those of grazing light, kDecades apart at most: BRDFs grow
-// there as 1 / n.l, whatever the model, and would leave no colours for the rest.
+// Sets the scale to powers of ten around all values except those for grazing light, at most
+// kDecades apart: for grazing light, BRDFs grow as 1 / n.l in any model, and would leave no colours
+// for the rest.
 void SetScale(std::vector<Plot>* plots) {
   double high = 0;
   double low = std::numeric_limits<double>::infinity();
@@ -51,7 +52,7 @@ void SetScale(std::vector<Plot>* plots) {
   if (high == 0) high = low = 1;  // all black
   high = std::pow(10, std::ceil(std::log10(high)));
   low = std::pow(10, std::floor(std::log10(low)));
-  // One decade at least: a scale has two ends.
+  // At least one decade, since a scale has two different ends.
   low = std::clamp(low, high / kDecades, high / 10);
   for (Plot& plot : *plots) {
     plot.field->low = low;

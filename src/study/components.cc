@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// study/components.cc: exercise 1: what the exponent does to each of Phong's components.
+// study/components.cc: exercise 1: the effect of the exponent on each of Phong's components.
 #include <algorithm>
 #include <cmath>
 
@@ -64,7 +64,7 @@ double SumError(const Image& image) {
   return largest;
 }
 
-// Of the sphere's pixels, how many have a highlight of at least half its peak, ks.
+// The fraction of the sphere's pixels whose highlight is at least half its peak, ks.
 double HighlightShare(const Image& image) {
   size_t sphere = 0;
   size_t bright = 0;

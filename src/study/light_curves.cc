@@ -20,7 +20,7 @@ double FalloffOf(const Attenuation& a, double distance) {
   return AttenuationFactor(AttenuationTerms<double>{a.constant, a.linear, a.quadratic}, distance);
 }
 
-// From the shaded point the light's centre is at distance times `up`, and the light faces down.
+// The light's centre is at distance times kUp from the shaded point, and the light faces down.
 const Vec3d kUp(0, 0, 1);
 
 double IrradianceOf(const SphereAreaLight& light, double distance) {
@@ -46,7 +46,7 @@ std::optional<double> IrradianceAt(const Light& light, double distance) {
                  [&](const PointLight& point) -> Result {
                    return Luminance(point.intensity) * FalloffOf(point.attenuation, distance);
                  },
-                 // Along the axis the cone's factor is 1.
+                 // On the axis, the cone's factor is 1.
                  [&](const SpotLight& spot) -> Result {
                    return Luminance(spot.intensity) * FalloffOf(spot.attenuation, distance);
                  },
@@ -61,7 +61,7 @@ std::optional<double> IrradianceAt(const Light& light, double distance) {
                    return Luminance(disk.radiance) * IrradianceOf(disk, distance);
                  },
                  [](const AmbientLight&) -> Result { return std::nullopt; },
-                 // Triangles have no axis to move away along.
+                 // Triangle meshes have no axis along which to measure distance.
                  [](const MeshAreaLight&) -> Result { return std::nullopt; },
                  [](const EnvironmentLight&) -> Result { return std::nullopt; }},
       light.kind);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// study/light_curves.h: lights over distance, and tone operators, as curves.
+// study/light_curves.h: curves of light fall-off and of tone operators.
 #pragma once
 
 #include <optional>
@@ -9,18 +9,18 @@
 
 namespace nacre {
 
-// The irradiance, as a luminance, of a surface that faces the light, at this distance from its
-// position or centre along its axis. Nothing inside a sphere light, and for lights that are all
-// around.
+// The irradiance, as a luminance, on a surface that faces the light, at this distance from its
+// position or centre along its axis. nullopt inside a sphere light, and for lights all around or
+// without an axis.
 std::optional<double> IrradianceAt(const Light& light, double distance);
 
-// Lights that IrradianceAt knows.
+// Whether IrradianceAt supports the light.
 bool HasFalloff(const Light& light);
 
-// Irradiance over distance, both logarithmic.
+// Irradiance over distance, with logarithmic axes.
 Plot FalloffPlot(const std::vector<Light>& lights);
 
-// What a display shows (encoded, 1 is white) over the radiance of a grey, for every operator.
+// The displayed value (encoded, 1 is white) over the radiance of a grey, for each operator.
 Plot TonePlot(double exposure_ev);
 
 }  // namespace nacre

@@ -16,8 +16,8 @@ namespace {
 constexpr int kLobePoints = 481;
 constexpr double kLastDegree = 89.9;  // degrees: at 90 there is no light
 
-// How far from the mirror direction curves are drawn. The light turns twice as fast as the half
-// vector, and at eight times alpha GGX has fallen to 1/4000 of its peak.
+// The range of angles around the mirror direction in degrees. The light turns twice as fast as the
+// half vector, and at eight times alpha, GGX has fallen to 1/4000 of its peak.
 double HalfRange(const Material& first) {
   return std::max(2 * 8 * LobeAlpha(first) * 180 / M_PI, 0.1);
 }
@@ -61,7 +61,7 @@ Figure LobeFigure(const std::vector<NamedLobe>& lobes) {
       const std::vector<double>& y = plot.curves.back().y;
       largest = std::max(largest, *std::max_element(y.begin(), y.end()));
     }
-    if (largest > 0) plot.y.high = 1.5 * largest;  // the key has room above the lobes
+    if (largest > 0) plot.y.high = 1.5 * largest;  // leaves room for the legend above the lobes
     plot.rules.push_back({Rule::Across::kX, view_deg, "mirror"});
     figure.panels.push_back(std::move(plot));
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// study/lobe_curves.h: a lobe and those that stand in for it, drawn over one another.
+// study/lobe_curves.h: plots a lobe together with its approximations.
 #pragma once
 
 #include <string>
@@ -15,9 +15,9 @@ struct NamedLobe {
   Material material;
 };
 
-// The specular lobes in the plane of incidence, a panel for each of kResidualViewsDeg: what the
-// viewer sees of light of each angle, in luminance. The first lobe's width chooses the angles, out
-// to where it has fallen to little.
+// The specular lobes in the plane of incidence, a panel for each of kResidualViewsDeg: the
+// luminance that the viewer sees for light from each angle. The range of angles is chosen by the
+// first lobe's width, so that it falls off almost completely.
 Figure LobeFigure(const std::vector<NamedLobe>& lobes);
 
 }  // namespace nacre

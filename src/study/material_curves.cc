@@ -38,7 +38,7 @@ const MicrofacetModel* MicrofacetOf(const ShadingMaterial& material) {
   return std::get_if<MicrofacetModel>(&material.model);
 }
 
-// Curves of a material by the scalar twins and, if asked for, by the kernel.
+// Adds curves of a material computed by the scalar twins and, if requested, by the SIMD kernel.
 template <class Value>
 void AddReflectionCurves(const NamedMaterial& named, const std::string& suffix,
                          const std::vector<double>& angles, const CurveOptions& options,
@@ -47,7 +47,7 @@ void AddReflectionCurves(const NamedMaterial& named, const std::string& suffix,
                                    [&](double degrees) { return value(Reflect, degrees); }));
   if (!options.kernel) return;
   const FlushDenormals flush;
-  // Marks are few, or they would hide the curve.
+  // Only a few marks, which do not hide the curve.
   std::vector<double> some;
   for (size_t i = 0; i < angles.size(); i += 12) some.push_back(angles[i]);
   Curve curve = MakeCurve(named.label + suffix + ", SIMD kernel", some,
@@ -141,13 +141,13 @@ Plot DistributionPlot(const std::vector<NamedMaterial>& materials) {
   for (const NamedMaterial& named : materials) {
     if (!HasDistribution(named.material)) continue;
     plot.curves.push_back(MakeCurve(named.label, Steps(0, 90, 0.125), [&](double degrees) {
-      // Light and viewer in the half vector's own direction.
+      // Light and viewer are both along the half vector.
       const Vec3d half = DirectionAt(degrees);
       const Angles<double> a = ComputeAngles(kNormal, half, half);
       if (const MicrofacetModel* const model = MicrofacetOf(named.material)) {
         return GgxDistribution(a, model->alpha);
       }
-      // int D n.h dh = 1 for (n + 2) / 2 pi times the lobe.
+      // (n + 2) / 2 pi times the lobe is normalised: int D n.h dh = 1.
       const auto& phong = std::get<PhongFamilyModel>(named.material.model);
       return PhongNormalization(phong.shininess) * BlinnLobe(a, phong.shininess);
     }));

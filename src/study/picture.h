@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// study/picture.h: small scenes, rendered and put together on sheets.
+// study/picture.h: renders small scenes and arranges them on sheets.
 #pragma once
 
 #include <string>
@@ -13,21 +13,21 @@
 
 namespace nacre {
 
-// A sphere of radius 1 at the origin, seen from +z by parallel rays in a square of `height` world
-// units and `pixels` pixels. With the material, which may be replaced; without lights.
+// A sphere of radius 1 at the origin with this material, seen from +z by parallel rays in a square
+// of `height` world units and `pixels` pixels. The scene has no lights.
 Scene SphereScene(const Material& material, int pixels, double height = 2.2);
 
-// Light from far away, towards `to_light`.
+// A directional light; `to_light` points towards it.
 Light SunTowards(const Vec3d& to_light, const Rgb& irradiance);
 
-// The whole picture with these layers.
+// Renders the whole picture with these layers.
 Image RenderLayers(const Scene& scene, const std::vector<std::string>& layers = {});
 
-// The colour or layer `layer` ("": the beauty) as a display shows it. kNone clips at 1.
+// Shows the beauty ("") or another layer as on a display. kNone clips at 1.
 Rgb8Picture ShowLayer(const Image& image, const std::string& layer,
                       const DisplaySettings& display = {.tone = ToneOperator::kNone});
 
-// Panes of equal size in rows, with words above the columns and left of the rows (either may be
+// Panes of equal size in rows, with labels above the columns and left of the rows (either may be
 // empty).
 struct PaneSheet {
   std::vector<Rgb8Picture> panes;  // row by row

@@ -10,7 +10,7 @@ namespace nacre {
 
 Reflection ReflectByKernel(const ShadingMaterial& material, const Vec3d& normal,
                            const Vec3d& to_light, const Vec3d& to_view) {
-  // Batches are a hundred kilobytes each: not for the stack.
+  // Batches are a hundred kilobytes each, too large for the stack.
   struct Batches {
     HitBatch hits;
     Surface surface;

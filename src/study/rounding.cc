@@ -14,7 +14,8 @@ namespace {
 
 using Long3 = Imath::Vec3<long double>;
 
-// By the distance of the centre from the line, with one correction: 64 bits are truth to 1e-12 rad.
+// Computed from the distance of the centre to the line, with one correction step. With 64-bit
+// mantissas it is accurate to 1e-12 rad.
 std::optional<Vec3d> TrueNormal(const Long3& center, const Long3& direction) {
   const long double dd = direction.dot(direction);
   const long double closest = center.dot(direction) / dd;
@@ -50,7 +51,8 @@ double AngleBetween(const Vec3d& a, const Vec3d& b) { return 2 * std::asin((a - 
 const Vec3d kToView(0, 0, 1);
 const Vec3d kToLight = Vec3d(0.7, 0.2, 0.6).normalized();
 
-// D V n.l with D's denominator as in textbooks; masking in double, which is not at issue.
+// D V n.l with the textbook form of D's denominator. Masking is in double, as it is not tested
+// here.
 template <typename Real>
 double TextbookGgx(const Vec3d& normal, double alpha) {
   using Vec = Imath::Vec3<Real>;
@@ -88,7 +90,7 @@ HitError MeasureHits(HitForm form, double distance) {
   int hits = 0;
   double squares = 0;
   for (int i = 0; i < kSide * kSide; ++i) {
-    // Off any symmetry, out to 1.01 radii.
+    // Avoids any symmetry, and covers 1.01 radii.
     const double x = 2.02 * ((i % kSide) + 0.37) / kSide - 1.01;
     const double y = 2.02 * ((i / kSide) + 0.61) / kSide - 1.01;
     const Vec3d direction = center + right * x + up * y;

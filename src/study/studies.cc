@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// study/studies.cc: the list of the studies, with what each is asked.
+// study/studies.cc: the list of the studies, with their questions.
 #include "study/study.h"
 
 namespace nacre {

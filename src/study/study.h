@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// study/study.h: studies: what the founding lesson's exercises ask, answered by pictures, curves
-// and numbers that are computed when they are asked for.
+// study/study.h: studies: answers to the exercises of the founding lesson, as pictures, curves and
+// numbers that are computed on demand.
 //
-// A study returns what it found; nothing is written or printed here.
+// A study returns its results; it neither writes nor prints.
 #pragma once
 
 #include <cstdint>
@@ -31,27 +31,27 @@ struct StudyFigure {
 struct StudyNumber {
   std::string quantity;
   double value = 0;
-  std::string unit;  // empty: a pure number
+  std::string unit;  // empty: dimensionless
 };
 
 struct StudyResult {
   std::vector<StudyPicture> pictures;
   std::vector<StudyFigure> figures;
   std::vector<StudyNumber> numbers;
-  std::string answer;  // Markdown, paragraphs of sentences with the numbers in them
+  std::string answer;  // Markdown: paragraphs with the numbers in them
 };
 
-// Told the share done now and then; throwing from it ends the study.
+// Called now and then with the finished fraction. It may throw to end the study.
 using StudyProgress = std::function<void(double)>;
 
 struct StudyEntry {
   const char* name;
   const char* title;
-  const char* question;  // the exercise
+  const char* question;  // the text of the exercise
   StudyResult (*run)(const StudyProgress& progress);
 };
 
-// All of them, in the order of the lesson.
+// All studies, in the order of the lesson.
 std::span<const StudyEntry> Studies();
 
 StudyResult StudyComponents(const StudyProgress& progress);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// study/study_blinn_exponent.cc: exercise 2: the exponent that makes Blinn's highlight Phong's.
+// study/study_blinn_exponent.cc: exercise 2: the exponent that makes Blinn's highlight like
+// Phong's.
 #include <cmath>
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// study/study_energy.cc: exercise 6: who makes light, who loses it, and what brings it back.
+// study/study_energy.cc: exercise 6: which models create energy, which lose it, and what restores
+// it.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -12,7 +13,7 @@
 namespace nacre {
 namespace {
 
-constexpr double kKd = 0.8, kKs = 0.5;  // the exercise's
+constexpr double kKd = 0.8, kKs = 0.5;  // from the exercise
 
 Plot PhongPlot() {
   Plot plot;
@@ -120,7 +121,7 @@ StudyPicture Furnace(const StudyProgress& progress) {
                           sheet);
 }
 
-// The largest |share - 1| of white surfaces in the furnace.
+// The largest |reflected fraction - 1| of white surfaces in the furnace.
 double WorstFurnaceError(double metallic, Compensation compensation) {
   double worst = 0;
   for (const double roughness : {0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 1.0}) {
@@ -134,14 +135,14 @@ double WorstFurnaceError(double metallic, Compensation compensation) {
   return worst;
 }
 
-// Of what the answer speaks.
+// The numbers that the answer mentions.
 struct Shares {
-  double literal, over_pi, grazing, normalised;  // Phong's
-  double rough;                                  // of a white metal of roughness 1, on average
-  double coupled;                                // of a dielectric whose base gets 1 - F(v.h)
-  double half_coupled;                           // of a half metal of that kind
+  double literal, over_pi, grazing, normalised;  // for Phong
+  double rough;                                  // a white metal of roughness 1, averaged
+  double coupled;                                // a dielectric whose base gets 1 - F(v.h)
+  double half_coupled;                           // a half metal whose base gets 1 - F(v.h)
   double turquin, kulla, dielectric, half;       // errors in the furnace
-  double one_light, one_light_kulla;             // of a dielectric, of light from n.l = 0.02
+  double one_light, one_light_kulla;             // a dielectric, under light from n.l = 0.02
 };
 
 Shares Measure() {

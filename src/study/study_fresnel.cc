@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// study/study_fresnel.cc: exercise 5: Schlick's curve, the exact one, and where half is reflected.
+// study/study_fresnel.cc: exercise 5: Schlick's curve, the exact one, and the angles at which half
+// is reflected.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -49,7 +50,7 @@ Plot CurvePlot(bool degrees) {
   return plot;
 }
 
-// A mirror under radiance 1 from everywhere shows its reflectance.
+// A mirror under a uniform radiance of 1, so that it shows its reflectance.
 Rgb8Picture MirrorPane(const Material& material) {
   Scene scene = SphereScene(material, 240);
   Light light;
@@ -82,7 +83,7 @@ StudyPicture Mirrors() {
       sheet);
 }
 
-// The worst error of Schlick's curve, of each preset's green.
+// A table of the largest errors of Schlick's curve, for each preset's green.
 std::string GapTable(StudyResult* result) {
   std::string table =
       "| interface | F0 | largest error of Schlick's curve | at |\n|---|---|---|---|\n";

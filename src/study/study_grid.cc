@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// study/study_grid.cc: exercise 4: roughness and metallic to both ends, under a lamp and a sky.
+// study/study_grid.cc: exercise 4: roughness and metallic over their range, under a lamp and a sky.
 #include <algorithm>
 #include <cmath>
 
@@ -22,7 +22,7 @@ MetallicRoughnessMaterial GoldOf(double roughness, double metallic) {
 Light Sky() {
   Light light;
   light.name = "sky";
-  light.shadows = false;  // spheres do not hide the sky from each other: they are one by one
+  light.shadows = false;  // spheres do not hide the sky from each other, as if each were alone
   light.kind = EnvironmentLight{.sky = GradientSky{.zenith = Rgb(0.25, 0.45, 0.9),
                                                    .horizon = Rgb(1.1, 1.05, 1),
                                                    .ground = Rgb(0.12, 0.09, 0.07)},
@@ -30,7 +30,7 @@ Light Sky() {
   return light;
 }
 
-// Five by five, from roughness 0 at the top.
+// Five by five spheres, with roughness 0 at the top.
 Scene GridScene() {
   Grid grid;
   Material gold;
@@ -66,8 +66,8 @@ double SmoothMetalPeak(const Light& light) {
   return double{*std::max_element(specular.begin(), specular.end())};
 }
 
-// How far the smooth metal is from the sky's radiance in the mirror direction times Fresnel's
-// term, over all pixels of one sample each.
+// The largest relative difference between a smooth white metal and its expected radiance, that of
+// the sky in the mirror direction, over all pixels, with one sample each.
 double MirrorError() {
   constexpr int kPixels = 128;
   Material material;
@@ -83,7 +83,7 @@ double MirrorError() {
     const double y = (kPixels / 2 - (i / kPixels) - 0.5) * 2.2 / kPixels;
     if (x * x + y * y >= 1) continue;
     const Vec3d normal(x, y, std::sqrt(1 - x * x - y * y));
-    const double up = 2 * normal.z * normal.y;  // of the mirror direction
+    const double up = 2 * normal.z * normal.y;  // y of the mirror direction
     const Rgb& end = up > 0 ? sky.zenith : sky.ground;
     const Rgb expected = sky.horizon + (end - sky.horizon) * std::abs(up);
     const float got = image.Find("R")->samples[static_cast<size_t>(i)];
@@ -92,7 +92,7 @@ double MirrorError() {
   return largest;
 }
 
-// The radiance in the mirror direction per unit of irradiance, light and viewer at 30 degrees.
+// The radiance in the mirror direction per unit of irradiance, with light and viewer at 30 degrees.
 double PeakOf(double roughness) {
   Material material;
   material.model = GoldOf(roughness, 1);

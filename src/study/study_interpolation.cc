@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// study/study_interpolation.cc: exercise 3: flat, Gouraud and Phong over the number of faces.
+// study/study_interpolation.cc: exercise 3: flat, Gouraud and Phong shading over the number of
+// faces.
 #include <cmath>
 #include <string>
 
@@ -63,8 +64,8 @@ Plot ErrorPlot(const std::vector<Level>& levels, bool specular) {
   return plot;
 }
 
-// Diffuse light along a line across the sphere, a little above its middle, where no vertex is, and
-// its slope.
+// Plots the diffuse light, and its slope, along a horizontal line across the sphere, slightly above
+// the middle, where there is no vertex.
 Figure MachFigure() {
   constexpr int kLevel = 2;
   Plot value, slope;
@@ -91,7 +92,7 @@ Figure MachFigure() {
       change.y.push_back((double{samples[i + 1]} - double{samples[i]}) / pixel);
     }
     value.curves.push_back(std::move(light));
-    if (interpolation == Interpolation::kFlat) continue;  // its slope is 0 or without bound
+    if (interpolation == Interpolation::kFlat) continue;  // its slope is 0 or unbounded
     change.look = static_cast<int>(value.curves.size()) - 1;
     slope.curves.push_back(std::move(change));
   }
@@ -113,7 +114,7 @@ StudyPicture Pictures() {
   return MakeStudyPicture("interpolations", "The same meshes, by what is interpolated.", sheet);
 }
 
-// The first number of faces at which the error is below one 8-bit code, or 0.
+// The smallest number of faces for which the error is below one 8-bit code; 0 if there is none.
 int FacesBelowCode(const std::vector<Level>& levels, double InterpolationError::*error,
                    InterpolationError Level::*kind = &Level::gouraud) {
   for (int level = 0; level < kLevels; ++level) {

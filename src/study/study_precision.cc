@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// study/study_precision.cc: what rounding does to far spheres and to smooth surfaces.
+// study/study_precision.cc: the effect of rounding on distant spheres and on smooth surfaces.
 #include <algorithm>
 #include <cmath>
 
@@ -64,7 +64,7 @@ Plot GgxPlot(StudyResult* result) {
          {0.005, 0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.3, 0.5, 0.7}) {
       const double error = MeasureGgx(form, roughness);
       curve.x.push_back(roughness);
-      curve.y.push_back(error);  // where it is infinite there is no mark
+      curve.y.push_back(error);  // an infinite error gets no mark
       result->numbers.push_back(
           {fmt::format("largest relative error of GGX, {}, roughness {}", name, roughness), error,
            ""});
@@ -74,7 +74,7 @@ Plot GgxPlot(StudyResult* result) {
   return plot;
 }
 
-// A matt sphere at this distance, seen through a telescope.
+// Renders a matt sphere at this distance, seen through a telescope.
 Rgb8Picture FarSphere(HitForm form, double distance) {
   constexpr int kPixels = 170;
   Rgb8Picture pane = FilledPicture(kPixels, kPixels, {13, 13, 13});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// study/study_tonemap.cc: one HDR picture under every tone operator.
+// study/study_tonemap.cc: one HDR picture shown by each tone operator.
 #include <fmt/format.h>
 
 #include "color/tone.h"

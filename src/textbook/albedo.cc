@@ -9,7 +9,7 @@
 namespace nacre {
 namespace {
 
-// Midpoint rule of `count` points over [0, 1].
+// Integrates f over [0, 1] by the midpoint rule with `count` points.
 template <class Function>
 double Midpoint(int count, const Function& f) {
   double sum = 0;
@@ -39,8 +39,8 @@ double LobeAlbedo(double n_dot_v, double roughness, const TextbookBrdf& f) {
   const double a2 = std::pow(roughness, 4);
   const Vec3d to_view = Direction(n_dot_v, 0);
   return Midpoint(kRadialPoints, [&](double t) {
-    // Half vectors with the pdf D n.h (Walter et al. 2007, eq. 35); u has its points denser at
-    // both ends, where the integrand changes fastest.
+    // Half vectors have the pdf D n.h (Walter et al. 2007, eq. 35). Points u are denser at both
+    // ends, where the integrand varies fastest.
     const double u = t * t * (3 - 2 * t);
     const double du = 6 * t * (1 - t);
     const double cos2 = (1 - u) / (1 + (a2 - 1) * u);
@@ -49,7 +49,7 @@ double LobeAlbedo(double n_dot_v, double roughness, const TextbookBrdf& f) {
     const double peak = a2 * cos2 + sin2;
     const double pdf = a2 * std::sqrt(cos2) / (M_PI * peak * peak);
     return du * Midpoint(kAzimuthPoints, [&](double turn) {
-             const double phi = M_PI * turn;  // the other half mirrors this one
+             const double phi = M_PI * turn;  // the other half is its mirror image
              const double sin_theta = std::sqrt(sin2);
              const Vec3d half(sin_theta * std::cos(phi), sin_theta * std::sin(phi),
                               std::sqrt(cos2));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// textbook/albedo.h: how much of the light from everywhere a reflection model gives back, by
-// quadrature of the model's own functions. 1 is all of it; more is made from nothing.
+// textbook/albedo.h: the albedo of reflection models, by quadrature of the models' own functions. 1
+// means that all light is reflected; more violates conservation of energy.
 #pragma once
 
 #include <functional>
@@ -10,17 +10,17 @@
 
 namespace nacre {
 
-// f(to_light, to_view) without the cosine, around the normal (0, 0, 1), isotropic.
+// An isotropic BRDF f(to_light, to_view) for the normal (0, 0, 1), without the cosine.
 using TextbookBrdf = std::function<double(const Vec3d& to_light, const Vec3d& to_view)>;
 
-// The integral of f n.l over all directions of light, for a lobe that is GGX-shaped with this
-// roughness > 0 (the substitution that flattens its peak), to 3e-5.
+// The integral of f n.l over all directions of light, within 3e-5, for a lobe shaped like GGX with
+// this roughness > 0. A substitution flattens its peak.
 double LobeAlbedo(double n_dot_v, double roughness, const TextbookBrdf& f);
 
-// The same for an f without a peak.
+// The integral of f n.l over all directions of light, for an f without a peak.
 double SmoothAlbedo(double n_dot_v, const TextbookBrdf& f);
 
-// 2 int E(mu) mu dmu: of light from everywhere to everywhere.
+// 2 int E(mu) mu dmu: the albedo averaged over all viewing directions.
 double AverageAlbedo(const std::function<double(double n_dot_v)>& albedo);
 
 // ---- The lesson's model -------------------------------------------------------------------------

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kDegreesPerRadian = 180 / M_PI;
 
-// A number that counts what is done with it.
+// A number that counts the operations done with it.
 struct Counted {
   double value = 0;
   static inline OperationCount count;
@@ -65,7 +65,7 @@ double FloorFactor(double roughness) {
          TextbookDistribution(peak, roughness, lesson);
 }
 
-// pi alpha^4 = 1e-10, alpha = r^2.
+// The solution of pi alpha^4 = 1e-10 with alpha = r^2.
 double FloorRoughness() { return std::pow(1e-10 / M_PI, 1.0 / 8); }
 
 // |edge x edge| = edge^2 sin(60 deg).
@@ -110,7 +110,7 @@ GammaError LargestGammaError() {
   constexpr int kSteps = 100000;
   for (int i = 0; i <= kSteps; ++i) {
     const double x = static_cast<double>(i) / kSteps;
-    const double radiance = x / (1 - x);  // whose Reinhard curve gives x
+    const double radiance = x / (1 - x);  // its Reinhard curve gives x
     if (!std::isfinite(radiance)) continue;
     const double difference =
         std::abs(TextbookEncode(radiance, lesson) - TextbookEncode(radiance, exact));
@@ -123,7 +123,8 @@ int PixelsDrawnTwice(int side) {
   int twice = 0;
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x) {
-      const double edge = (x + 0.5) - (y + 0.5);  // of the diagonal; >= 0 inside the one half
+      const double edge = (x + 0.5) - (y + 0.5);  // distance from the diagonal; >= 0 inside one
+                                                  // half
       twice += (edge >= 0) && (-edge >= 0);
     }
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// textbook/conventions.h: faults of the founding documents that neither picture shows, as numbers
+// textbook/conventions.h: quantifies faults of the founding documents that neither picture shows,
 // from their formulas.
 #pragma once
 
@@ -7,19 +7,20 @@
 
 namespace nacre {
 
-// k of Schlick's G1 for direct light: the words (alpha + 1)^2 / 8 and the program (r + 1)^2 / 8,
-// which is its source's (Karis 2013).
+// k of Schlick's G1 for direct light: (alpha + 1)^2 / 8 in the text, and (r + 1)^2 / 8 in the
+// program, as in its source (Karis 2013).
 double DirectKOfWords(double roughness);
 double DirectKOfProgram(double roughness);
 
-// k for light from everywhere: the words alpha^2 / 2 = r^4 / 2, and the source r^2 / 2.
+// k for light from everywhere: alpha^2 / 2 = r^4 / 2 in the text, and r^2 / 2 in the source.
 double AmbientKOfWords(double roughness);
 double AmbientKOfSource(double roughness);
 
-// E4: what "+ 0.0001" takes off the highlight.
+// E4: the fraction of the highlight that "+ 0.0001" removes.
 double EpsilonLoss(double n_dot_l, double n_dot_v);
 
-// E5: by what factor the floor of 1e-10 lowers the peak of D, and below which roughness it does.
+// E5: the factor by which the floor of 1e-10 lowers the peak of D, and the roughness below which it
+// does.
 double FloorFactor(double roughness);
 double FloorRoughness();
 
@@ -27,14 +28,14 @@ double FloorRoughness();
 // length `epsilon`; smaller ones count as degenerate.
 double ShortestTriangleEdge(double epsilon);
 
-// E17: what 1 / (d^2 + 0.0001) takes off 1 / d^2.
+// E17: the fraction of 1 / d^2 that 1 / (d^2 + 0.0001) loses.
 double AttenuationLoss(double distance);
 
-// E18: how much too long doc1's light direction (1, -1, 1) is; n.l grows by it.
+// E18: the factor by which doc1's light direction (1, -1, 1) is too long, and thus n.l too large.
 double UnnormalizedLightLength();
 
-// E20: the largest distance between u (W - 1) and the texel that u names, u W - 1/2, in texels; and
-// the share of a repeated texture's period that is missing.
+// E20: the largest distance, in texels, between u (W - 1) and the texel that u denotes, u W - 1/2;
+// and the fraction of a repeated texture's period that is missing.
 double TexelShift(int width);
 double TexelPeriodLoss(int width);
 
@@ -43,21 +44,21 @@ double TexelPeriodLoss(int width);
 double FlatMapTiltPerAxisDeg();
 double FlatMapTiltDeg();
 
-// E23: the angle between the old normal and that of a plane displaced by h = amplitude
-// sin(2 pi x / wavelength), where it is largest, in degrees.
+// E23: the maximum angle, in degrees, between the original normal and that of a plane displaced by
+// h = amplitude sin(2 pi x / wavelength).
 double DisplacedNormalErrorDeg(double amplitude, double wavelength);
 
-// E24: the largest difference between x^(1/2.2) and the sRGB curve, and where it is.
+// E24: the largest difference between x^(1/2.2) and the sRGB curve, and where it occurs.
 struct GammaError {
   double difference = 0, at_linear = 0;
 };
 GammaError LargestGammaError();
 
-// E27: pixel centres that two triangles, halves of a square of `side` pixels, both cover when
-// edges count as inside.
+// E27: the number of pixel centres that are covered by both of two triangles, the halves of a
+// square of `side` pixels, if edges count as inside.
 int PixelsDrawnTwice(int side);
 
-// E11: arithmetic of the two cosines R.V and N.H from unit vectors.
+// E11: the arithmetic operations for the two cosines R.V and N.H from unit vectors.
 struct OperationCount {
   int additions = 0, multiplications = 0, divisions = 0, roots = 0;
 };

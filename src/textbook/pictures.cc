@@ -9,7 +9,7 @@ namespace nacre {
 namespace {
 
 const Vec3d kEye(0, 0, 0);
-const Vec3d kSphereCenter(0, 0, -3);  // of the comparison's sphere; of the grid's middle
+const Vec3d kSphereCenter(0, 0, -3);  // centre of the comparison's sphere, and of the grid
 const Rgb kBackground(0.05, 0.05, 0.08);
 
 TextbookPicture MakePicture(int width, int height) {
@@ -43,7 +43,7 @@ void Store(const Rgb& radiance, const Rgb& display, size_t pixel, const Textbook
   picture->film[pixel] = faults.encode_per_light ? display : radiance;
 }
 
-// Of `light_count` lights in one place that share the light's colour.
+// Stores the sum of `light_count` lights in one place, each with its share of the light's colour.
 void StorePbr(const TextbookPoint& p, const TextbookPbr& material, const Rgb& ambient,
               int light_count, const TextbookFaults& faults, size_t pixel,
               TextbookPicture* picture) {
@@ -64,8 +64,8 @@ void StoreRaw(const Rgb& color, const TextbookFaults& faults, size_t pixel,
         picture);
 }
 
-// Calls shade(x, y, point, normal) where the comparison's camera sees the sphere; elsewhere
-// miss(x, y).
+// Calls shade(x, y, point, normal) for pixels where the comparison's camera sees the sphere, and
+// miss(x, y) for others.
 void ForEachComparisonPixel(int width, int height, const TextbookFaults& faults,
                             const std::function<void(int, int, const Vec3d&, const Vec3d&)>& shade,
                             const std::function<void(int, int)>& miss) {
@@ -87,14 +87,14 @@ void ForEachComparisonPixel(int width, int height, const TextbookFaults& faults,
   }
 }
 
-// A disc of the grid: its centre and radius in pixels, and the sphere that it shows.
+// A disc of the grid: centre and radius in pixels, and the sphere that it represents.
 struct Disc {
   double cx, cy, radius;
-  Vec3d center;  // where the sphere would lie, had each a place of its own
+  Vec3d center;  // the sphere's centre, if each had its own position
 };
 
 constexpr int kRows = 5, kColumns = 5;
-constexpr double kSphereRadius = 0.35;  // the lesson names it and never uses it
+constexpr double kSphereRadius = 0.35;  // the lesson defines it but never uses it
 
 Disc DiscAt(int row, int column, int width, int height) {
   Disc disc;
@@ -108,7 +108,7 @@ Disc DiscAt(int row, int column, int width, int height) {
   return disc;
 }
 
-// Calls shade(px, py, normal) for the disc's pixels that lie in the picture.
+// Calls shade(px, py, normal) for the pixels of the disc that are in the picture.
 void ForEachDiscPixel(const Disc& disc, const TextbookGrid& settings,
                       const std::function<void(int, int, const Vec3d&)>& shade) {
   const int reach = static_cast<int>(disc.radius);
@@ -127,7 +127,7 @@ void ForEachDiscPixel(const Disc& disc, const TextbookGrid& settings,
   }
 }
 
-// The point that the lesson shades for all discs alike.
+// The point at which the lesson shades all discs.
 Vec3d SharedPoint(const Vec3d& normal) { return kSphereCenter + normal; }
 
 }  // namespace

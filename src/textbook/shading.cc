@@ -65,8 +65,8 @@ double TextbookDistribution(const TextbookAngles& a, double roughness,
     const double denominator = a.n_dot_h * a.n_dot_h * (a2 - 1) + 1;
     return a2 / std::max(M_PI * denominator * denominator, 1e-10);
   }
-  // n.h^2 (a2 - 1) + 1 without its cancellation. The mirror's peak is a delta, which a point light
-  // cannot show.
+  // n.h^2 (a2 - 1) + 1 without cancellation. A perfect mirror's D is a delta function, for which a
+  // point light shows nothing.
   const double denominator = a.n_dot_h * a.n_dot_h * a2 + a.sin2_h;
   return a2 > 0 ? a2 / (M_PI * denominator * denominator) : 0;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// textbook/shading.h: the lesson's shading functions, line by line. Not what nacre renders with:
-// see brdf/ and shading/ for that.
+// textbook/shading.h: the lesson's shading functions, line by line. nacre's renderer does not use
+// them: see brdf/ and shading/ for its own.
 #pragma once
 
 #include "base/vec.h"
@@ -8,20 +8,20 @@
 
 namespace nacre {
 
-// The lesson's normalize(): vectors shorter than 1e-10 stay as they are.
+// The lesson's normalize(): vectors shorter than 1e-10 are returned unchanged.
 Vec3d TextbookNormalize(const Vec3d& v, const TextbookFaults& faults);
 
-// A surface point with all directions unit and away from the surface.
+// A surface point. All directions are unit and point away from the surface.
 struct TextbookPoint {
   Vec3d normal, to_light, to_view;
-  Rgb light{1, 1, 1};  // the light's colour; there is no fall-off
+  Rgb light{1, 1, 1};  // the light's colour, without fall-off
 };
 
 // ---- Phong --------------------------------------------------------------------------------------
 
 struct TextbookPhong {
   double ka = 0.1, kd = 0.7, ks = 0.3, shininess = 32;
-  Rgb color{1, 1, 1};  // of the object; not of the highlight
+  Rgb color{1, 1, 1};  // of the object, but not of the highlight
 };
 
 // max(R.V, 0)^n and max(N.H, 0)^n.
@@ -36,7 +36,7 @@ Rgb TextbookPhongShading(const TextbookPoint& p, const TextbookPhong& material,
 
 struct TextbookAngles {
   double n_dot_l = 0, n_dot_v = 0, n_dot_h = 0, v_dot_h = 0;
-  double sin2_h = 0;  // |n x h|^2, for D without its floor; the lesson knows n.h only
+  double sin2_h = 0;  // |n x h|^2, for D without its floor; the lesson only knows n.h
 };
 
 TextbookAngles TextbookAnglesAt(const TextbookPoint& p, const TextbookFaults& faults);
@@ -67,10 +67,10 @@ Rgb TextbookEncode(const Rgb& radiance, const TextbookFaults& faults);
 
 // ---- Beside the pictures ------------------------------------------------------------------------
 
-// point_light_attenuation(), which the lesson defines and never calls.
+// point_light_attenuation(), which the lesson defines but never calls.
 double TextbookAttenuation(double distance);
 
-// The nearest hit of a sphere, or a negative number: t along a direction of any length.
+// The nearest hit of a sphere as t along a direction of any length; negative if there is none.
 double TextbookIntersectSphere(const Vec3d& origin, const Vec3d& direction, const Vec3d& center,
                                double radius, const TextbookFaults& faults);
 

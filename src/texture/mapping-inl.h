@@ -26,7 +26,7 @@ struct MappedV {
   Vec3V<V> du, dv;
 };
 
-// The angle of (x, y) from the x axis in [0, pi], for y >= 0; 0 for the origin.
+// The angle of (x, y) from the x axis, in [0, pi], for y >= 0. It is 0 for the origin.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V AngleAbove(D d, V y, V x) {
   const V width = hn::Abs(x);

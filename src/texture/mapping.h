@@ -2,8 +2,8 @@
 // texture/mapping.h: from points on an object to (u, v), with the gradients of both. SIMD twin:
 // mapping-inl.h.
 //
-// Here z is up, and v = theta / pi is 0 at the north pole, as in lessons. For scenes with another
-// axis, or with v upwards, shading/ rotates the point before and flips v after.
+// Here z is up, and v = theta / pi is 0 at the north pole, as in textbooks. For scenes with another
+// axis, or with v upwards, shading/ rotates the point before the mapping and flips v after it.
 #pragma once
 
 #include <algorithm>
@@ -89,7 +89,7 @@ template <typename Real>
 Mapped<Real> MapCube(const Imath::Vec3<Real>& p) {
   using V = Imath::Vec3<Real>;
   static constexpr int kAxis[6][3] = {{0, 2, 1}, {0, 2, 1}, {1, 0, 2},
-                                      {1, 0, 2}, {2, 0, 1}, {2, 0, 1}};  // of m, s', t'
+                                      {1, 0, 2}, {2, 0, 1}, {2, 0, 1}};  // axes of m, s', t'
   static constexpr int kSign[6][3] = {{1, -1, -1}, {-1, 1, -1}, {1, 1, 1},
                                       {-1, 1, -1}, {1, 1, -1},  {-1, -1, -1}};
   const int face = CubeFace(p);

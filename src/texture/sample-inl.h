@@ -73,8 +73,8 @@ HWY_INLINE TapsV<D> FindTaps(D d, V wrapped, TexelIndex<D> size, Wrap wrap) {
   return taps;
 }
 
-// What reads a level whose values are of one kind. Find takes the index of a texel's first channel;
-// Value decodes a channel of what it found.
+// FloatTexels, ByteTexels and WordTexels read a level whose values are of one kind. Find takes the
+// index of a texel's first channel; Value decodes a channel from the result of Find.
 template <class D>
 struct FloatTexels {
   const float* values;
@@ -85,7 +85,7 @@ struct FloatTexels {
   }
 };
 
-// The codes of all channels are found at once.
+// Find gathers the codes of all channels at once.
 template <class D>
 struct ByteTexels {
   const int32_t* codes;
@@ -125,8 +125,8 @@ HWY_INLINE void WithTexels(D, const TexelView& level, const Use& use) {
   }
 }
 
-// The four texels of a bilinear look-up, as indices or found, and their weights, the same for all
-// channels. A nearest look-up reads `near_near` only.
+// The four texels of a bilinear look-up, as indices or as results of Find, and their weights, which
+// are the same for all channels. A nearest look-up reads `near_near` only.
 template <class D>
 struct FootprintV {
   TexelIndex<D> near_near, far_near, near_far, far_far;  // along u, along v
@@ -183,7 +183,7 @@ HWY_INLINE V MipLevelOf(D, const MipChain& image, const TextureFootprint<V>& f) 
     return hn::MulAdd(x, x, hn::Mul(y, y));
   };
   const V a = squared(f.du_dx, f.dv_dx), b = squared(f.du_dy, f.dv_dy);
-  // Clamped to 2^40, more than any image has texels. In this form NaN becomes that, too.
+  // Clamped to 2^40, more than any image has texels. This form turns NaN into 2^40, too.
   const V most = hn::Set(df, 0x1p40f), one = hn::Set(df, 1.0f);
   const auto keep = [&](V x) HWY_ATTR { return hn::IfThenElse(hn::Lt(x, most), x, most); };
   const V longer = hn::Max(hn::Max(keep(a), keep(b)), one);

@@ -20,7 +20,7 @@ enum class Wrap : uint8_t { kRepeat, kClamp, kMirror };
 enum class TextureFilter : uint8_t {
   kNearest,    // the texel that (u, v) lies in
   kBilinear,   // between the four nearest texel centres
-  kTrilinear,  // the same, between the two mip levels whose texels are about as large as a pixel
+  kTrilinear,  // bilinear in the two mip levels with texels about as large as a pixel, and between
 };
 
 struct SampleSettings {
@@ -52,7 +52,7 @@ Real WrapCoordinate(Real u, Wrap wrap) {
 template <typename Real>
 struct Taps {
   int near, far;
-  Real weight;  // of `far`
+  Real weight;  // the weight of `far`
 };
 
 template <typename Real>
@@ -124,7 +124,7 @@ Real SampleTrilinear(const MipChain& image, const SampleSettings& settings, Real
   return near + (mip_level - static_cast<Real>(level)) * (far - near);
 }
 
-// By the filter of the settings; `mip_level` is for trilinear ones.
+// Samples with the filter of the settings; only the trilinear one reads `mip_level`.
 template <typename Real>
 Real SampleChannel(const MipChain& image, const SampleSettings& settings, Real mip_level, Real u,
                    Real v, int channel) {

@@ -12,7 +12,7 @@ namespace nacre {
 struct SamplePoints {
   const double* u;
   const double* v;
-  TextureFootprint<const float*> footprint;  // of trilinear look-ups; else may be null
+  TextureFootprint<const float*> footprint;  // read by trilinear look-ups; else may be null
   size_t count;
 };
 
@@ -20,8 +20,8 @@ struct SamplePoints {
 void SampleTexture(const MipChain& image, const SampleSettings& settings,
                    const SamplePoints& points, int channels, float* const* to);
 
-// to_u[i] and to_v[i] are the derivatives of channel 0 with respect to u and v at point i:
-// SampleSlopes of sample.h.
+// to_u[i] and to_v[i] are the derivatives of channel 0 with respect to u and v at point i, as by
+// the scalar SampleSlopes of sample.h.
 void SampleSlopes(const MipChain& image, const SampleSettings& settings, const SamplePoints& points,
                   float* to_u, float* to_v);
 

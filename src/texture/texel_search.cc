@@ -12,21 +12,21 @@ using Place = TexelSearchRoom::Place;
 using Span = TexelSearchRoom::Span;
 using Level = TexelExtremes::Level;
 
-// Footprints of more texels are searched by squares.
+// Footprints of more texels than this are searched by squares.
 constexpr double kMaxPlaces = 4096;
 
-// Squares of a level are so many times as wide as those of the level below.
+// The squares of a level are this many times as wide as those of the level below.
 constexpr int kSquareSide = 8;
 
-// Clusters are sought by halving their contrast this many times: what has less contrast matters
-// only if it covers so much of the pixel that samples find it.
+// The number of octaves of contrast, from the greatest down, in which clusters are sought. Texels
+// of less contrast matter only if they cover so much of the pixel that samples find them anyway.
 constexpr int kOctaves = 12;
 
-// Squares whose extreme texels are outside of the pixel, where it ends, are given up one by one, as
-// many as this.
+// At the pixel's border, the extreme texel of a square may lie outside of the pixel; then the next
+// square is tried, up to this many.
 constexpr int kMaxTries = 16;
 
-// The texel at an unwrapped place along one axis.
+// The index of the texel at an unwrapped position along one axis.
 int WrapTexel(double at, int size, Wrap wrap) {
   return std::min(static_cast<int>(WrapCoordinate(at / size, wrap) * size), size - 1);
 }
@@ -35,7 +35,7 @@ double TexelsInPixel(const TexelFootprint& f) {
   return std::abs(f.x_dx * f.y_dy - f.x_dy * f.y_dx);
 }
 
-// The offset of a place from the pixel's centre, in pixels.
+// The offset of a position in texels from the pixel's centre, in pixels.
 Vec2d OffsetInPixels(const TexelFootprint& f, double x, double y) {
   const double determinant = f.x_dx * f.y_dy - f.x_dy * f.y_dx;
   return {(f.y_dy * (x - f.x) - f.x_dy * (y - f.y)) / determinant,
@@ -47,20 +47,20 @@ Vec2d HalfBox(const TexelFootprint& f) {
   return {(std::abs(f.x_dx) + std::abs(f.x_dy)) / 2, (std::abs(f.y_dx) + std::abs(f.y_dy)) / 2};
 }
 
-// About how many squares of this side, in texels, overlap that box.
+// An estimate of the number of squares, `side` texels wide, that overlap that box.
 double CountPlaces(const TexelGrid& grid, const TexelFootprint& f, int side) {
   const Vec2d half = HalfBox(f);
   return (2 * half.x / std::min(side, grid.texels.width) + 1) *
          (2 * half.y / std::min(side, grid.texels.height) + 1);
 }
 
-// The squares of an axis that overlap [begin, end], in texels and not wrapped: they are counted
-// from each edge of the image, where the last may be cut.
+// Finds the squares along one axis that overlap [begin, end], in texels and not wrapped. In each
+// repetition of the image they are counted from the image's first texel, and the last may be cut.
 void FindSpans(double begin, double end, int side, int size, Wrap wrap, std::vector<Span>* spans) {
   spans->clear();
   const int count = (size + side - 1) / side;
   for (double first = std::floor(begin / size) * size; first < end; first += size) {
-    // Beyond the edges there is only what lies on them, which no square says.
+    // Beyond the edges, only the texels on the edge are repeated, and no square describes those.
     if (wrap == Wrap::kClamp && first != 0 && side > 1) continue;
     const bool mirrored = wrap == Wrap::kMirror && std::fmod(first / size, 2) != 0;
     const double origin = mirrored ? first + size - double{1} * count * side : first;
@@ -75,7 +75,7 @@ void FindSpans(double begin, double end, int side, int size, Wrap wrap, std::vec
   }
 }
 
-// Whether the centre of a texel lies in the pixel, or a square (side > 1) overlaps it.
+// Whether the centre of a texel (side = 1) lies in the pixel, or a square (side > 1) overlaps it.
 bool IsInPixel(const TexelFootprint& f, const Place& place, int side) {
   const Vec2d half = side == 1 ? Vec2d(0) : (place.end - place.begin) / 2;
   const double texels = TexelsInPixel(f);
@@ -84,7 +84,7 @@ bool IsInPixel(const TexelFootprint& f, const Place& place, int side) {
   return std::abs(place.offset.x) <= most_dx && std::abs(place.offset.y) <= most_dy;
 }
 
-// Calls use() for each texel, or square, of a box that is in the pixel.
+// Calls use(place) for each texel, or square, that overlaps a box and is in the pixel.
 template <class Use>
 void ForEachPlace(const TexelGrid& grid, const TexelFootprint& f, const Vec2d& begin,
                   const Vec2d& end, int side, TexelSearchRoom* room, const Use& use) {
@@ -131,8 +131,9 @@ struct Found {
   double measure;
 };
 
-// Of the texels of a square of `levels[level]` that are in the pixel, the one with the greatest or
-// the least measure, as far as the pyramid tells. If none is, `none` is the measure.
+// Finds the texel with the greatest or the least measure among the texels of a square of
+// `levels[level]` that are in the pixel, as far as the pyramid tells. If none of them is in the
+// pixel, the measure is `none`.
 Found FindExtremeTexel(const TexelGrid& image, const TexelFootprint& f,
                        const std::vector<Level>& levels, size_t level, const Place& square,
                        const TexelMeasure& measure, bool greatest, double none,
@@ -155,13 +156,14 @@ Found FindExtremeTexel(const TexelGrid& image, const TexelFootprint& f,
 }
 
 struct Extreme {
-  size_t place;
-  double share;  // of the pixel, of what looks like it; 0: it does not matter
-  bool others;   // of less contrast would matter without those
+  size_t place;  // the place of greatest contrast
+  double share;  // fraction of the pixel with a similar contrast; 0: it does not matter
+  bool others;   // places of less contrast would matter even without these
 };
 
-// Of what lies on one side of the mean (1: above it, -1: below): the places of greatest contrast
-// that together change the mean by `least_change` of it. `texels`: in the pixel.
+// Finds the places of greatest contrast on one side of the mean (1: above it, -1: below) that
+// together change the mean by the fraction `least_change`. `texels` is the number of texels in the
+// pixel.
 Extreme FindExtreme(const std::vector<double>& values, double mean, double side, double texels,
                     double least_change) {
   size_t extreme = 0;
@@ -189,16 +191,16 @@ Extreme FindExtreme(const std::vector<double>& values, double mean, double side,
   return {0, 0, false};
 }
 
-// Footprints of more texels are not searched for normals.
+// Footprints of more texels than this are not searched for normals.
 constexpr double kMaxNormals = 256 * 256;
 
-// Whether the pixel holds so many texels that some may be rare, and not beyond all bounds; false
-// also if the footprint is not finite.
+// Whether the pixel holds so many texels that some may be rare, and not an unreasonable number.
+// False, too, if the footprint is not finite.
 bool HoldsTexels(const TexelFootprint& f, double texels) {
   return texels > 2 && texels < 1e15 && std::abs(f.x) < 1e15 && std::abs(f.y) < 1e15;
 }
 
-// The next level of a pyramid: of squares of `from`, the value that `join` makes of theirs.
+// Makes the next level of a pyramid: each of its values is made by `join` from a square of `from`.
 template <class Join>
 TexelGrid Reduce(const TexelGrid& from, const Join& join, std::vector<float>* values) {
   const TexelView& f = from.texels;
@@ -266,10 +268,10 @@ void FindTexelClusters(const TexelGrid& grid, const TexelExtremes* extremes,
     if (CountPlaces(grid, f, side) <= kMaxPlaces) {
       FindPlaces(grid, f, side, room);
     } else {
-      // The image is repeated very often in the pixel: once, in its middle, is enough.
+      // The image is repeated very often in the pixel: one copy, in its middle, is enough.
       texels = double{1} * grid.texels.width * grid.texels.height;
       const double period_x = 2.0 * grid.texels.width;
-      const double period_y = 2.0 * grid.texels.height;  // if mirrored
+      const double period_y = 2.0 * grid.texels.height;  // periods of mirrored images
       const Vec2d first(std::floor(f.x / period_x) * period_x,
                         std::floor(f.y / period_y) * period_y);
       places.assign(1, {first, first + Vec2d(grid.texels.width, grid.texels.height), {}, 0, 0});
@@ -310,7 +312,7 @@ void FindTexelClusters(const TexelGrid& grid, const TexelExtremes* extremes,
           clusters->push_back({texel.place.offset, extreme.share, extreme.others});
           break;
         }
-        values[extreme.place] = texel.measure;  // the square's own is outside of the pixel
+        values[extreme.place] = texel.measure;  // the square's extreme is outside of the pixel
       }
     }
   }

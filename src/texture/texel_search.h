@@ -20,19 +20,20 @@ struct TexelGrid {
   Wrap wrap_u = Wrap::kRepeat, wrap_v = Wrap::kRepeat;
 };
 
-// The least, the greatest and the mean of the texels, by channel, in squares of an image: a
-// pyramid. They are made when a footprint first has too many texels to look at each: a scene whose
-// footprints are all small does not pay for them.
+// A pyramid of the least, the greatest and the mean value of each channel in squares of an image.
+// It is made when a footprint first has too many texels to look at each: a scene whose footprints
+// are all small does not pay for it.
 class TexelExtremes {
  public:
   explicit TexelExtremes(const TexelGrid& image) : image_(image) {}
 
   struct Level {
-    int side;  // of its squares, in texels
+    int side;  // width of its squares, in texels
     TexelGrid low, high, mean;
-    std::vector<float> values[3];  // of these grids
+    std::vector<float> values[3];  // storage of these grids
   };
-  // From squares of 8x8 texels on, each level with squares 8 times as wide as the one before.
+  // The first level has squares of 8x8 texels, each other level squares 8 times as wide as the
+  // level before. Makes the levels at the first call; threads may call it at once.
   const std::vector<Level>& Levels() const;
 
  private:
@@ -48,7 +49,7 @@ struct TexelFootprint {
   double x_dx, y_dx, x_dy, y_dy;
 };
 
-// What texels are compared by.
+// The number by which texels are compared.
 struct TexelMeasure {
   enum class Kind : uint8_t {
     kPower,  // the channel to the power of `number`
@@ -58,26 +59,26 @@ struct TexelMeasure {
   Kind kind = Kind::kPower;
   int channel = 0;
   double number = 1;
-  // Texels do not matter if together they change the pixel's mean by less than this part of it.
+  // Texels do not matter if together they change the pixel's mean by less than this fraction of it.
   double least_change = 0;
 };
 
-// Texels of a pixel that are brighter, or darker, than the others by about as much.
+// Texels of a pixel that are all brighter, or all darker, than the others by a similar amount.
 struct TexelCluster {
-  Vec2d offset;  // from the pixel's centre to the extreme one of them, in pixels
-  double share;  // of the pixel; a lower bound where there are too many texels to look at each
-  bool others;   // that stand out less matter, too
+  Vec2d offset;  // from the pixel's centre to the most extreme of them, in pixels
+  double share;  // fraction of the pixel; a lower bound if squares were searched, not texels
+  bool others;   // whether texels that stand out less matter, too
 };
 
-// Buffers of FindTexelClusters.
+// Buffers of FindTexelClusters and FindNormalClusters.
 struct TexelSearchRoom {
   // A texel of the footprint, or a square of several.
   struct Place {
     Vec2d begin, end;  // in texels, not wrapped
-    Vec2d offset;      // from the pixel's centre to its own, in pixels
+    Vec2d offset;      // from the pixel's centre to the place's centre, in pixels
     int column, row;
   };
-  // The same along one axis.
+  // The extent and the index of a Place along one axis.
   struct Span {
     double begin, end;
     int index;
@@ -85,25 +86,26 @@ struct TexelSearchRoom {
   std::vector<Place> places;
   std::vector<Span> columns, rows;
   std::vector<double> low, high;
-  std::vector<Vec3d> normals;  // unit, by place
+  std::vector<Vec3d> normals;  // unit vectors, one for each of `places`
 };
 
-// Adds the clusters that cover less than half of the footprint, at most two of each measure.
-// `extremes`: of the grid. Without them footprints of thousands of texels are not searched.
+// Adds the clusters that cover less than half of the footprint, at most two for each measure.
+// `extremes` are those of the grid; if null, footprints of thousands of texels are not searched.
 void FindTexelClusters(const TexelGrid& grid, const TexelExtremes* extremes,
                        const TexelFootprint& footprint, const std::vector<TexelMeasure>& measures,
                        TexelSearchRoom* room, std::vector<TexelCluster>* clusters);
 
-// What normals are compared by: how brightly they reflect one small light to the eye. The `ideal`
-// one mirrors it; with the angle to that one it falls as GGX's lobe does. In the frame of the map.
+// Normals are compared by how brightly they reflect one small light to the eye. The normal `ideal`
+// mirrors the light; with the angle to `ideal` the brightness falls as GGX's lobe does. Vectors are
+// in the frame of the normal map.
 struct NormalLobe {
-  Vec3d ideal;               // unit, at the pixel's centre
-  Vec3d ideal_dx, ideal_dy;  // how it changes from pixel to pixel
-  double width;              // the angle at which a quarter is left
+  Vec3d ideal;               // unit vector, at the pixel's centre
+  Vec3d ideal_dx, ideal_dy;  // the change of `ideal` from pixel to pixel
+  double width;              // the angle, in radians, at which the brightness is a quarter
 };
 
-// The same for a map of normals, which `normal_at` tells at places in texels: adds at most one
-// cluster of each lobe. Footprints of more than 256 x 256 texels are not searched.
+// FindTexelClusters for a normal map; `normal_at` returns the normal at a position in texels. Adds
+// at most one cluster for each lobe. Footprints of more than 256 x 256 texels are not searched.
 void FindNormalClusters(const TexelGrid& grid, const std::function<Vec3d(const Vec2d&)>& normal_at,
                         const TexelFootprint& footprint, std::span<const NormalLobe> lobes,
                         double least_change, TexelSearchRoom* room,

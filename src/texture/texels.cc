@@ -36,7 +36,7 @@ std::vector<Cover> CoversOf(int large, int small) {
   return covers;
 }
 
-// The weighted sums of neighbouring texels of a row, for each column of the smaller level.
+// Stores the weighted sums of neighbouring texels of a row, for each column of the smaller level.
 void SumColumns(const std::vector<Cover>& columns, size_t channels, const double* row, float* out) {
   for (const Cover& column : columns) {
     const double* const first = row + static_cast<size_t>(column.first) * channels;
@@ -50,12 +50,12 @@ void SumColumns(const std::vector<Cover>& columns, size_t channels, const double
   }
 }
 
-// The same where each column is two texels wide, the usual case, to the same bits.
+// SumColumns for columns that are two texels wide, the usual case, with the same bits.
 template <size_t kChannels>
 void SumPairs(size_t columns, const double* row, float* out) {
   for (size_t x = 0; x < columns; ++x) {
     for (size_t c = 0; c < kChannels; ++c) {
-      // With the 0 that the sum begins with: it makes -0 to 0.
+      // The 0 with which the sum of SumColumns begins turns -0 into 0.
       const double sum =
           (0.0 + 0.5 * row[2 * kChannels * x + c]) + 0.5 * row[2 * kChannels * x + kChannels + c];
       out[kChannels * x + c] = static_cast<float>(sum);
@@ -63,7 +63,7 @@ void SumPairs(size_t columns, const double* row, float* out) {
   }
 }
 
-// The level after `from`.
+// Makes the level after `from`, of size `to`.
 HugeVector<float> MakeNextLevel(const TexelView& from, const MipLevel& to) {
   const auto channels = static_cast<size_t>(from.channels);
   const std::vector<Cover> columns = CoversOf(from.width, to.width);
@@ -93,7 +93,7 @@ HugeVector<float> MakeNextLevel(const TexelView& from, const MipLevel& to) {
   return values;
 }
 
-// codes / most, rounded once.
+// The table of code / most, rounded once.
 TexelTable MakeLinearTable(int most) {
   auto table = std::make_shared<std::vector<float>>();
   for (int code = 0; code <= most; ++code) {
@@ -110,7 +110,8 @@ TexelTable MakeHalfTable() {
   return table;
 }
 
-// The values as codes of the table, code_of(value) each; nothing unless each has its bits there.
+// Encodes each value as the code code_of(value) of the table. Returns nothing unless the table has
+// every value bit for bit.
 template <typename Code, class CodeOf>
 std::optional<Texels> Encode(std::span<const float> values, const TexelTable& table,
                              const CodeOf& code_of) {
@@ -207,9 +208,9 @@ size_t MipChain::LevelBytes() const {
 const float* MipChain::MakeLevel(size_t level) const {
   const std::lock_guard lock(smaller_->making);
   const DefaultFloatMode keeps_denormals;
-  size_t from = level;  // or the next larger one that there is
+  size_t from = level;  // becomes the nearest larger level that has been made
   while (from > 0 && smaller_->made[from] == nullptr) --from;
-  if (from == level) return smaller_->made[level];  // by another thread
+  if (from == level) return smaller_->made[level];  // made by another thread meanwhile
   TexelView larger = Level(from);
   HugeVector<float> values;
   for (size_t l = from + 1; l <= level; ++l) {

@@ -26,7 +26,7 @@ enum class TexelKind : uint8_t { kFloats, kBytes, kWords };
 struct TexelView {
   TexelKind kind = TexelKind::kFloats;
   const void* data = nullptr;
-  const float* table = nullptr;  // of codes: what each stands for
+  const float* table = nullptr;  // the value of each code, if `data` holds codes
   int channels = 1, width = 0, height = 0;
 
   size_t size() const {
@@ -42,19 +42,19 @@ struct TexelView {
                        static_cast<size_t>(channels) +
                    static_cast<size_t>(channel)];
   }
-  // Decodes the values from the `first` on.
+  // Decodes the values from index `first` on.
   void Read(size_t first, std::span<float> to) const;
 };
 
-// What codes stand for: 256 or 65536 floats.
+// The values of all codes: 256 or 65536 floats.
 using TexelTable = std::shared_ptr<const std::vector<float>>;
 
-// The values of an image as they are kept.
+// The values of an image as they are stored.
 struct Texels {
-  TexelTable table;  // null: they are floats
+  TexelTable table;  // null if the values are floats
   HugeVector<std::byte> data;
 
-  // Room for as many values, which the caller writes.
+  // Makes room for `count` values, which the caller writes.
   Texels(TexelTable codes, size_t count);
   TexelKind kind() const {
     if (table == nullptr) return TexelKind::kFloats;
@@ -66,8 +66,8 @@ struct Texels {
   }
 };
 
-// The same values in the least room that holds each to the bit: as codes k / 255 or k / 65535, as
-// halves, or as the floats that they are.
+// Stores the values in the smallest form that holds each bit for bit: as codes k / 255 or
+// k / 65535, as halves, or as floats.
 Texels PackTexels(std::span<const float> values);
 
 // A mip level.
@@ -83,7 +83,7 @@ class MipChain {
   std::vector<MipLevel> levels;  // the image itself, then half its size (rounded down) each time
   float least, greatest;         // of the image's values
 
-  // Makes the level if it is needed for the first time. Threads may call it at once.
+  // Makes the level if it is needed for the first time. Several threads may call it at once.
   TexelView Level(size_t level) const {
     if (level == 0) return whole_;
     const float* const values = smaller_->made[level].load(std::memory_order_acquire);
@@ -93,7 +93,7 @@ class MipChain {
     return Level(level).At(x, y, channel);
   }
 
-  // The memory of the image, and of its levels that have been made.
+  // The memory of the image, and of the smaller levels that have been made.
   size_t ImageBytes() const { return image_.data.size(); }
   size_t LevelBytes() const;
 
@@ -103,7 +103,7 @@ class MipChain {
     explicit SmallerLevels(size_t count) : values(count), made(count) {}
     std::mutex making;
     std::vector<HugeVector<float>> values;
-    std::vector<std::atomic<const float*>> made;  // null: not yet
+    std::vector<std::atomic<const float*>> made;  // null until the level is made
   };
 
   TexelView FloatLevel(size_t level, const float* values) const {
@@ -113,11 +113,11 @@ class MipChain {
   const float* MakeLevel(size_t level) const;
 
   Texels image_;
-  TexelView whole_;  // of it
+  TexelView whole_;  // a view of image_
   std::unique_ptr<SmallerLevels> smaller_;
 };
 
-// The most values of an image, so that offsets of their bytes fit 32 bits.
+// The maximum number of values of an image, so that their byte offsets fit 32 bits.
 inline constexpr size_t kMaxTexelValues = size_t{1} << 30;
 
 // The image with all levels down to 1x1. Each texel of a level is the mean, computed in double, of

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// view/answer.h: what pages are told that is wrong.
+// view/answer.h: error messages for pages.
 #pragma once
 
 #include <string>
@@ -8,10 +8,11 @@
 
 namespace nacre {
 
-// The message of the faults of what a page asked for at `pointer`, or of anything.
+// The message about the faults of a request for the value at `pointer`, or of any request if it is
+// empty.
 std::string FaultMessage(const std::string& pointer, const Error& error);
 
-// The same of whatever has been thrown, from where it is caught.
+// The message about the exception that is being handled; to be called in a catch block.
 std::string CaughtFault(const std::string& pointer);
 
 }  // namespace nacre

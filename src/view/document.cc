@@ -9,24 +9,26 @@
 
 #include "base/error.h"
 #include "base/path.h"
+#include "scene_io/load_scene.h"
+#include "scene_io/model_tree.h"
 #include "view/mailbox.h"
 #include "view/page_parts.h"
 
 namespace nacre {
 namespace {
 
-// Steps that can be undone, changes in one of them, and bytes in all. Each holds the values before
-// and after it, which may be whole scenes.
+// Limits on the history: steps that can be undone, changes within a step, and bytes in all. A
+// change holds the values before and after it, which may be whole scenes.
 constexpr size_t kMaxSteps = 500;
 constexpr size_t kMaxChanges = 1000;
 constexpr size_t kMaxHistoryBytes = size_t{64} << 20;
 
-// Of more plain spheres no list is made, unless a change needs it: there are no controls for so
-// many, and the list would take more memory than the scene.
+// If there are more plain spheres, they are not listed in the tree unless a change needs it: there
+// are no controls for so many, and the list would take more memory than the scene.
 constexpr size_t kMaxTreeSpheres = 1000;
 
-// The deepest value on the way to where `pointer` points that exists: the pointer itself, or that
-// of the object in which a member is going to be made.
+// The deepest existing value on the path of `pointer`: the value itself, or the object in which a
+// member is about to be created.
 std::string ExistingPart(const Json& root, const std::string& pointer) {
   const Json* value = &root;
   size_t end = 0;
@@ -38,7 +40,7 @@ std::string ExistingPart(const Json& root, const std::string& pointer) {
       value = &value->at(step);
       end = next;
     }
-  } catch (const Json::exception&) {  // no pointer: Set will say so
+  } catch (const Json::exception&) {  // not a pointer: Set will report it
   }
   return pointer.substr(0, end);
 }
@@ -83,7 +85,8 @@ void ViewDocument::UseImage(const ImageSettings& image) {
   prepared_.versions.Change(ScenePart::kImage);
 }
 
-// Shapes that are not in the tree have not changed either.
+// Lists the plain spheres in the tree. Shapes that were not in the tree have not been changed, so
+// the original tree gets the same list.
 void ViewDocument::ListShapes() {
   if (live_.lists_all_shapes()) return;
   live_.ListShapes();
@@ -94,7 +97,8 @@ void ViewDocument::Put(const std::string& pointer, const std::string& json) {
   prepared_.versions.Change(live_.Set(pointer, json));
 }
 
-// All of them or none: backwards the values before, or forwards those after.
+// Applies all changes or none: the values after them in order, or the values before them in
+// reverse.
 void ViewDocument::PutAll(const std::vector<Change>& changes, bool after) {
   std::vector<const Change*> order;
   for (const Change& change : changes) order.push_back(&change);
@@ -111,14 +115,15 @@ void ViewDocument::PutAll(const std::vector<Change>& changes, bool after) {
 }
 
 void ViewDocument::Set(const std::string& pointer, const Json& value, uint64_t gesture) {
-  // Then none of the model's own would be left, and no value of "/lights" would bring them back.
+  // It would remove the model's own lights, and setting "/lights" again could not restore them.
   if (pointer == "/lights" && is_model()) {
     throw Error(ExitCode::kUsage, pointer, "a model's lights are set one by one",
                 "/lights/NAME is one of them");
   }
-  if (pointer.starts_with("/shapes")) ListShapes();  // the history holds what there was
+  if (pointer.starts_with("/shapes")) ListShapes();  // the history holds the previous value
   std::string place = ExistingPart(live_.root(), pointer);
-  // A value for all lights of a model would leave none of its own: the history keeps the whole.
+  // Undoing by a value for all lights of a model would remove its own, so the history keeps the
+  // root.
   if (place == "/lights" && place != pointer && is_model()) place.clear();
   if (place.empty()) ListShapes();
   std::string before = JsonText(live_.root().at(Json::json_pointer(place)));
@@ -129,14 +134,14 @@ void ViewDocument::Set(const std::string& pointer, const Json& value, uint64_t g
 }
 
 void ViewDocument::Remember(Change change, uint64_t gesture) {
-  // They have grown as they were written, to as much as twice their size.
+  // Strings that were appended to may have up to twice the capacity that they need.
   change.before.shrink_to_fit();
   change.after.shrink_to_fit();
   const bool same = gesture != 0 && !past_.empty() && past_.back().gesture == gesture &&
                     past_.back().changes.size() < kMaxChanges;
   if (!same) past_.push_back({gesture, {}});
   std::vector<Change>& changes = past_.back().changes;
-  // The last change of this place, if none that came after it was within it or around it.
+  // Finds the last change of this place, unless a later change was within it or enclosed it.
   const auto nested = std::find_if(changes.rbegin(), changes.rend(), [&](const Change& other) {
     return PointersOverlap(other.pointer, change.pointer);
   });
@@ -175,7 +180,7 @@ bool ViewDocument::Redo() {
 std::vector<Edit> ViewDocument::Edits() const {
   std::vector<Edit> edits = EditsBetween(original_, live_.root());
   if (!is_model()) return edits;
-  // One by one: a value for all lights would leave none of the model's own.
+  // Lights are split up: a value for all lights would remove the model's own.
   std::vector<Edit> split;
   for (Edit& edit : edits) {
     if (edit.pointer != "/lights") {
@@ -191,7 +196,7 @@ std::vector<Edit> ViewDocument::Edits() const {
 
 std::vector<std::string> ViewDocument::Restore(const std::vector<Edit>& edits) {
   std::vector<std::string> refused;
-  Step all;  // of their own steps
+  Step all;  // merges the steps of all edits
   for (const Edit& edit : edits) {
     try {
       Set(edit.pointer, edit.value, 0);
@@ -236,7 +241,7 @@ Json ViewDocument::ModelLights() const {
   return tree["lights"];
 }
 
-// Of those that nobody has changed, what they are now.
+// Lights that have no edits are taken as they are now.
 Json ViewDocument::OriginalModelLights() const {
   Json lights = model_original_.value("lights", Json::object());
   const Json own = live_.root().value("lights", Json::object()), now = ModelLights();
@@ -264,7 +269,8 @@ std::vector<std::string> ViewDocument::ImageFiles() const {
     std::error_code ignored;
     if (!hidden && IsImageFile(path) && entry->is_regular_file(ignored)) {
       const std::string name = path.lexically_relative(folder).generic_string();
-      // A link that leads out of the folder is refused as a scene's file (ResolveReference).
+      // A link that leads out of the folder would be refused as a file of a scene
+      // (ResolveReference).
       const fs::path inside = fs::canonical(path, ignored).lexically_relative(base);
       if (!inside.empty() && *inside.begin() != "..") files.push_back(name);
     }
@@ -274,8 +280,9 @@ std::vector<std::string> ViewDocument::ImageFiles() const {
   return files;
 }
 
-// Whoever has orbited the camera and saves the scene in an editor wants to see the change from
-// there. A member that the file has a new value for is the file's: that is what was just written.
+// A user who has orbited the camera, and then saves the scene in an editor, wants to see the change
+// from the same viewpoint. A member with a new value in the file takes that value, as it is the
+// latest.
 void ViewDocument::ReadChangedFiles() {
   const Json edited = live_.root();
   prepared_.versions.Change(live_.ReadChangedFiles());
@@ -291,7 +298,7 @@ void ViewDocument::ReadChangedFiles() {
     try {
       Put(pointer.to_string(), JsonText(value));
       kept_edits_ = true;
-    } catch (const Error&) {  // it needs what the file no longer has
+    } catch (const Error&) {  // it needs something that the file no longer has
     }
   };
   for (const auto& [name, value] : edited.items()) {
@@ -301,7 +308,7 @@ void ViewDocument::ReadChangedFiles() {
       put_again(pointer, value);
       continue;
     }
-    // One by one: all of them at once would leave none of the model's own.
+    // One by one: a value for all lights would remove the model's own.
     for (const auto& [light, own] : value.items()) put_again(pointer / light, own);
   }
   if (original_ == before) return;

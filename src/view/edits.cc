@@ -24,15 +24,15 @@ namespace {
 // A tree takes more than ten times the memory of its text.
 constexpr size_t kMaxEditsBytes = size_t{64} << 20;
 
-// FNV-1a: names the file of a scene; the path itself stands in it.
+// FNV-1a, for the name of a scene's file; the file also contains the path itself.
 uint64_t HashOfPath(std::string_view text) {
   uint64_t hash = 0xcbf29ce484222325;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
   return hash;
 }
 
-// Whether each member of `before` is in `after`, in the same order and ahead of new ones, so that
-// setting members one by one makes the one of the other.
+// Whether `after` has all members of `before`, in the same order and followed by any new ones, so
+// that setting single members turns one into the other.
 bool HasMembersOf(const Json& before, const Json& after) {
   if (before.size() > after.size()) return false;
   auto now = after.begin();
@@ -45,7 +45,7 @@ bool HasMembersOf(const Json& before, const Json& after) {
 void AddEdits(const Json& before, const Json& after, const Json::json_pointer& pointer,
               std::vector<Edit>* edits) {
   const bool objects = before.is_object() && after.is_object() && HasMembersOf(before, after);
-  // Points and colours stay whole.
+  // Points and colours are always set as a whole.
   const bool arrays = before.is_array() && after.is_array() && before.size() == after.size() &&
                       !before.empty() && !before.front().is_number();
   if (!objects && !arrays) {
@@ -84,7 +84,7 @@ std::unique_ptr<EditsFile> EditsFile::Open(const std::string& scene, std::string
     file->scene_ = std::filesystem::weakly_canonical(AbsolutePath(scene), error).string();
   }
   file->path_ = fmt::format("{}/view-{:016x}.json", folder, HashOfPath(file->scene_));
-  // For as long as the process lives: the system lets go of it, however that ends.
+  // The lock is held while the process lives; the system releases it, however that ends.
   const std::string lock = file->path_ + ".lock";
   struct stat opened = {}, named = {};
   do {
@@ -99,7 +99,7 @@ std::unique_ptr<EditsFile> EditsFile::Open(const std::string& scene, std::string
       close(std::exchange(file->lock_, -1));
       return nullptr;
     }
-    // The one that had it may have removed it in between.
+    // The previous holder may have removed the lock file in between.
   } while (stat(lock.c_str(), &named) != 0 || named.st_ino != opened.st_ino);
   file->ReadOffered();
   return file;
@@ -107,7 +107,7 @@ std::unique_ptr<EditsFile> EditsFile::Open(const std::string& scene, std::string
 
 EditsFile::~EditsFile() {
   if (lock_ < 0) return;
-  unlink((path_ + ".lock").c_str());  // while it is held
+  unlink((path_ + ".lock").c_str());  // while the lock is held
   close(lock_);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// view/edits.h: what pages have changed of a scene, as values to set, and the file in which that
-// outlives the server.
+// view/edits.h: the changes that pages have made to a scene, as values to set, and the file that
+// keeps them beyond the server's end.
 #pragma once
 
 #include <ctime>
@@ -17,28 +17,29 @@ struct Edit {
   Json value;
 };
 
-// The edits that make the second tree of the first. An object that has lost a member, or has its
-// members in another order, becomes a new value as a whole.
+// The edits that turn the first tree into the second. An object that has lost a member, or whose
+// members have another order, is set as a whole.
 std::vector<Edit> EditsBetween(const Json& before, const Json& after);
 
-// Edits of a scene that an earlier server had when it ended, and, in their place, those of this
-// one. The file lies in StateFolder(), named after the scene.
+// A file with the edits that an earlier server of the scene had when it ended, which are offered to
+// the user, and those of this server. It is in StateFolder(), named after the scene.
 class EditsFile {
  public:
-  // `scene`: the path of the scene; empty: the one that is built in. null where nothing can be
-  // kept: there is no folder for it, or another server that shows the scene keeps its edits there.
-  // `why_not` says so.
+  // `scene` is the path of the scene; empty: the built-in one. Returns null, with the reason in
+  // *why_not, if edits cannot be kept: there is no folder, or another server of the same scene uses
+  // the file.
   static std::unique_ptr<EditsFile> Open(const std::string& scene, std::string* why_not);
   ~EditsFile();
   EditsFile(const EditsFile&) = delete;
   EditsFile& operator=(const EditsFile&) = delete;
 
-  // The earlier edits, as long as nobody has said what becomes of them.
+  // The earlier edits, until the user decides whether to restore or discard them.
   const std::vector<Edit>& offered() const { return offered_; }
   std::time_t offered_time() const { return offered_time_; }
   void ForgetOffered() { offered_.clear(); }
 
-  // Keeps these, and what is offered still; without any there is no file. Returns whether it could.
+  // Writes these edits, together with those still offered; removes the file if there are none.
+  // Returns whether it succeeded.
   bool Keep(std::vector<Edit> edits);
 
  private:

@@ -25,9 +25,9 @@ namespace nacre {
 namespace {
 
 constexpr double kDegrees = 180 / M_PI;
-constexpr int kCurveSteps = 90;  // of a quarter of a circle
+constexpr int kCurveSteps = 90;  // per quarter of a circle
 
-// JSON has no infinity: what is not finite is null.
+// JSON has no infinity: values that are not finite become null.
 Json NumberJson(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 Json TripleJson(const Vec3d& v) {
@@ -51,15 +51,16 @@ struct Point {
   Vec3d position, normal, to_view;
 };
 
-// A prepared material, and the normal of its coat, if it has one: coats have normal maps of their
-// own.
+// A prepared material, and the normal of its coat, if it has one, since coats have normal maps of
+// their own.
 struct ExplainedMaterial {
   ShadingMaterial prepared;
   ShadingMaterial base;  // without coat and layers
   Vec3d coat_normal;
 };
 
-// The middle of a light with an extent, which its angles are told for; none of what is all around.
+// The centre of a light with an extent, for which its angles are reported; nullopt for lights all
+// around.
 std::optional<Vec3d> MiddleOf(const Light& light) {
   const auto middle = [](const auto& kind) -> std::optional<Vec3d> {
     if constexpr (requires { kind.center; }) return kind.center;
@@ -73,7 +74,7 @@ std::optional<Vec3d> MiddleOf(const Light& light) {
   return std::visit(middle, light.kind);
 }
 
-// From the point towards a punctual light, and its irradiance there, shadows aside.
+// The direction from the point to a punctual light, and the unshadowed irradiance at the point.
 struct Arrival {
   Vec3d to_light;
   double distance;  // infinite for directional lights
@@ -90,7 +91,7 @@ std::optional<Arrival> ArrivalOf(const Light& light, const Point& point) {
   const double distance = way.length();
   if (!(distance > 0)) return {};
   const Vec3d to_light = way / distance;
-  // A light with the usual fall-off has its term in its colour.
+  // For the usual inverse-square fall-off, PrepareLight has folded the attenuation into the colour.
   double factor = 1 / (distance * distance);
   if (prepared.form != LightForm::kInverseSquare) {
     const AttenuationTerms<double> terms{prepared.attenuation.constant, prepared.attenuation.linear,
@@ -130,8 +131,9 @@ std::string_view NameOf(const LayerModel& layer) {
   return std::visit([](const auto& model) { return model.kName; }, layer);
 }
 
-// What the material reflects of irradiance E from this direction. Where something covers its base,
-// `json` gets what that reflects itself, bottom to top, and what it leaves of all below.
+// The light that the material reflects of `irradiance` from this direction. If its base is covered
+// by layers or a coat, `json` gets, from bottom to top, what each of these reflects, and the factor
+// by which it attenuates everything below.
 Reflection ReflectedJson(const ExplainedMaterial& material, const Point& point,
                          const Vec3d& to_light, const Rgb& irradiance, Json* json) {
   const Vec3d& n = point.normal;
@@ -162,7 +164,7 @@ Reflection ReflectedJson(const ExplainedMaterial& material, const Point& point,
   if (const ShadingMaterial* const coat = material.prepared.coat.get()) {
     const Vec3d& m = material.coat_normal;
     Json terms = TermsJson(*coat, m, to_light, v);
-    if (m != n) {  // its own normal, whose angles the terms follow
+    if (m != n) {  // a normal of its own, whose angles the terms use
       const Vec3d u = to_light + v;
       terms["n_dot_l"] = m ^ to_light;
       terms["n_dot_v"] = m ^ v;
@@ -196,7 +198,7 @@ Json LightJson(const Light& light, const ExplainedMaterial& material, const Poin
                {"rendered_specular", TripleJson(rendered - diffuse)}};
   const std::optional<Arrival> arrival = ArrivalOf(light, point);
   if (!arrival) {
-    // It comes from many directions, and the renderer samples it.
+    // Its light comes from many directions, which the renderer samples.
     const std::optional<Vec3d> middle = MiddleOf(light);
     json["state"] = std::string(middle ? "area light" : "all around") + ", mean of " +
                     std::to_string(pixel.samples) + " samples";
@@ -222,12 +224,12 @@ Json LightJson(const Light& light, const ExplainedMaterial& material, const Poin
   return json;
 }
 
-// f n.l in the plane of normal and viewer, for light from -90 (the viewer's side) to 90 degrees.
+// f n.l in the plane of normal and viewer, for light from -90 degrees (on the viewer's side) to 90.
 Json LobeJson(const ShadingMaterial& material, const Point& point) {
   const double n_dot_v = point.normal ^ point.to_view;
   Vec3d across = point.to_view - point.normal * n_dot_v;
   if (!(across.length() > 1e-9)) {
-    // The viewer looks along the normal: any plane shows the same.
+    // The viewer looks along the normal: all planes show the same.
     across = point.normal % (std::abs(point.normal.x) < 0.5 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0));
   }
   across.normalize();
@@ -246,12 +248,11 @@ Json LobeJson(const ShadingMaterial& material, const Point& point) {
           {"specular", std::move(specular)}};
 }
 
-// The share of light from everywhere that is seen at an angle from the normal: [[degrees, mean of
-// the channels]...].
+// The directional albedo over the angle from the normal: [[degrees, mean of the channels]...].
 Json AlbedoCurve(const ShadingMaterial& material) {
   constexpr std::array kAngles = {0, 10, 20, 30, 40, 50, 60, 65, 70, 75, 80, 83, 86, 89};
   std::array<double, kAngles.size()> means{};
-  ParallelFor(kAngles.size(), 0, [&](size_t i) {  // of layers each takes 30 ms
+  ParallelFor(kAngles.size(), 0, [&](size_t i) {  // 30 ms each for layered materials
     const Rgb share = ReflectedShare(material, ShareOf::kFurnace, std::cos(kAngles[i] / kDegrees));
     means[i] = (share.x + share.y + share.z) / 3;
   });
@@ -260,8 +261,8 @@ Json AlbedoCurve(const ShadingMaterial& material) {
   return curve;
 }
 
-// The albedo; of microfacets also their distribution over the half vector's angle, and Fresnel's
-// term over v.h, degree by degree.
+// The albedo, and for microfacet models the distribution over the angle of the half vector and the
+// Fresnel term over that of v.h, in steps of a degree.
 Json CurvesJson(const ShadingMaterial& material) {
   Json curves = {{"albedo", AlbedoCurve(material)}};
   const auto* const model = std::get_if<MicrofacetModel>(&material.model);
@@ -270,7 +271,7 @@ Json CurvesJson(const ShadingMaterial& material) {
   const Vec3d normal(0, 0, 1);
   for (int i = 0; i < kCurveSteps; ++i) {
     const double cosine = std::cos(i / kDegrees), sine = std::sin(i / kDegrees);
-    const Vec3d half(sine, 0, cosine);  // light and viewer along it
+    const Vec3d half(sine, 0, cosine);  // light and viewer are both along it
     distribution.push_back(
         NumberJson(GgxDistribution(ComputeAngles(normal, half, half), model->alpha)));
     const double half_sine = std::sin(i / kDegrees / 2);
@@ -283,14 +284,14 @@ Json CurvesJson(const ShadingMaterial& material) {
 
 bool IsParameterOf(const MaterialParameter& parameter, const MapTarget& target,
                    const Material& material) {
-  constexpr double kOther = 0.40625;  // unlike any that a person chooses
+  constexpr double kOther = 0.40625;  // a value that users are unlikely to choose
   Material changed = material;
   parameter.set(changed, Rgb(kOther, kOther, kOther));
   return target.factor(changed) != target.factor(material);
 }
 
-// The material with what its maps give this hit; `parameters` gets name and value of what they
-// multiply. A map is seen as the albedo of a white Lambertian that has it.
+// The material with the values of its maps at this hit. `parameters` gets name and value of the
+// mapped parameters. A map is looked up by rendering the albedo of a white Lambertian that has it.
 Material MaterialAtHit(const Material& material, size_t index, const PixelWith& pixel_with,
                        Json* parameters) {
   Material at_hit = material;
@@ -340,7 +341,7 @@ Json ExplainPixel(const Scene& scene, const PixelLayers& layers, const PixelWith
     return json;
   }
   Json mapped = Json::object();
-  // A copy: the scene's has another in its place while `pixel_with` renders.
+  // A copy, because `pixel_with` replaces the material in the scene while it renders.
   const Material own = scene.materials[number - 1];
   const Material material = MaterialAtHit(own, number - 1, pixel_with, &mapped);
   const MaterialModel* const model = ModelOf(material);

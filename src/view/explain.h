@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// view/explain.h: where a pixel's value comes from: what lies there, and what each light adds.
+// view/explain.h: explains a pixel's value: what is visible there, and what each light contributes.
 #pragma once
 
 #include <functional>
@@ -10,19 +10,19 @@
 
 namespace nacre {
 
-// A pixel through its centre.
+// Renders of a single pixel through its centre.
 struct PixelLayers {
   Image all;            // all layers
-  Image diffuse_light;  // the same by RenderSettings::diffuse_light_layers
-  int samples = 1;      // of lights with an extent
+  Image diffuse_light;  // all layers with RenderSettings::diffuse_light_layers
+  int samples = 1;      // per light with an extent
 };
 
-// All layers of the pixel while another material is in the place of this one.
+// Renders all layers of the pixel while the material with this index is replaced by `other`.
 using PixelWith = std::function<Image(size_t material, const Material& other)>;
 
-// Directions and terms are in double, by the scalar twins, at the hit's position and normal; what
-// the renderer made of them in float stands beside, by light and component: these add up to the
-// pixel's value. Maps are looked up by `pixel_with`.
+// Directions and terms are computed in double with the scalar twins, at the hit's position and
+// normal. Beside them are the renderer's float results by light and component, which add up to the
+// pixel's value. `pixel_with` is used to look up maps.
 Json ExplainPixel(const Scene& scene, const PixelLayers& pixel, const PixelWith& pixel_with);
 
 }  // namespace nacre

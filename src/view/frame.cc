@@ -18,7 +18,8 @@ std::shared_ptr<std::vector<uint8_t>> WithHead(const FrameHead& head, size_t byt
   return message;
 }
 
-// Makes the part of a picture's head the rectangle around all pixels that differ: none if none do.
+// Sets the part in a picture's head to the bounding rectangle of the differing pixels; empty if
+// there are none.
 void FindChange(const uint8_t* before, const uint8_t* now, FrameHead* head) {
   const size_t row_bytes = size_t{4} * head->width;
   uint32_t top = head->height, bottom = 0, left = head->width, right = 0;

@@ -17,7 +17,7 @@
 namespace nacre {
 namespace {
 
-// Whole numbers that a double holds.
+// Whole numbers that a double holds exactly.
 constexpr Range kCounter{0, 9007199254740991.0};
 constexpr Range kStops{-60, 60};
 constexpr Range kPixel{0, limits::kImageSide.max};
@@ -27,7 +27,7 @@ bool IsBelow(std::string_view pointer, std::string_view above) {
          pointer[above.size()] == '/';
 }
 
-// A pointer that no value of a scene has is refused at once, whatever it would cost to follow it.
+// Refuses pointers that are too long for any value of a scene, before the cost of following them.
 void ReadPointer(const char* name, JsonObject* message, std::string* pointer) {
   message->Text(name, pointer);
   const auto depth = static_cast<size_t>(std::count(pointer->begin(), pointer->end(), '/'));
@@ -133,12 +133,12 @@ Request ReadRequest(ClientId client, std::string_view text) {
   return request;
 }
 
-// The change that need not be made, because of this newer value of the same place; or the end.
+// The waiting change that is obsolete because of this newer value for the same pointer; or the end.
 std::vector<Request>::iterator Mailbox::Outdated(const SetRequest& set, bool crowded) {
   for (auto at = waiting_.end(); at != waiting_.begin();) {
     --at;
     const auto* other = std::get_if<SetRequest>(&at->what);
-    if (other == nullptr && at->ChangesScene()) break;  // it may depend on it
+    if (other == nullptr && at->ChangesScene()) break;  // it may depend on the older value
     if (other == nullptr || !PointersOverlap(other->pointer, set.pointer)) continue;
     if (other->pointer != set.pointer) break;
     return other->gesture == set.gesture || crowded ? at : waiting_.end();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// view/mailbox.h: what pages ask for until the render thread takes it. Of several values for one
-// pointer the newest is kept.
+// view/mailbox.h: requests of pages that wait for the render thread. Of several values for one
+// pointer, only the newest is kept.
 #pragma once
 
 #include <cstddef>
@@ -14,42 +14,43 @@
 
 namespace nacre {
 
-using ClientId = uint64_t;  // a page's connection; counted from 1
+using ClientId = uint64_t;  // identifies a page's connection; counted from 1
 
 struct SetRequest {
   std::string pointer;
   Json value;
-  uint64_t gesture = 0;  // changes of one drag have one number
-  uint64_t serial = 0;   // of the client's requests
+  uint64_t gesture = 0;  // the same number for all changes of one drag
+  uint64_t serial = 0;   // numbers the client's requests
 };
 enum class HistoryRequest : uint8_t { kUndo, kRedo, kReset };
-// How the picture is shown.
+// Sets how the picture is shown.
 struct LookRequest {
   std::string tone, layer;
   double exposure = 0;
 };
-// The samples of a layer of the picture that was shown last.
+// Asks for the samples of a layer of the picture that was shown last.
 struct SamplesRequest {
   std::string layer;
-  uint32_t id = 0;  // comes back with them
+  uint32_t id = 0;  // returned with the samples
 };
-// Where a pixel's value comes from.
+// Asks for an explanation of a pixel's value.
 struct ExplainRequest {
   int x = 0, y = 0;
 };
-// The material at a pointer becomes the nearest one of another model, as `nacre convert` finds it.
+// Replaces the material at a pointer by the nearest one of another model, as `nacre convert` does.
 struct ConvertRequest {
   std::string pointer, model;
   uint64_t gesture = 0;
 };
-// The picture at rest is kept as A, which later ones are measured against; or not any more.
+// Keeps the current picture, if finished, as A, with which later ones are compared; or drops A.
 struct KeepRequest {
   bool keep = true;
 };
-// A file to take away: the picture with all layers, or a report of A and the present picture.
+// Asks for a file to download: the picture with all layers, or a report of A and the present
+// picture.
 enum class TakeRequest : uint8_t { kExr, kReport };
-struct WelcomeRequest {};  // a page that has just connected: it is told all
-// What becomes of the edits that an earlier server had when it ended.
+struct WelcomeRequest {};  // a page has just connected, and needs the whole state
+// Decides about the edits that an earlier server had when it ended.
 enum class OfferedRequest : uint8_t { kRestore, kDiscard };
 
 struct Request {
@@ -57,35 +58,37 @@ struct Request {
   std::variant<SetRequest, HistoryRequest, LookRequest, SamplesRequest, ExplainRequest,
                ConvertRequest, KeepRequest, TakeRequest, WelcomeRequest, OfferedRequest>
       what;
-  size_t bytes = 0;  // of the message
-  // Whether it changes what the picture shows, or how: a render for what was before may end.
+  size_t bytes = 0;  // size of the message
+  // Whether it changes the picture or how it is shown: a render of the previous state may be
+  // cancelled.
   bool ChangesPicture() const;
-  // Whether it changes the scene: each does, in turn. Of others a page's newest is enough.
+  // Whether it changes the scene. Such requests are all served, in order; of others, only the
+  // newest of each page.
   bool ChangesScene() const;
 };
 
-// Of pointers in messages: no scene's names are as long.
+// Limit on pointers in messages, longer than any name in a scene.
 inline constexpr size_t kMaxPointerBytes = 4096;
 
-// Whether a value at one of the pointers is part of a value at the other.
+// Whether one of the pointers points to or into the value of the other.
 bool PointersOverlap(std::string_view a, std::string_view b);
 
-// What a message of a page asks for. Throws Error (kBadInput) for one that asks for nothing known.
+// Parses a message of a page. Throws Error (kBadInput) for an unknown request.
 Request ReadRequest(ClientId client, std::string_view text);
 
-// What waits is bounded: of each page its newest request of every kind, and changes of the scene by
-// number and size.
+// The queue is bounded: it holds the newest request of each kind for each page, and changes of the
+// scene up to a number and a size.
 class Mailbox {
  public:
   static constexpr size_t kMaxWaiting = 1024;
-  // From here on drags of the same value are no steps of their own any more.
+  // Beyond this many changes, values of different drags of the same pointer are merged, too.
   static constexpr size_t kCrowded = kMaxWaiting / 2;
-  // Of messages. Their trees take some twenty times as much.
+  // Total size of messages. Their trees take about twenty times as much.
   static constexpr size_t kMaxWaitingBytes = size_t{8} << 20;
 
-  // Throws Error (kUsage) for a change of the scene if too many wait already.
+  // Throws Error (kUsage) for a change of the scene if too many are waiting.
   void Add(Request request);
-  // The page has gone: it needs no answers.
+  // Drops requests of a page that has gone and needs no answers.
   void Forget(ClientId client);
   std::vector<Request> Take();
   bool empty() const { return waiting_.empty(); }

@@ -15,7 +15,7 @@ Json BeautyMetricsJson(const Image& got, const Image& reference, const DisplaySe
   const LayerMetrics metrics = CompareLayer(pair, pair.layers.front());
   Json json = {{"rmse", metrics.rmse},
                {"rel_mse", metrics.rel_mse},
-               // Of equal pictures it is infinite, which JSON has no number for.
+               // JSON has no infinity, which is the PSNR of equal pictures.
                {"psnr_db", std::isfinite(metrics.psnr_db) ? Json(metrics.psnr_db) : Json()},
                {"max_abs", std::isfinite(metrics.max_abs) ? Json(metrics.max_abs) : Json()},
                {"max_abs_at", {metrics.max_abs_at.x, metrics.max_abs_at.y}}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// view/metrics.h: how far the present picture is from the one kept as A, in the figures of nacre
+// view/metrics.h: compares the present picture with the one kept as A, by the metrics of nacre
 // compare.
 #pragma once
 
@@ -9,7 +9,8 @@
 
 namespace nacre {
 
-// Of the beauty. SSIM and FLIP are of what the display shows. The images have the same window.
+// Metrics of the beauty. SSIM and FLIP compare the display pictures. The images must have the same
+// window.
 Json BeautyMetricsJson(const Image& got, const Image& reference, const DisplaySettings& display);
 
 }  // namespace nacre

@@ -7,14 +7,14 @@
 #include "report/page.h"
 #include "report/page_parts.h"
 #include "scene_io/json_text.h"
-#include "scene_io/load_scene.h"
+#include "scene_io/schema.h"
 #include "view/page_parts.h"
 
 namespace nacre {
 
 ServedPage MakeViewPage(const std::string& title, const std::string& generator,
                         const std::string& tone, double exposure) {
-  // The schema holds the parameters of all models, with ranges, defaults and meanings.
+  // The schema contains the parameters of all models, with ranges, defaults and descriptions.
   const std::string data = ScriptJson({{"tone", tone},
                                        {"exposure", exposure},
                                        {"generator", generator},
@@ -30,7 +30,8 @@ ServedPage MakeViewPage(const std::string& title, const std::string& generator,
 }
 
 ServedPage MakeImagesPage(std::string report) {
-  // Its own policy is that of a file. The server's says the same, but for its socket.
+  // Removes the page's own content security policy, which is for a file. The server sends an
+  // equivalent one that also allows its socket.
   const size_t policy = report.find("<meta http-equiv");
   report.erase(policy, report.find('\n', policy) + 1 - policy);
   std::string script = "<script>";

@@ -24,7 +24,7 @@ bool IsPrivateFolder(const std::string& path) {
   return lstat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode) && IsOursAlone(status);
 }
 
-// The variable's value if it is an absolute path, as the XDG specification asks for.
+// The value of a variable if it is an absolute path, as the XDG specification requires.
 std::string FolderOf(const char* variable) {
   const char* const value = std::getenv(variable);
   return value != nullptr && value[0] == '/' ? value : "";
@@ -73,7 +73,7 @@ std::optional<std::string> ReadPrivateFile(const std::string& path, size_t max_b
 
 bool WritePrivateFile(const std::string& path, std::string_view text) {
   const std::string beside = path + ".new";
-  unlink(beside.c_str());  // of a writer that was killed
+  unlink(beside.c_str());  // left by a writer that was killed
   const int file =
       open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, S_IRUSR | S_IWUSR);
   if (file < 0) return false;

@@ -35,25 +35,26 @@ using Clock = std::chrono::steady_clock;
 using HttpRequest = http::request<http::empty_body>;
 using HttpResponse = http::response<http::string_body>;
 
-// Connections that have not shown the token: one more, and the oldest is closed. They keep nobody
-// out who has it.
+// Limit on connections that have not shown the token; one more closes the oldest. They do not keep
+// out clients that have the token.
 constexpr size_t kMaxStrangers = 64;
-constexpr size_t kMaxPages = 16;  // with a socket
+constexpr size_t kMaxPages = 16;  // pages with a socket
 constexpr uint32_t kMaxHeaderBytes = 8 << 10;
 constexpr size_t kMaxMessageBytes = 1 << 20;
-// A request is small, and comes at once.
+// Timeout for a request, which is small and comes at once.
 constexpr std::chrono::seconds kRequestTime(5);
-// A page that takes nothing for so long is gone, or asleep: it will connect again.
+// Timeout for a page that receives nothing: it is gone, or asleep, and will reconnect.
 constexpr std::chrono::seconds kIdleTime(60);
-// What may wait for pages that are slow, all together: a file or two. The slowest is closed then.
+// Limit on data that waits for slow pages, for all together: a file or two. Beyond it, the slowest
+// page is disconnected.
 constexpr size_t kMaxWaitingBytes = size_t{384} << 20;
 constexpr std::chrono::milliseconds kTick(50);
-// Pictures go out in pieces, so many ahead of what a page has taken: of one that is refined, and
-// that a change overtakes, the rest need not be sent.
+// Pictures are sent in pieces, of which at most kPiecesAhead are unacknowledged. So the rest of a
+// refined picture need not be sent when a change supersedes it.
 constexpr size_t kPieceBytes = size_t{512} << 10;
 constexpr int kPiecesAhead = 2;
 
-// What who comes by another name, but with the token, is told.
+// The answer to clients that have the token, but use another name for the server.
 constexpr char kOtherName[] =
     "nacre view: the browser calls this server {0}, and that is not its own name.\n"
     "Through a tunnel (ssh -L) or a proxy, start it with\n\n    nacre view --origin {0} ...\n\n"
@@ -78,31 +79,33 @@ struct Server::Impl {
   std::string HostName() const;
   bool IsOwnHost(std::string_view host) const;
   bool IsOwnOrigin(std::string_view origin) const;
-  // The token is right, and so are the names that the request calls the server by.
+  // The HTTP status for a request: 200 if the token and the names that it uses for the server are
+  // right.
   unsigned Judge(const HttpRequest& request) const;
   bool HasToken(const HttpRequest& request) const;
-  // How a browser calls the server that comes with the token by another name; empty: it does not.
+  // The origin by which a browser with the token calls the server, if that is not the server's own
+  // name; else empty.
   std::string OtherName(const HttpRequest& request) const;
   HttpResponse Answer(const HttpRequest& request, unsigned status) const;
 
   ServerOptions options;
   ServedPage page;
   ServerEvents events;
-  std::list<HttpConnection*> strangers;  // outlives the context, whose handlers hold connections
+  std::list<HttpConnection*> strangers;  // must outlive the context, whose handlers own connections
   asio::io_context context{1};
   Tcp::acceptor acceptor;
   bool accepting = false;
   uint16_t port = 0;
-  std::set<std::string> other_names;  // that have been told
+  std::set<std::string> other_names;  // those reported already
   ClientId last_client = 0;
   std::map<ClientId, std::shared_ptr<PageSocket>> pages;
-  size_t waiting_bytes = 0;  // for all of them
+  size_t waiting_bytes = 0;  // for all pages
   SharedBytes latest;
 };
 
 namespace {
 
-// Does work of a connection. What it throws closes the connection.
+// Runs work of a connection, which is closed if that throws.
 template <class Connection, class Work>
 void DoFor(Connection* connection, const Work& work) {
   try {
@@ -112,7 +115,7 @@ void DoFor(Connection* connection, const Work& work) {
   }
 }
 
-// A handler of the connection's, which an error closes as well.
+// A completion handler of the connection, which also closes it on errors.
 template <class Connection, class Work>
 auto HandlerOf(std::shared_ptr<Connection> connection, Work work) {
   return [connection = std::move(connection), work = std::move(work)](error_code error,
@@ -126,8 +129,8 @@ auto HandlerOf(std::shared_ptr<Connection> connection, Work work) {
 
 // ---- A page's WebSocket -------------------------------------------------------------------------
 
-// At most one picture is on its way to a page, which says "taken" to each piece that it has. Of
-// each it is sent what is not as in the one that it had whole before.
+// At most one picture at a time is in transit to a page, which acknowledges each piece with
+// "taken". Only the differences from the page's last complete picture are sent.
 class PageSocket : public std::enable_shared_from_this<PageSocket> {
  public:
   PageSocket(Server::Impl* server, Tcp::socket socket, ClientId id)
@@ -140,7 +143,7 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
     limits.keep_alive_pings = true;
     socket_.set_option(limits);
     socket_.read_message_max(kMaxMessageBytes);
-    socket_.auto_fragment(false);  // a picture is one frame, not nine hundred
+    socket_.auto_fragment(false);  // sends a picture as a single frame, not as nine hundred
     socket_.binary(true);
     socket_.async_accept(request, HandlerOf(shared_from_this(), [this] {
                            server_->pages[id_] = shared_from_this();
@@ -151,7 +154,7 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
                          }));
   }
 
-  // It is served no more. Throws nothing.
+  // Removes the page from the server. Does not throw.
   void Close() {
     beast::close_socket(beast::get_lowest_layer(socket_));
     if (!std::exchange(open_, false)) return;
@@ -163,7 +166,7 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
   void Say(std::shared_ptr<const std::string> text) { Add({std::move(text), nullptr}); }
   void Send(SharedBytes bytes) { Add({nullptr, std::move(bytes)}); }
 
-  // There is a newer picture, or room for a piece.
+  // To be called when there is a newer picture, or room for another piece.
   void Show() {
     const SharedBytes& latest = server_->latest;
     if (sending_ == nullptr || IsOvertaken()) {
@@ -186,8 +189,9 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
     size_t size() const { return text ? text->size() : bytes->size(); }
   };
 
-  // Those made while things move reach every page, however slow it is; and one that is sent to its
-  // last piece will be what the page shows.
+  // Whether the picture in transit is superseded and can be abandoned. A picture made while the
+  // scene changes is always completed, however slow the page is, and so is one whose last piece has
+  // been sent.
   bool IsOvertaken() const {
     if (sending_ == server_->latest || next_piece_ == pieces_->count()) return false;
     return HeadOf(*sending_).moving == 0 && HeadOf(*server_->latest).moving != 0;
@@ -202,7 +206,8 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
     pieces_.reset();
     if (shown_ != server_->latest) return Show();
     const std::chrono::duration<double, std::milli> taken = Clock::now() - sent_at_;
-    // What else is on the page's way is no measure for what moves.
+    // If older pieces were in transit, too, the time says nothing about pictures of a changing
+    // scene.
     const bool is_measure = moving && !behind_others_;
     server_->events.ready(taken.count(), is_measure ? shown_->size() : 0);
   }
@@ -238,7 +243,7 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
         server_->pages.begin(), server_->pages.end(), [](const auto& a, const auto& b) {
           return a.second->waiting_bytes_ < b.second->waiting_bytes_;
         });
-    const auto page = slowest->second;  // which closing takes away
+    const auto page = slowest->second;  // a copy, since closing removes it from `pages`
     page->Close();
   }
 
@@ -260,19 +265,19 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
   ClientId id_;
   beast::flat_buffer buffer_;
   bool open_ = false;
-  std::deque<Outgoing> waiting_;  // the first is being written
+  std::deque<Outgoing> waiting_;  // the first one is being written
   size_t waiting_bytes_ = 0;
-  SharedBytes shown_, sending_;  // the last picture that has been taken, and one on its way
+  SharedBytes shown_, sending_;  // the last complete picture, and the one in transit
   std::optional<PicturePieces> pieces_;
   uint32_t next_piece_ = 0;
-  int in_flight_ = 0;           // pieces on their way, some of a picture that was overtaken
-  Clock::time_point sent_at_;   // of the first piece
-  bool behind_others_ = false;  // of a picture that was overtaken
+  int in_flight_ = 0;           // unacknowledged pieces, including those of superseded pictures
+  Clock::time_point sent_at_;   // when the first piece was sent
+  bool behind_others_ = false;  // pieces of a superseded picture were in transit, too
 };
 
 // ---- An HTTP connection -------------------------------------------------------------------------
 
-// One request, one answer, and the connection is closed or becomes a page's socket.
+// Serves one request, after which the connection is closed or becomes a page's socket.
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
  public:
   HttpConnection(Server::Impl* server, Tcp::socket socket)
@@ -288,14 +293,14 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     http::async_read(stream_, buffer_, parser_, HandlerOf(shared_from_this(), [this] { Serve(); }));
   }
 
-  // Throws nothing.
+  // Does not throw.
   void Close() {
     BeKnown();
     stream_.close();
   }
 
  private:
-  // No stranger any more, if it was one.
+  // Removes the connection from the strangers.
   void BeKnown() {
     if (!std::exchange(is_stranger_, false)) return;
     server_->strangers.erase(place_);
@@ -332,7 +337,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 
   Server::Impl* server_;
   beast::tcp_stream stream_;
-  std::list<HttpConnection*>::iterator place_;  // among the strangers
+  std::list<HttpConnection*>::iterator place_;  // in server_->strangers
   bool is_stranger_ = true;
   beast::flat_buffer buffer_{kMaxHeaderBytes};
   http::request_parser<http::empty_body> parser_;
@@ -343,7 +348,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 
 namespace {
 
-// As browsers name it: a scheme and a host, and nothing behind.
+// Whether the text is an origin as browsers write it: a scheme and a host, with nothing after it.
 bool IsOrigin(std::string_view text) {
   const size_t host = text.starts_with("https://") ? 8 : text.starts_with("http://") ? 7 : 0;
   return host > 0 && text.size() > host &&
@@ -387,7 +392,7 @@ void Server::Impl::Listen() {
 void Server::Impl::Accept() {
   acceptor.async_accept([this](error_code error, Tcp::socket socket) {
     accepting = false;
-    // Where no more files may be open, the next tick tries again.
+    // If the process has too many open files, the next tick tries again.
     if (error) return;
     error_code ignored;
     socket.set_option(Tcp::no_delay(true), ignored);
@@ -416,7 +421,7 @@ bool Server::Impl::IsOwnOrigin(std::string_view origin) const {
 
 namespace {
 
-// The first segment of the path "/TOKEN/...", and what follows, with its slash.
+// The first segment of the path "/TOKEN/...", and the rest, with its slash.
 struct TargetParts {
   std::string_view token, path;
 };
@@ -434,7 +439,8 @@ bool Server::Impl::HasToken(const HttpRequest& request) const {
 }
 
 unsigned Server::Impl::Judge(const HttpRequest& request) const {
-  // A page of elsewhere whose name leads here (DNS rebinding) calls the server by that name.
+  // A foreign page whose host name resolves to this server (DNS rebinding) uses that name as the
+  // host.
   if (!IsOwnHost(View(request[http::field::host]))) return 403;
   const std::string_view origin = View(request[http::field::origin]);
   const bool upgrade = websocket::is_upgrade(request);
@@ -498,13 +504,14 @@ std::string Server::url() const {
 }
 
 void Server::Run(const std::function<bool()>& stopped) {
-  const auto work = asio::make_work_guard(impl_->context);  // it waits whether it accepts or not
+  const auto work = asio::make_work_guard(impl_->context);  // keeps the context running even if it
+                                                            // does not accept
   while (!stopped()) {
     try {
       if (!impl_->accepting) impl_->Accept();
       impl_->context.run_for(kTick);
       impl_->events.tick();
-    } catch (...) {  // of one handler, whose connection has been closed: the others go on
+    } catch (...) {  // A handler failed and its connection was closed; the others go on.
     }
   }
 }
@@ -512,7 +519,7 @@ void Server::Run(const std::function<bool()>& stopped) {
 void Server::Show(SharedBytes frame) {
   asio::post(impl_->context, [impl = impl_.get(), frame = std::move(frame)] {
     impl->latest = frame;
-    const auto pages = impl->pages;  // a page that fails leaves
+    const auto pages = impl->pages;  // a copy, since a page that fails is removed
     for (const auto& [id, page] : pages) {
       DoFor(page.get(), [&page = page] { page->Show(); });
     }
@@ -538,7 +545,7 @@ void Server::Send(ClientId client, SharedBytes bytes) {
   asio::post(impl_->context, [impl = impl_.get(), client, bytes = std::move(bytes)] {
     const auto page = impl->pages.find(client);
     if (page == impl->pages.end()) return;
-    const auto socket = page->second;  // which closing takes away
+    const auto socket = page->second;  // a copy, since closing removes it from `pages`
     DoFor(socket.get(), [&] { socket->Send(bytes); });
   });
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// view/server.h: one page and its connections over HTTP and WebSocket, both by Boost.Beast. Whoever
-// does not name the token, or comes by another name than the server's own, gets nothing. Whatever
-// goes wrong with a connection closes that one, and ends nothing else.
+// view/server.h: serves one page and its connections over HTTP and WebSocket, with Boost.Beast.
+// Clients that do not know the token, or use another name than the server's own, get nothing. An
+// error of a connection closes that connection, and affects nothing else.
 #pragma once
 
 #include <cstdint>
@@ -18,48 +18,49 @@ namespace nacre {
 
 struct ServerOptions {
   std::string address = "127.0.0.1";
-  uint16_t port = 0;   // 0: any that is free
-  std::string token;   // of the address: http://ADDRESS:PORT/TOKEN/
+  uint16_t port = 0;   // 0: any free port
+  std::string token;   // the secret in the address: http://ADDRESS:PORT/TOKEN/
   std::string origin;  // of a proxy ahead, which browsers then name: "https://example.org"
 };
 
-// What is served at /TOKEN/.
+// The page that is served at /TOKEN/.
 struct ServedPage {
   std::string html;
-  std::string style_hashes, script_hashes;  // 'sha256-...' as its policy allows them
+  std::string style_hashes, script_hashes;  // 'sha256-...', as the page's policy lists them
 };
 
-// Called by the thread in Run.
+// All are called by the thread that is in Run.
 struct ServerEvents {
   std::function<void(ClientId)> opened, closed;
-  std::function<void(ClientId, std::string_view)> message;  // throws Error for a bad one
-  // A page could take a picture. It took `ms` to have what was new of the last one, which is of so
-  // many bytes in all; 0: that is no measure for one that is made while things move.
+  std::function<void(ClientId, std::string_view)> message;  // throws Error for an invalid message
+  // A page can take a picture. It took `ms` to receive the changes in the last one, which has
+  // `bytes` bytes as a whole; 0: the time is no measure for pictures of a changing scene.
   std::function<void(double ms, size_t bytes)> ready;
-  std::function<void()> tick;  // twenty times a second
-  // A page knows the token, but calls the server by another name than its own: as browsers call it
-  // at the other end of a tunnel. Told once of each.
+  std::function<void()> tick;  // called twenty times a second
+  // A page that knows the token uses another name for the server, as browsers do at the far end of
+  // a tunnel. Called once for each name.
   std::function<void(const std::string& origin)> other_name;
 };
 
 class Server {
  public:
-  // Listens. Throws Error (kUsage) if it cannot.
+  // Starts to listen. Throws Error (kUsage) if that fails.
   Server(ServerOptions options, ServedPage page, ServerEvents events);
   ~Server();
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  std::string url() const;  // with the token
+  std::string url() const;  // including the token
 
-  // Serves until it is stopped, which it asks twenty times a second.
+  // Serves until stopped() is true, which is checked twenty times a second.
   void Run(const std::function<bool()>& stopped);
 
-  // From any thread. Pages that have not taken the last picture are sent the newest then.
+  // These can be called from any thread. Show: a page that has not received the last picture gets
+  // the newest one after that.
   void Show(SharedBytes frame);
-  void Say(ClientId client, std::string text);  // client 0: to all
+  void Say(ClientId client, std::string text);  // client 0: all pages
   void Send(ClientId client, SharedBytes bytes);
-  void Serve(ServedPage page);  // from now on in the place of the one before
+  void Serve(ServedPage page);  // replaces the page for new requests
 
   struct Impl;
 

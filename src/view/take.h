@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// view/take.h: the picture as a file that a page takes away.
+// view/take.h: renders the picture to a file for download.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace nacre {
 
-// Larger ones are not sent: a page and the server would hold several copies.
+// Larger files are not sent, because the page and the server would hold several copies.
 inline constexpr size_t kMaxFileBytes = size_t{128} << 20;
 
 // The bytes of the EXR file that `nacre render` makes of the plan.

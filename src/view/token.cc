@@ -21,7 +21,7 @@ constexpr size_t kTokenBytes = 16;
 
 std::string MakeToken() {
   std::array<uint8_t, kTokenBytes> bytes;
-  // The kernel gives so few at once, or none before it has begun to gather them.
+  // So few bytes come in one call, or none before the kernel's generator is seeded.
   ssize_t got = -1;
   do {
     got = getrandom(bytes.data(), bytes.size(), 0);
@@ -47,7 +47,7 @@ std::string KeptToken(unsigned port) {
     return *kept;
   }
   std::string token = MakeToken();
-  WritePrivateFile(path, token);  // if it cannot be kept, the next one is another
+  WritePrivateFile(path, token);  // if that fails, the next server has another token
   return token;
 }
 

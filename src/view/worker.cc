@@ -10,6 +10,7 @@
 
 #include "base/printable.h"
 #include "scene/material_parameters.h"
+#include "scene_io/load_scene.h"
 #include "scene_io/material_json.h"
 #include "shading/material_fit.h"
 #include "view/answer.h"
@@ -22,33 +23,34 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// What a picture may take while something moves, until a page has it: of the 33 ms from a slider's
-// event to the screen the browser waits up to 17 for its next frame.
+// The time until a page has a picture while the scene is being changed: of the 33 ms from a
+// slider's event to the screen, the browser may wait up to 17 for its next frame.
 constexpr double kMovingMs = 16;
-// How long nothing must have moved before a picture is refined: a hand that drags moves every 8 to
-// 17 ms.
+// How long the scene must be unchanged before the picture is refined: a drag sends a change every 8
+// to 17 ms.
 constexpr std::chrono::milliseconds kRest(90);
-// A page that takes no picture for so long does not hold up the others.
+// A page that takes no picture for this time no longer delays the others.
 constexpr std::chrono::milliseconds kPatience(250);
 constexpr std::chrono::milliseconds kFilesEvery(100);
-// Between pictures that are refined, but for the first and the last: one that is on its way, all of
-// its pixels, holds up the next that moves.
+// The interval of refined pictures, except for the first and the last: sending one, with all of its
+// pixels, delays the next picture of a changing scene.
 constexpr double kRefinedEveryMs = 250;
-// How long a picture must have been at rest before it is measured against those that are kept: FLIP
-// takes longer than a hand waits.
+// How long the picture must be unchanged before it is compared with those kept: FLIP takes longer
+// than a pause of the hand.
 constexpr std::chrono::milliseconds kMeasureAfter(400);
-// Of all pictures that are kept.
+// For all kept pictures together.
 constexpr size_t kMaxKeptBytes = size_t{200} << 20;
-// Of the picture's width and height, by which a frame may be smaller than it.
+// Divisors of the width and height, by which frames are made smaller.
 constexpr std::array<int, 8> kDivisors = {1, 2, 3, 4, 6, 8, 12, 16};
-// Pixels that a page is sent at most: 33 MB. Larger pictures are shown smaller.
+// The maximum of pixels sent to a page: 33 MB. Larger pictures are shown smaller.
 constexpr double kMaxPixels = 3840.0 * 2160;
-// Between two writes of the file of edits; and as many times what finding them takes.
+// The minimum interval of writing the file of edits; at least kKeepShare times the time that
+// finding the edits takes.
 constexpr std::chrono::milliseconds kKeepEvery(250);
 constexpr int kKeepShare = 20;
-// For changes that still wait when the server ends.
+// Time for changes that are still waiting when the server ends.
 constexpr std::chrono::milliseconds kLastChanges(300);
-// Scenes longer than this are told without their shapes: no page has controls for so many.
+// Longer scenes are sent without their shapes: no page has controls for so many.
 constexpr size_t kMaxSceneText = size_t{2} << 20;
 
 double MsSince(Clock::time_point start) {
@@ -57,7 +59,7 @@ double MsSince(Clock::time_point start) {
 
 int DividedBy(int side, int divisor) { return std::max(1, (side + divisor - 1) / divisor); }
 
-// Takes the maps out of a material of a scene file: what is left needs no textures to be read.
+// Takes the maps out of a scene file's material: the rest can be read without textures.
 Json TakeMaps(Json* material) {
   Json maps = Json::object();
   if (!material->is_object()) return maps;
@@ -74,8 +76,8 @@ bool HasMap(const MaterialModel& model, std::string_view name) {
          std::any_of(model.normal_maps.begin(), model.normal_maps.end(), named);
 }
 
-// Gives the maps to a material of another model, those of its colour by the name that they have
-// there. Returns what cannot be kept.
+// Adds the maps to a material of another model; maps of the main colour get the name that they have
+// there. Returns the names of maps that the model does not have.
 std::vector<std::string> KeepMaps(const Json& maps, std::string_view model_name, Json* material) {
   constexpr std::array<std::string_view, 3> kOfColor = {"base_color_map", "albedo_map",
                                                         "diffuse_map"};
@@ -104,7 +106,7 @@ size_t BytesOf(const Image& image) {
   return image.channels.size() * image.data.pixel_count() * sizeof(float);
 }
 
-// The layer's channels of an image, in the order R G B, or X Y Z.
+// The channels of an image's layer, in the order R G B, or X Y Z.
 std::vector<const Channel*> ChannelsOf(const Image& image, const std::string& layer) {
   std::vector<const Channel*> found;
   const std::string prefix = layer.empty() ? "" : layer + ".";
@@ -175,7 +177,7 @@ void Worker::Ready(double ms, size_t bytes) {
   {
     const std::lock_guard lock(mutex_);
     ready_ = true;
-    // The mean of the last few: one may have met a busy browser.
+    // A moving average, since a single measurement may be due to a busy browser.
     if (bytes > 0) ms_per_byte_ += 0.3 * (ms / static_cast<double>(bytes) - ms_per_byte_);
   }
   woken_.notify_all();
@@ -188,9 +190,9 @@ void Worker::Run() {
     try {
       runs = Step();
     } catch (const Cancelled&) {
-      plan_.reset();  // its film is of no use any more
+      plan_.reset();  // its film is no longer valid
     } catch (...) {
-      // The picture that was being made is not tried again before something changes.
+      // Do not render this picture again before something changes.
       done_ = true;
       moved_ = false;
       plan_.reset();
@@ -200,7 +202,7 @@ void Worker::Run() {
   Finish();
 }
 
-// Waits for something to do, and does it. Returns whether there is to be another.
+// Waits for work and does it. Returns false once the worker is to stop.
 bool Worker::Step() {
   std::vector<Request> requests;
   Next next = Next::kNothing;
@@ -219,14 +221,14 @@ bool Worker::Step() {
              (to_measure && since_change() >= kMeasureAfter);
     };
     if (!has_work()) {
-      // Until there is a request, or until it is time to refine or to look at the files.
+      // Waits for a request, or until it is time to refine, to measure or to look at the files.
       const auto until = clients_.empty() || moved_ ? Clock::now() + kFilesEvery
                          : !done_                   ? last_change_ + kRest
                          : to_measure               ? last_change_ + kMeasureAfter
                                                     : Clock::now() + kFilesEvery;
       woken_.wait_until(lock, until, has_work);
     }
-    // A picture that nobody can take yet would be old when it is sent: newer values may come.
+    // A picture that no page can take yet would be outdated when it is sent: wait for newer values.
     if (!stop_ && (moved_ || !mailbox_.empty()) && !clients_.empty()) {
       woken_.wait_for(lock, kPatience, [&] { return stop_ || ready_; });
     }
@@ -256,7 +258,7 @@ bool Worker::Step() {
            : !done_ && Clock::now() - last_change_ >= kRest                 ? Next::kRefine
            : AnyToMeasure() && Clock::now() - last_change_ >= kMeasureAfter ? Next::kMeasure
                                                                             : Next::kNothing;
-    // What came meanwhile ends it at once; a request before this line has set no flag.
+    // Requests from now on cancel the refinement at once; earlier ones have not set the flag.
     refining_ = next == Next::kRefine && mailbox_.empty();
     if (next == Next::kRefine && !mailbox_.empty()) return true;
     if (next == Next::kMoving) ready_ = false;
@@ -267,8 +269,8 @@ bool Worker::Step() {
   return true;
 }
 
-// The server ends. What pages have asked for is not lost: it is done as far as there is time, and
-// kept.
+// Called when the server ends. Serves and keeps the changes that pages have asked for, as far as
+// there is time.
 void Worker::Finish() {
   try {
     KeepEdits(true);
@@ -282,18 +284,18 @@ void Worker::Finish() {
       if (request.ChangesScene() && Clock::now() - start < kLastChanges) Serve(request);
     }
     KeepEdits(true);
-  } catch (...) {  // what was kept last is still there
+  } catch (...) {  // the last file that was written remains
   }
 }
 
-// Keeps what has been changed since the last time, unless that is only a moment ago.
+// Writes the changes since the last time, unless that was only a moment ago.
 void Worker::KeepEdits(bool at_once) {
   const auto start = Clock::now();
   if (!edits_ || !edits_to_keep_ || (start < keep_edits_at_ && !at_once)) return;
   bool kept = false;
   try {
     kept = edits_->Keep(document_->Edits());
-  } catch (const std::exception&) {  // no memory for it
+  } catch (const std::exception&) {  // out of memory
   }
   edits_to_keep_ = !kept;
   const Clock::duration took = Clock::now() - start;
@@ -304,14 +306,14 @@ void Worker::KeepEdits(bool at_once) {
                                        "take the scene away before it does")));
 }
 
-// One at a time, whatever one of them throws.
+// Serves one request; exceptions are reported to its page.
 void Worker::Serve(const Request& request) {
   try {
     Answer(request);
   } catch (...) {
     sinks_.say(request.client, CaughtFault(""));
   }
-  // A change may have ended this one; the next is another.
+  // A change may have cancelled this request; the next one starts afresh.
   const std::lock_guard lock(mutex_);
   refining_ = false;
   cancel_ = stop_;
@@ -325,7 +327,7 @@ void Worker::Answer(const Request& request) {
   } else if (const auto* look = std::get_if<LookRequest>(&request.what)) {
     display_.tone = ParseToneOperator(look->tone);
     display_.exposure_ev = look->exposure;
-    for (auto& [id, kept] : kept_) kept.measured = false;  // SSIM and FLIP are of what is seen
+    for (auto& [id, kept] : kept_) kept.measured = false;  // SSIM and FLIP compare display pictures
     const std::string layer = std::exchange(layer_, look->layer);
     try {
       ParseLayers({"all", look->layer.empty() ? "albedo" : look->layer}, document_->scene());
@@ -365,7 +367,7 @@ void Worker::ServeSet(ClientId client, const SetRequest& set) {
   try {
     document_->Set(set.pointer, set.value, set.gesture);
   } catch (...) {
-    moved_ = true;  // the picture that was being made is gone
+    moved_ = true;  // the picture that was being refined is lost
     sinks_.say(client, CaughtFault(set.pointer));
     return;
   }
@@ -392,7 +394,8 @@ void Worker::ServeConvert(ClientId client, const ConvertRequest& convert) {
     }
     Json own = tree.at(pointer);
     const Json maps = TakeMaps(&own);
-    const MaterialFit fit = FitMaterial(MaterialFromJson(own, convert.pointer), convert.model);
+    const MaterialFit fit =
+        FitMaterial(LoadMaterialText(JsonText(own), convert.pointer), convert.model);
     Json fitted = MaterialJson(fit.fitted);
     Json notes = Json::array();
     for (const std::string& name : KeepMaps(maps, convert.model, &fitted)) notes.push_back(name);
@@ -409,7 +412,7 @@ void Worker::ServeConvert(ClientId client, const ConvertRequest& convert) {
 }
 
 void Worker::ServeOffered(ClientId client, OfferedRequest what) {
-  if (!edits_ || edits_->offered().empty()) return SayScene(client);  // another page was faster
+  if (!edits_ || edits_->offered().empty()) return SayScene(client);  // another page has decided
   const std::vector<Edit> offered = edits_->offered();
   plan_.reset();  // it refers to the scene
   std::vector<std::string> unfit;
@@ -427,9 +430,10 @@ void Worker::ServeOffered(ClientId client, OfferedRequest what) {
 }
 
 void Worker::Explain(ClientId client, const ExplainRequest& request) {
-  // Through the pixel's centre, which is where its terms are computed: a filter as good as none.
+  // A filter of almost no width, so that the ray goes through the pixel's centre, where the terms
+  // are computed.
   constexpr double kNoWidth = 1e-6;
-  constexpr int kSamples = 64;  // of lights that are sampled
+  constexpr int kSamples = 64;  // per light that is sampled
   plan_.reset();                // it refers to the scene
   const std::vector<Light>& lights = document_->scene().lights;
   const bool sampled = std::any_of(lights.begin(), lights.end(), [](const Light& light) {
@@ -542,7 +546,7 @@ void Worker::CheckFiles() {
     Changed();
     SayScene(0);
   } catch (const std::exception& error) {
-    // The picture stays: it is the last good one.
+    // The last good picture stays.
     banner_ = PrintableLines(error.what());
     sinks_.say(0, JsonText({{"banner", banner_}}));
   }
@@ -583,7 +587,7 @@ bool Worker::AnyToMeasure() const {
 void Worker::Measure() {
   for (auto& [client, kept] : kept_) {
     if (std::exchange(kept.measured, true)) continue;
-    Json metrics;  // null: the pictures are of different sizes
+    Json metrics;  // null: the pictures differ in size
     if (kept.image->data == image_.data) metrics = BeautyMetricsJson(image_, *kept.image, display_);
     sinks_.say(client, JsonText({{"metrics", std::move(metrics)}, {"revision", revision_}}));
   }
@@ -592,7 +596,7 @@ void Worker::Measure() {
 void Worker::Take(ClientId client, TakeRequest what) {
   {
     const std::lock_guard lock(mutex_);
-    refining_ = true;  // a change ends it
+    refining_ = true;  // a change cancels it
   }
   SharedBytes bytes;
   try {
@@ -661,7 +665,7 @@ int Worker::FitDivisor() const {
 void Worker::Plan(int divisor, bool moving) {
   plan_.reset();
   ImageSettings image = FullImage();
-  if (moving) image.spp = 1;  // one sample a pixel has fast paths of its own
+  if (moving) image.spp = 1;  // one sample per pixel has fast paths of its own
   image.width = DividedBy(image.width, divisor);
   image.height = DividedBy(image.height, divisor);
   document_->UseImage(image);
@@ -680,7 +684,8 @@ void Worker::RenderMoving() {
   render_ms_ = MsSince(start);
   done_ = FullImage().spp == 1 && divisor == FitDivisor() && !(options_.max_error > 0);
   Publish(done_, true);
-  // The first picture makes all that later ones keep: it says nothing of these.
+  // The time of the first picture is not representative, as it builds the data that later ones
+  // reuse.
   if (revision_ <= 1) return;
   double way_ms = 0;
   {
@@ -690,8 +695,8 @@ void Worker::RenderMoving() {
   Adapt(render_ms_ + way_ms);
 }
 
-// The next divisor, from what this picture took: at once smaller, and larger by a step if there is
-// time to spare.
+// Chooses the next divisor from the time of this picture: reduces the size at once, but increases
+// it only stepwise, if there is time to spare.
 void Worker::Adapt(double ms) {
   const auto place = std::find(kDivisors.begin(), kDivisors.end(), divisor_);
   if (ms > kMovingMs) {
@@ -728,7 +733,7 @@ void Worker::Refine() {
     FitImage(*plan_, settings, &next_);
     RenderPass(*plan_, settings, end, &film_, &next_);
     std::swap(image_, next_);
-    // Pictures follow one another no faster than pages can show them beside the rendering.
+    // Pictures are not shown faster than pages can display them while the rendering goes on.
     if (film_.samples < spp && MsSince(start) - last_shown < kRefinedEveryMs) continue;
     last_shown = MsSince(start);
     render_ms_ = last_shown;

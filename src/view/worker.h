@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// view/worker.h: the thread that owns the scene: it takes what pages ask for, renders, and gives
-// away pictures. While something moves, pictures keep to a time; then they are refined.
+// view/worker.h: the thread that owns the scene: it serves the requests of pages, renders, and
+// publishes pictures. While the scene is being changed, pictures are rendered within a time limit;
+// then they are refined.
 #pragma once
 
 #include <atomic>
@@ -25,46 +26,48 @@
 namespace nacre {
 
 struct WorkerOptions {
-  int samples = 0;       // of a pixel at rest; 0: the scene's
-  double max_error = 0;  // > 0: adaptive at rest, as --max-error
+  int samples = 0;       // per pixel of the refined picture; 0: the scene's
+  double max_error = 0;  // > 0: adaptive sampling of the refined picture, as --max-error
   int threads = 0;
   DisplaySettings display;
-  // What the command line says of the scene, for the page's own command line.
+  // What the command line specifies, for the page's own command line.
   std::string generator;  // "nacre 0.2.0 (c0ffee)"
   std::string file;
-  std::vector<std::string> given;  // options that have changed it
-  // A page of A and B, as `nacre report` makes one.
+  std::vector<std::string> given;  // options that have changed the scene
+  // Makes a page that compares A and B, as `nacre report` does.
   std::function<std::string(const Image& a, const Image& b, const DisplaySettings&)> make_report;
 };
 
-// What the worker's pictures and answers go to. Called from its thread.
+// Receivers of the worker's pictures and answers. Called from its thread.
 struct WorkerSinks {
   std::function<void(SharedBytes)> show;            // to all pages
   std::function<void(ClientId, std::string)> say;   // JSON; client 0: to all
-  std::function<void(ClientId, SharedBytes)> send;  // samples and files, to one
+  std::function<void(ClientId, SharedBytes)> send;  // samples and files, to one page
 };
 
-// Makes the document. Throws Error.
+// Opens the document. Throws Error.
 using OpenDocument = std::function<std::unique_ptr<ViewDocument>()>;
 
 class Worker {
  public:
-  // Opens the document in this thread, whose errors come out.
+  // Opens the document in the calling thread, and throws its errors.
   Worker(const OpenDocument& open, const WorkerOptions& options);
-  ~Worker();  // ends it, whatever it does
+  ~Worker();  // stops the thread
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
-  // `edits`, if any: where edits are kept beyond the server's end.
+  // `edits`, which may be null, keeps edits beyond the server's end.
   void Start(WorkerSinks sinks, std::unique_ptr<EditsFile> edits);
-  // The sinks are not called any more, and edits have been kept.
+  // After it returns, edits have been kept, and the sinks are no longer called.
   void Stop();
 
-  // From any thread. Throws Error for a message that is not understood.
+  // Receive, Opened and Closed may be called from any thread. Receive throws Error for an invalid
+  // message.
   void Receive(ClientId client, std::string_view message);
   void Opened(ClientId client);
   void Closed(ClientId client);
-  // Some page could take a picture now. It took `ms` to have the last one, of so many bytes.
+  // Some page can take a picture. It took `ms` to receive the last one, of `bytes` bytes; 0 bytes:
+  // no measurement.
   void Ready(double ms, size_t bytes);
 
  private:
@@ -72,7 +75,7 @@ class Worker {
   // A picture that a page has kept as A.
   struct KeptPicture {
     std::shared_ptr<const Image> image;
-    bool measured = false;  // against the present picture
+    bool measured = false;  // compared with the present picture
   };
 
   void Add(Request request);
@@ -111,33 +114,33 @@ class Worker {
 
   std::mutex mutex_;
   std::condition_variable woken_;
-  Mailbox mailbox_;                // under mutex_
-  std::vector<ClientId> clients_;  // under mutex_
-  bool ready_ = false;             // under mutex_: a page waits for a picture
-  double ms_per_byte_ = 0;         // under mutex_: of pictures on their way
-  bool stop_ = false;              // under mutex_
-  bool refining_ = false;          // under mutex_: what runs may be cancelled
+  Mailbox mailbox_;                // guarded by mutex_
+  std::vector<ClientId> clients_;  // guarded by mutex_
+  bool ready_ = false;             // guarded by mutex_: a page waits for a picture
+  double ms_per_byte_ = 0;         // guarded by mutex_: transmission time of pictures
+  bool stop_ = false;              // guarded by mutex_
+  bool refining_ = false;          // guarded by mutex_: the current work may be cancelled
   std::atomic<bool> cancel_ = false;
 
-  // Of the thread alone.
+  // Used by the worker's thread only.
   std::unique_ptr<ViewDocument> document_;
   DisplaySettings display_;
   std::string layer_;
   uint32_t revision_ = 1;
-  int divisor_ = 1;  // of the size while something moves
+  int divisor_ = 1;  // of the size while the scene is being changed
   bool moved_ = true;
   std::optional<FramePlan> plan_;
   FrameFilm film_;
-  Image image_;  // the last that was finished, which is what pages see
-  Image next_;   // being rendered, which may end half-way
+  Image image_;  // the last finished one, which pages see
+  Image next_;   // being rendered, perhaps incomplete
   bool done_ = false;
   std::map<ClientId, KeptPicture> kept_;
   double render_ms_ = 0;
   std::string banner_;
   std::chrono::steady_clock::time_point last_change_, last_files_;
   std::unique_ptr<EditsFile> edits_;
-  bool edits_to_keep_ = false;  // there are newer ones than in the file
-  bool edits_failed_ = false;   // which pages have been told
+  bool edits_to_keep_ = false;  // there are newer edits than in the file
+  bool edits_failed_ = false;   // pages have been told of it
   std::chrono::steady_clock::time_point keep_edits_at_;
   std::thread thread_;
 };

@@ -20,7 +20,7 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// A group: the lanes of one vector of a packet.
+// The lanes of one vector of a packet form a group.
 inline constexpr int kGroupLanes = static_cast<int>(hn::MaxLanes(CameraDouble()));
 inline constexpr uint32_t kAllOfGroup = (1u << kGroupLanes) - 1;
 
@@ -51,7 +51,7 @@ class CompactLanes {
   hn::Vec<D64> lanes64_;
 };
 
-// Appends hits to a batch, one group of lanes at a time. Whole vectors are stored: entries behind
+// Appends hits to a batch, one group of lanes at a time. It stores whole vectors: entries behind
 // the last hit are overwritten.
 class HitWriter {
  public:
@@ -64,9 +64,10 @@ class HitWriter {
         normal_(PointersTo(&to.directions->normal)),
         to_view_(PointersTo(&to.directions->to_view)) {}
 
-  // Everything of a group's hits but their primitives: call Primitive or Primitives afterwards,
-  // which count the hits. `first_ray`: the index of the first lane's ray. position() computes the
-  // points, if they are wanted, once the directions are stored: it takes their registers.
+  // Appends a group's hits without their primitives: call Primitive or Primitives afterwards, which
+  // count the hits. `first_ray` is the index of the first lane's ray. position() computes the
+  // positions, if they are wanted, after the directions are stored, because it needs their
+  // registers.
   template <class V, class Position>
   HWY_INLINE void Surfaces(Vec3V<V> normal, Vec3V<V> to_view, const Position& position,
                            uint32_t bits, uint32_t first_ray) const {
@@ -74,10 +75,10 @@ class HitWriter {
     const hn::Rebind<float, CameraDouble> df;
     const D32 du;
     const bool all = bits == kAllOfGroup;
-    // Iota(du, first_ray) goes through memory.
+    // Iota(du, first_ray) would go through memory.
     auto rays = hn::Add(hn::Iota(du, 0), hn::Set(du, first_ray));
-    // Compacted before the stores, so that there is one set of stores for both cases: with two sets
-    // GCC keeps their common addresses in mask registers.
+    // Vectors are compacted before the stores, so that there is one set of stores for both cases:
+    // with two sets GCC keeps their common addresses in mask registers.
     if (!all) {
       const CompactLanes compact(bits);
       normal = compact(normal);
@@ -97,14 +98,14 @@ class HitWriter {
     StoreAtEnd(du, rays, ray_);
   }
 
-  // The primitive that all lanes in `bits` have hit. Counts the hits.
+  // Appends the primitive that all lanes in `bits` have hit, and counts the hits.
   HWY_INLINE void Primitive(uint32_t primitive, uint32_t bits) {
     const D32 du;
     StoreAtEnd(du, hn::Set(du, primitive), primitive_);
     Count(primitive_[0] == primitive, bits);
   }
 
-  // The same for lanes that may have hit different primitives.
+  // Appends the primitives of lanes that may have hit different ones, and counts the hits.
   HWY_INLINE void Primitives(const uint32_t* primitives, uint32_t bits) {
     const D32 du;
     const auto each = hn::Load(du, primitives);

@@ -12,7 +12,7 @@
 #include "base/geometry-inl.h"
 #include "visibility/inverse_length-inl.h"
 #include "visibility/packet-inl.h"
-#include "visibility/tile_kernel.h"
+#include "visibility/tile_candidates.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -29,19 +29,20 @@ using CameraFloat = hn::CappedTag<float, kCameraPacket>;
 struct CameraPacket {
   uint32_t lanes;        // lanes that hold rays, as bits
   uint32_t pixel_rows;   // pixel rows of their cells that the rays may lie in, as bits
-  const double* film_x;  // film positions: the packet's part of the batch
+  const double* film_x;  // film positions: the packet's piece of the batch
   const double* film_y;
   // In float: the varying vectors, and the directions' squared lengths.
   alignas(kVectorBytes) float varying[3][kCameraPacket];
   alignas(kVectorBytes) float dd[kCameraPacket];
-  // In double, filled for those groups of lanes, in `exact`, that any float test proposed.
+  // In double. Filled for the groups of lanes that any float test proposed a lane of, whose first
+  // lanes are the bits of `exact`.
   uint32_t exact;
   alignas(kVectorBytes) double exact_varying[3][kCameraPacket];
   alignas(kVectorBytes) double exact_dd[kCameraPacket];
   alignas(kVectorBytes) double inverse_length[kCameraPacket];  // 1 / |direction|
-  // The nearest hits so far, of the lanes in `hit`.
+  // The nearest hits so far of the lanes in `hit`.
   uint32_t hit;
-  alignas(kVectorBytes) float depth[kCameraPacket];  // upper bound of t |direction|^2 of the next
+  alignas(kVectorBytes) float depth[kCameraPacket];  // limit of t |direction|^2, rounded up
   alignas(kVectorBytes) double t[kCameraPacket];
   alignas(kVectorBytes) double normal[3][kCameraPacket];      // on the ray's side
   alignas(kVectorBytes) double signed_radius[kCameraPacket];  // SignedRadius
@@ -56,8 +57,8 @@ struct CameraPacket {
   alignas(kVectorBytes) double projected_scale[kCameraPacket] = {};
 };
 
-// Makes the candidate the sphere of the lanes in `bits`, of the group that begins at `lane`. Whole
-// vectors are stored because they are soon loaded as such (store forwarding).
+// Stores the candidate as the sphere of the lanes in `bits`, of the group that begins at `lane`.
+// Whole vectors are stored because they are soon loaded as such (store forwarding).
 HWY_INLINE void SetSphere(const TileCandidate& candidate, int lane, uint32_t bits,
                           CameraPacket* packet) {
   const auto set = [&](auto d, auto value, auto* to) HWY_ATTR {
@@ -84,7 +85,7 @@ HWY_INLINE Vec3V<hn::Vec<CameraDouble>> LoadLanes(const double (&from)[3][kCamer
   return Load3(CameraDouble(), from[0] + lane, from[1] + lane, from[2] + lane);
 }
 
-// A vector of floats from doubles.
+// Loads doubles and rounds them to a vector of floats.
 HWY_INLINE hn::Vec<CameraFloat> LoadRounded(const double* from) {
   const CameraFloat d;
 #if HWY_TARGET == HWY_SCALAR
@@ -115,9 +116,10 @@ HWY_INLINE void FillFloatRays(const CameraFrame& frame, CameraPacket* packet) {
   }
 }
 
-// The float test: the lanes whose ray passes the candidate's centre within its radius bound and,
-// unless the depth is ignored, does so in front of the camera and not beyond the lane's depth. They
-// include all lanes that truly hit the sphere, because the bound covers the rounding (RadiusBound).
+// The float test: returns the lanes whose ray passes the candidate's centre within its radius bound
+// and, unless the depth is ignored, does so in front of the camera and not beyond the lane's depth.
+// They include all lanes that truly hit the sphere, because the bound covers the rounding
+// (RadiusBound).
 //
 // The distance of the centre from the line is |to_center x direction| / |direction|, so nothing is
 // divided. Along the line, too, both conditions leave a slack of the radius bound.
@@ -151,7 +153,8 @@ HWY_INLINE uint32_t ProposedLanes(const CameraFrame& frame, const TileCandidate&
   return lanes & packet.lanes;
 }
 
-// The varying vectors, in double, of the lanes from `lane` on, by the operations of MakeCameraRays.
+// The varying vectors, in double, of the lanes from `lane` on, computed with the operations of
+// MakeCameraRays.
 template <class D>
 HWY_INLINE Vec3V<hn::Vec<D>> ExactVarying(D d, const CameraFrame& frame, int lane,
                                           const CameraPacket& packet) {
@@ -161,7 +164,7 @@ HWY_INLINE Vec3V<hn::Vec<D>> ExactVarying(D d, const CameraFrame& frame, int lan
                  MulAdd3(SetVec3(d, frame.step_x), x, SetVec3(d, frame.corner)));
 }
 
-// The double rays of the lanes from `lane` on.
+// Fills in the double rays of the lanes from `lane` on.
 template <bool kPerspective, class D>
 HWY_INLINE void FillExactRays(D d, const CameraFrame& frame, int lane, CameraPacket* packet) {
   using V = hn::Vec<D>;

@@ -14,8 +14,8 @@ float LeastOf(std::span<const float> values) {
   return values.empty() ? 1.0f : *std::min_element(values.begin(), values.end());
 }
 
-// Always from the full image: mip levels would close the holes of distant foliage, or lose the
-// leaves.
+// Always samples the full-resolution image: mip levels would close the holes of distant foliage, or
+// lose the leaves.
 double MapOpacity(const CutOut& cut_out, const Vec2d& uv) {
   const SampleSettings& sampling = cut_out.texture.sampling;
   return sampling.filter == TextureFilter::kNearest
@@ -26,7 +26,7 @@ double MapOpacity(const CutOut& cut_out, const Vec2d& uv) {
 }  // namespace
 
 std::optional<CutOut> MakeCutOut(const Scene& scene, const Mesh& mesh) {
-  if (mesh.material.index >= scene.materials.size()) return std::nullopt;  // traced, never shaded
+  if (mesh.material.index >= scene.materials.size()) return std::nullopt;  // it is never shaded
   const Material& material = scene.materials[mesh.material.index];
   if (!CutsHoles(material) && mesh.opacities.empty()) return std::nullopt;
   CutOut made;
@@ -55,8 +55,8 @@ bool IsSolidAt(const CutOut& cut_out, const std::vector<Vec3d>& positions,
   double opacity = cut_out.opacity;
   if (!cut_out.opacities.empty()) {
     // Interpolated by differences from the first corner, because the sum of the weights is rounded:
-    // between corners of equal opacity the result is exactly that opacity, and on its side of the
-    // cutoff.
+    // between corners of equal opacity the result is exactly that opacity, and so on the same side
+    // of the cutoff.
     const auto at = [&](size_t k) {
       return double{cut_out.opacities[corners[k] - cut_out.first_vertex]};
     };

@@ -26,7 +26,7 @@ struct ExactHits {
   hn::Vec<CameraDouble> signed_radius;
 };
 
-// By the general test, for any spheres.
+// Hits by the general test, for any spheres.
 template <bool kPerspective>
 HWY_INLINE ExactHits GeneralHits(const CameraFrame& frame, const CameraPacket& packet, int lane,
                                  const Vec3V<hn::Vec<CameraDouble>>& center,
@@ -43,7 +43,7 @@ HWY_INLINE ExactHits GeneralHits(const CameraFrame& frame, const CameraPacket& p
           signed_radius};
 }
 
-// By the projected test.
+// Hits by the projected test.
 HWY_INLINE ExactHits ProjectedHits(const CameraPacket& packet, int lane,
                                    const ProjectedSphereV<hn::Vec<CameraDouble>>& projected,
                                    const Vec3V<hn::Vec<CameraDouble>>& center,
@@ -131,7 +131,8 @@ HWY_INLINE bool TestCandidate(const CameraFrame& frame, const TileCandidate& can
   return true;
 }
 
-// Exact tests of the lanes in `single`, each against the sphere that the packet holds for it.
+// Runs the exact tests of the lanes in `single`, each against the sphere that the packet holds for
+// it.
 template <bool kPerspective>
 HWY_INLINE void TestProposed(const CameraFrame& frame, uint32_t single, CameraPacket* packet) {
   const CameraDouble d;

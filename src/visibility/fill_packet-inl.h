@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/fill_packet-inl.h: a batch's rays as packets: rounded to float, and with what their
-// proposals and the exact tests need.
+// visibility/fill_packet-inl.h: fills packets with a batch's rays: rounded to float, with the terms
+// that the float tests and the exact tests need.
 #if defined(NACRE_VISIBILITY_FILL_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_VISIBILITY_FILL_PACKET_INL_H_
 #undef NACRE_VISIBILITY_FILL_PACKET_INL_H_
@@ -22,9 +22,9 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Components that Embree replaces by 1e-18 before it takes their reciprocals, and a few more, are
-// 0: it does so whatever their sign, and a packet's frustum of those that are negative is then
-// empty. What that moves a ray by is far less than what rounding it does.
+// Flushes to 0 the components that Embree would replace by 1e-18 before it takes their reciprocals,
+// and somewhat larger ones: Embree ignores their sign, and the frustum of a packet with negative
+// ones would be empty. This moves a ray by far less than rounding it does.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V FlushTiny(D d, V component) {
   return hn::IfThenElseZero(hn::Gt(hn::Abs(component), hn::Set(d, 0x1p-56)), component);
@@ -70,8 +70,8 @@ HWY_INLINE void FillLanes(D d, hn::Vec<D> t_max, int lane, Packet* packet) {
   }
 }
 
-// The packet of a batch's rays from `first` on, which end at packet->t_max; lanes past `count` hold
-// none.
+// Fills the packet with the batch's rays from `first` on, which end at packet->t_max. Lanes past
+// `count` hold no rays.
 template <class Batch>
 HWY_INLINE void FillPacket(const Batch& batch, size_t first, Packet* packet) {
   packet->origin_x = batch.origin.x.data() + first;
@@ -89,7 +89,7 @@ HWY_INLINE void FillPacket(const Batch& batch, size_t first, Packet* packet) {
   packet->lanes = (1u << std::min(left, packet->width)) - 1;
 }
 
-// Bounds the coordinates that a point on the primitive was computed from.
+// An upper bound of the coordinates that a point on the primitive was computed from.
 HWY_INLINE double Reach(const TraceGeometry& geometry, uint32_t primitive) {
   const auto sum_of_abs = [](const Vec3d& v) {
     return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
@@ -106,7 +106,7 @@ HWY_INLINE double Reach(const TraceGeometry& geometry, uint32_t primitive) {
   return extent;
 }
 
-// `starts`: the primitives that the batch's rays start on.
+// `starts` are the primitives that the batch's rays start on.
 HWY_INLINE void FillStarts(const AlignedArray<uint32_t>& starts, size_t first, Packet* packet) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const TraceGeometry& geometry = *packet->geometry;
@@ -124,7 +124,7 @@ HWY_INLINE void FillStarts(const AlignedArray<uint32_t>& starts, size_t first, P
   }
 }
 
-// For the rays' first hits that are nearer than hits->t.
+// Fills the packet for the rays' first hits that are nearer than hits->t.
 HWY_INLINE void FillClosest(const RayBatch& rays, size_t first, ClosestHits* hits, Packet* packet) {
   packet->view = rays.view;
   packet->best_t = hits->t.data() + first;
@@ -136,7 +136,7 @@ HWY_INLINE void FillClosest(const RayBatch& rays, size_t first, ClosestHits* hit
   if (rays.from_surfaces) FillStarts(rays.start, first, packet);
 }
 
-// For shadow rays; those that are known to be occluded are not asked about.
+// Fills the packet with shadow rays, but those that are known to be occluded are not traced.
 HWY_INLINE void FillShadowPacket(const ShadowRayBatch& rays, size_t first, Packet* packet) {
   packet->t_max = rays.t_max.data() + first;
   packet->outward = rays.outward;

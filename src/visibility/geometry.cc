@@ -45,7 +45,7 @@ void AppendMesh(const Mesh& mesh, bool with_normals, TraceGeometry* geometry) {
   }
 }
 
-// Whether the mesh has no back: its material is single-sided.
+// Whether the mesh has only front sides, because its material is single-sided.
 bool LacksBack(const Scene& scene, const Mesh& mesh) {
   const size_t material = mesh.material.index;
   return scene.image.culling && material < scene.materials.size() &&

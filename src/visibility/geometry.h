@@ -13,29 +13,18 @@
 #include "scene/scene.h"
 #include "visibility/cut_out.h"
 #include "visibility/shell_tree.h"
+#include "visibility/trace_sphere.h"
 
 namespace nacre {
 
-// The relative rounding error of one operation on floats.
-inline constexpr double kFloatUnit = 0x1p-24;
-
-struct TraceSphere {
-  Vec3d center;
-  double radius = 0;
-};
-
-inline bool Coincide(const TraceSphere& a, const TraceSphere& b) {
-  return a.center == b.center && a.radius == b.radius;
-}
-
-// For each of these spheres, given by index in ascending order, the first one of them that
-// coincides with it, which is usually itself.
+// For each of these spheres, given by index in ascending order, finds the first of them that
+// coincides with it, which is usually the sphere itself.
 std::vector<uint32_t> FindFirstCoincident(const HugeArray<TraceSphere>& spheres,
                                           const std::vector<uint32_t>& indices);
 
 struct TraceGeometry {
   HugeArray<TraceSphere> spheres;  // in scene order
-  ShellTree shells;  // of the spheres; only if many are nested, which trees of boxes cannot cull
+  ShellTree shells;  // of the spheres; only if many are nested, which BVHs of boxes cannot cull
 
   // The vertices of all meshes, mesh after mesh, and the triangles, which index them.
   std::vector<Vec3d> positions;
@@ -44,14 +33,14 @@ struct TraceGeometry {
   std::vector<std::array<uint32_t, 3>> triangles;
   // Meshes with holes, in the order of their triangles. Most scenes have none.
   std::vector<CutOut> cut_outs;
-  // Per triangle, 1: single-sided. Empty if none is.
+  // Per triangle: 1 if it is single-sided, else 0. Empty if none is.
   std::vector<uint8_t> single_sided;
 
   // No point of any primitive is further than this from the camera.
   double extent = 0;
 
-  Vec3d eye{0, 0, 0};  // where the camera is in the world
-  // How far a camera may be from the one that a tree of boxes was built for.
+  Vec3d eye{0, 0, 0};  // the camera's position in the world
+  // How far a camera may be from the one that the BVHs were built for.
   double eye_reach = 0;
 
   uint32_t SphereCount() const { return static_cast<uint32_t>(spheres.size()); }
@@ -73,7 +62,8 @@ struct ChangedSphere {
 std::optional<std::vector<ChangedSphere>> ChangeSpheres(const Scene& scene, size_t most,
                                                         int threads, TraceGeometry* geometry);
 
-// Makes the coordinates of all but shells relative to another camera. `scene` has the same shapes.
+// Makes all coordinates but those of shells relative to another camera. `scene` must have the same
+// shapes.
 void MoveGeometry(const Scene& scene, const Vec3d& camera_position, int threads,
                   TraceGeometry* geometry);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/intersector.cc: hands each question to what answers it: shells, boxes, bins or lists.
+// visibility/intersector.cc: dispatches queries to the shell tree, BVHs, bins or lists.
 #include "visibility/intersector.h"
 
 #include <algorithm>
@@ -15,22 +15,22 @@
 
 namespace nacre {
 
-// An entry is the number of a sphere and its pixel rows.
+// An entry is the index of a sphere and its pixel rows.
 static constexpr size_t kMaxCameraBinEntries =
     kMaxCameraBinBytes / (sizeof(uint32_t) + sizeof(uint16_t));
 
-// Trees hold pointers to the geometry.
+// On the heap, because BVHs hold pointers to the geometry.
 struct Intersector::State {
   IntersectorSettings settings;
   TraceGeometry geometry;
   bool nested = false;
   size_t changes = 0;  // how many spheres have changed since AreNested was last asked
-  std::vector<LightOccluders> occluders;  // by number of the light
-  std::vector<LightOccluders> forgotten;  // until the next FindOccluders
+  std::vector<LightOccluders> occluders;  // by index of the light
+  std::vector<LightOccluders> forgotten;  // kept until the next FindOccluders
   CameraFrame camera;
   SphereBins bins;
   bool tree = false;              // BuildTree was called
-  std::optional<BoxTrees> boxes;  // null: there is no use for any
+  std::optional<BoxTrees> boxes;  // nullopt if no BVH is needed
 
   bool HasShells() const { return !geometry.shells.empty(); }
   void BuildBoxes(BoxTree tree, CancelPointer cancel) {
@@ -68,7 +68,7 @@ bool Intersector::MoveTo(const Scene& scene, const Vec3d& camera_position) {
   s.bins = {};
   MoveGeometry(scene, camera_position, s.settings.threads, &s.geometry);
   ForgetOccluders();
-  // Spheres that nearly are nested may be by the roundings of other coordinates.
+  // Spheres that are nearly nested may become nested when other coordinates are rounded.
   return !AreNested(s.geometry.spheres);
 }
 
@@ -148,7 +148,7 @@ void Intersector::Refine(const RayBatch& rays, const ClosestHits& closest,
 void Intersector::FindOccluders(const std::vector<const Light*>& lights, bool outward) {
   State& s = *state_;
   const bool few = s.geometry.spheres.size() <= kMaxListedSpheres;
-  // Many lights are shared out among the threads; few have all of them, one after the other.
+  // Many lights are distributed among the threads; a few follow one another, each on all threads.
   const bool many = lights.size() >= 8;
   const int inner = many ? 1 : s.settings.threads;
   const size_t room = kBinEntryBudget / std::max<size_t>(lights.size(), 4);

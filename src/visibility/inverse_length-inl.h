@@ -20,7 +20,7 @@ template <class D, class V = hn::Vec<D>>
 HWY_INLINE V RoughInverseSqrt(D d, V v) {
 #if HWY_TARGET <= HWY_AVX3
   (void)d;
-  return V{_mm512_maskz_rsqrt14_pd(0xff, v.raw)};  // GCC 12 warns of the plain one
+  return V{_mm512_maskz_rsqrt14_pd(0xff, v.raw)};  // GCC 12 warns about the unmasked form
 #else
   const hn::Rebind<float, D> df;
   return hn::PromoteTo(d, hn::Div(hn::Set(df, 1.0f), hn::Sqrt(hn::DemoteTo(df, v))));

@@ -14,7 +14,7 @@ namespace nacre {
 namespace {
 
 // Cells are made so large that each holds about this many spheres, unless the budget allows smaller
-// ones.
+// cells.
 constexpr double kSpheresPerCell = 12;
 constexpr size_t kSampleSize = 4096;
 constexpr double kFar = 1e30;  // replaces infinity where differences are computed
@@ -291,7 +291,7 @@ class Binner {
     constexpr size_t kMostEntries = size_t{1} << 28;
     bins_.overfull = std::accumulate(bins_.end.begin(), bins_.end.end(), size_t{0}) > kMostEntries;
     if (bins_.overfull) return;
-    // The counts become the lists' begins; these become their ends as the lists are filled.
+    // The counts become the begins of the lists, and then their ends as the lists are filled.
     uint32_t sum = 0;
     for (uint32_t& count : bins_.end) sum += std::exchange(count, sum);
     bins_.binned = HugeArray<BinnedSphere>(sum + kBatchPadding);
@@ -310,7 +310,7 @@ class Binner {
     block_numbers_ = {};
   }
 
-  // Moves the list behind the last block, of large and far spheres, to LightBins::large.
+  // Moves the list behind the last block, which holds large and far spheres, to LightBins::large.
   void TakeLarge() {
     const uint32_t begin = block_count_ == 0 ? 0 : block_end_[block_count_ - 1];
     bins_.large.assign(block_numbers_.data() + begin, block_numbers_.data() + block_end_.back());
@@ -328,7 +328,7 @@ class Binner {
 
   const HugeArray<TraceSphere>& spheres_;
   int threads_;
-  double entries_per_sphere_;  // of the budget
+  double entries_per_sphere_;  // in the budget
   std::vector<size_t> sample_;
   double margin_ = 0;
   int max_cells_each_;  // every ray is tested against spheres that cover more cells
@@ -349,14 +349,15 @@ LightBins BinForLight(const TraceGeometry& geometry, const ShadowLight& light, s
   return bins;
 }
 
-// What is binned is relative to the centre. All else relative to the camera is rounded to 2^-53 of
-// numbers that are about max_distance at most, before the move and after it: to some 1e-16
-// max_distance, of which the margins have room for 40 times as much (kDoubleError of a thousandth).
+// Binned spheres are relative to the centre, and so unaffected. All else is relative to the camera,
+// and rounded, before the move and after it, to 2^-53 of numbers that are at most about
+// max_distance: by some 1e-16 max_distance, which is a fortieth of the margins (kDoubleError of a
+// thousandth of max_distance).
 bool MoveBins(const TraceGeometry& geometry, LightBins* bins) {
   const Vec3d moved = bins->made_eye - geometry.eye;
   if (!(moved.length() <= bins->max_distance / 250)) return false;
   bins->center = bins->made_center + moved;
-  // Those that nearly coincide may do so by the roundings of other coordinates.
+  // Spheres that nearly coincide may do so exactly when other coordinates are rounded.
   bins->large_first = FindFirstCoincident(geometry.spheres, bins->large);
   return true;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // visibility/light_bins.h: spheres binned by their projections towards a light. Shadow rays are
-// like camera rays of the light: each finds all possible occluders in one cell, without a tree.
+// like camera rays of the light: each finds all possible occluders in one cell, without a BVH.
 #pragma once
 
 #include <algorithm>
@@ -65,7 +65,7 @@ struct BinnedSphere {
 
 struct LightBins {
   bool positional = false;
-  Vec3d center{0, 0, 0};  // the light; or some point among the spheres
+  Vec3d center{0, 0, 0};  // the light or, if directional, some point among the spheres
   Vec3d axes[3];          // of a directional light: two across, the third towards it
   LightGrid grids[6];     // one for each face of a cube about the light; if directional, the first
   // Spheres and rays that extend further than this from the camera are not binned: the margins
@@ -75,12 +75,12 @@ struct LightBins {
 
   std::vector<uint32_t> end;       // where each cell's list ends
   HugeArray<BinnedSphere> binned;  // cell by cell, padded by a vector
-  HugeArray<uint32_t> spheres;     // their indices
+  HugeArray<uint32_t> spheres;     // indices of the spheres in `binned`
   std::vector<uint32_t> large;     // spheres that every ray is tested against, in ascending order
   std::vector<uint32_t> large_first;  // for each of them the first one that coincides with it
-  std::vector<uint32_t> changed;  // since they were binned: every ray is tested against these, too
+  std::vector<uint32_t> changed;      // spheres changed since; every ray is tested against them
 
-  bool overfull = false;  // there would be too many entries, and no sphere is binned
+  bool overfull = false;  // no sphere is binned, because there would be too many entries
 
   size_t entries() const { return end.empty() ? 0 : end.back(); }
   uint32_t Begin(size_t cell) const { return cell == 0 ? 0 : end[cell - 1]; }
@@ -102,13 +102,13 @@ inline CubePoint ProjectToCube(const Vec3d& direction) {
           direction[(axis + 2) % 3] / z};
 }
 
-// Cells are made smaller than most spheres as long as there are no more than about `entry_budget`
-// entries.
+// Bins the geometry's spheres for a light. Cells are smaller than most spheres as long as there are
+// no more than about `entry_budget` entries.
 LightBins BinForLight(const TraceGeometry& geometry, const ShadowLight& light, size_t entry_budget,
                       int threads);
 
-// Makes them those of the same light as the geometry's camera has it now, which has moved. False:
-// too far, and they must be made again.
+// Updates the bins for the geometry's present camera, which has moved, and the same light. Returns
+// false if it has moved too far, so that new bins must be made.
 bool MoveBins(const TraceGeometry& geometry, LightBins* bins);
 
 // Updates the bins after some spheres have changed. Returns false if every ray would have to be
@@ -118,7 +118,7 @@ bool TakeChanged(const std::vector<ChangedSphere>& changed, LightBins* bins);
 // Memory budget, in entries, for the bins of all lights together.
 inline constexpr size_t kBinEntryBudget = size_t{1} << 19;
 
-// Intersector::Occluded for rays that start on spheres and go to the light of the bins.
+// Implements Intersector::Occluded for rays that start on spheres and go to the light of the bins.
 void OccludedByBins(const TraceGeometry& geometry, const LightBins& bins, ShadowRayBatch* rays);
 
 }  // namespace nacre

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/light_bins_kernel.cc: shadow rays against the spheres of their cells. A conservative
-// float test of a vector of spheres proposes candidates, and the exact test in double decides them.
+// visibility/light_bins_kernel.cc: tests shadow rays against the spheres of their cells. A
+// conservative float test of a vector of spheres proposes candidates, and the exact test in double
+// decides.
 #include <algorithm>
 
 #include "visibility/light_bins.h"
@@ -39,7 +40,7 @@ HWY_INLINE OneRay RayAt(const ShadowRayBatch& rays, size_t i) {
           rays.camera_extent};
 }
 
-// The exact test of one ray and one sphere.
+// The exact test of one ray against one sphere.
 HWY_INLINE bool IsOccludedBy(const TraceGeometry& geometry, uint32_t number, const OneRay& ray) {
   const bool own =
       number == ray.start || Coincide(geometry.spheres[number], geometry.spheres[ray.start]);
@@ -60,17 +61,17 @@ HWY_INLINE bool IsOccludedBy(const TraceGeometry& geometry, uint32_t number, con
   return !hn::AllFalse(d, InTheWay(d, sphere, hit, own_lane, false, hn::Set(d, ray.t_max), load));
 }
 
-// The rays of a batch in float, in the coordinates of BinnedSphere, and their cells.
+// A batch's rays in float, in the coordinates of BinnedSphere, and their cells.
 struct LightSpaceRays {
   static constexpr size_t kSize = kBatchCapacity + kMaxPacketWidth;
-  // For a directional light the origins, z rounded down; for a positional one the unit directions
-  // from the light.
+  // For a directional light, the origins, z rounded down; for a positional light, the unit
+  // directions from the light.
   alignas(64) float x[kSize], y[kSize], z[kSize];
   alignas(64) float length[kSize];   // positional: the distance from the light to the origin
   alignas(64) uint32_t cell[kSize];  // kNoCell: beyond LightBins::max_distance
 };
 
-// The conservative test, of one ray against a vector of spheres or a vector of rays against one
+// The conservative test of one ray against a vector of spheres, or of a vector of rays against one
 // sphere. The spheres' radii cover the rounding errors here.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE uint32_t MayMeet(D d, const Vec3V<V>& center, V radius, const Vec3V<V>& ray, V length,
@@ -90,7 +91,7 @@ HWY_INLINE uint32_t MayMeet(D d, const Vec3V<V>& center, V radius, const Vec3V<V
   return BitsOfMask(d, hn::And(hn::Le(distance2, radius2), hn::Gt(center.z, ray.z)));
 }
 
-// One ray against the spheres of its cell, a vector of them at a time.
+// Tests one ray against the spheres of its cell, a vector of spheres at a time.
 HWY_INLINE bool OccludedInCell(const TraceGeometry& geometry, const LightBins& bins,
                                const LightSpaceRays& local, size_t i, const OneRay& ray) {
   const hn::CappedTag<float, kMaxPacketWidth> d;
@@ -99,7 +100,7 @@ HWY_INLINE bool OccludedInCell(const TraceGeometry& geometry, const LightBins& b
   const V length = hn::Set(d, local.length[i]);
   const uint32_t end = bins.end[local.cell[i]];
   for (uint32_t k = bins.Begin(local.cell[i]); k < end; k += static_cast<uint32_t>(hn::Lanes(d))) {
-    // The last vector may extend into the next cell, whose spheres may be tested as well.
+    // The last vector may extend into the next cell, whose spheres may be tested, too.
     Vec3V<V> center;
     V radius;
     hn::LoadInterleaved4(d, &bins.binned[k].x, center.x, center.y, center.z, radius);
@@ -112,7 +113,7 @@ HWY_INLINE bool OccludedInCell(const TraceGeometry& geometry, const LightBins& b
   return false;
 }
 
-// Those of `lanes`, as bits, of the rays from `first` on that the sphere occludes.
+// Returns those of `lanes`, as bits, whose rays the sphere occludes; lane 0 is ray `first`.
 HWY_INLINE uint32_t LanesOccludedBy(const TraceGeometry& geometry, uint32_t number,
                                     const ShadowRayBatch& rays, size_t first, uint32_t lanes) {
   const hn::ScalableTag<double> d;
@@ -139,7 +140,7 @@ HWY_INLINE uint32_t LanesOccludedBy(const TraceGeometry& geometry, uint32_t numb
   return occluded;
 }
 
-// Rays [begin, end), which share a cell, against its spheres, a vector of rays at a time.
+// Tests rays [begin, end), which share a cell, against its spheres, a vector of rays at a time.
 HWY_INLINE void TestRun(const TraceGeometry& geometry, const LightBins& bins,
                         const LightSpaceRays& local, size_t begin, size_t end,
                         ShadowRayBatch* rays) {
@@ -204,7 +205,7 @@ HWY_INLINE void StoreCells(const LightGrid& grid, RayV x, RayV y, uint32_t* cell
   hn::StoreU(cell, di, reinterpret_cast<int32_t*>(cells));
 }
 
-// Transforms a vector of rays, from ray i on, that go to a directional light.
+// Transforms a vector of rays to a directional light, from ray i on.
 HWY_INLINE void ToDirectionalLightSpace(const LightBins& bins, const ShadowRayBatch& rays, size_t i,
                                         LightSpaceRays* local) {
   const RayTag d;
@@ -220,7 +221,7 @@ HWY_INLINE void ToDirectionalLightSpace(const LightBins& bins, const ShadowRayBa
   StoreRounded(hn::Sub(z, hn::Mul(hn::Abs(z), hn::Set(d, 1e-6))), local->z + i);
 }
 
-// The same for a positional light.
+// Transforms a vector of rays to a positional light, from ray i on.
 HWY_INLINE void ToPointLightSpace(const LightBins& bins, const ShadowRayBatch& rays, size_t i,
                                   LightSpaceRays* local) {
   const RayTag d;

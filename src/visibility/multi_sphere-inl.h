@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/multi_sphere-inl.h: a packet of camera rays against the spheres of its cells, of which
-// each ray may hit several.
+// visibility/multi_sphere-inl.h: a packet of camera rays against the spheres of its cells, where
+// each ray may hit several spheres.
 //
-// Spheres rarely overlap in the image along a ray, so most rays pass the float test of one sphere
-// at most. One exact test, in which each lane has its own sphere, is enough for these, however many
+// Spheres rarely overlap in the image along a ray, so most rays pass the float test of at most one
+// sphere. For these, a single exact test in which each lane has its own sphere is enough, however
+// many spheres the packet meets. The other rays are tested sphere by sphere, nearest first.
 // spheres the packet meets. The other rays are tested sphere by sphere, nearest first.
 #if defined(NACRE_VISIBILITY_MULTI_SPHERE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_VISIBILITY_MULTI_SPHERE_INL_H_
@@ -56,7 +57,7 @@ HWY_INLINE void TraceCell(const CameraFrame& frame, const std::vector<TileCandid
 
 // Lanes, as bits, by the number of spheres whose float test they pass.
 struct Proposals {
-  uint32_t single = 0;  // one, which is stored in the packet
+  uint32_t single = 0;  // one sphere, which is stored in the packet
   uint32_t several = 0;
 };
 
@@ -77,7 +78,7 @@ HWY_INLINE Proposals ProposeSpheres(const CameraFrame& frame,
         const uint32_t fresh = (lanes & ~any) >> lane & ((1u << step) - 1);
         if (fresh != 0) SetSphere(candidate, lane, fresh, packet);
       }
-      // A sphere that is listed in two cells is the same sphere again.
+      // A sphere may be listed in two cells.
       for (uint32_t again = lanes & any & ~several; again != 0; again &= again - 1) {
         const int lane = __builtin_ctz(again);
         if (packet->primitive[lane] != candidate.primitive) several |= 1u << lane;
@@ -89,7 +90,7 @@ HWY_INLINE Proposals ProposeSpheres(const CameraFrame& frame,
   return {any & ~several, several};
 }
 
-// Restricts the packet to these lanes: in the others no hit is near enough to count.
+// Restricts the packet to these lanes: in all others no hit is near enough to count.
 HWY_INLINE void KeepLanes(uint32_t lanes, CameraPacket* packet) {
   const CameraFloat d;
   const float infinity = std::numeric_limits<float>::infinity();

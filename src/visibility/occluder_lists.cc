@@ -8,10 +8,10 @@
 namespace nacre {
 namespace {
 
-// Shading tests n.l > 0 in float: it is true nowhere that the exact n.l is below this.
+// Shading tests n.l > 0 in float. The test is false wherever the exact n.l is below this.
 constexpr double kGrazing = -2e-6;
 
-// The margin that conservative tests add to a sphere's radius: far above the rounding errors of
+// The margin that conservative tests add to a sphere's radius, far above the rounding errors of
 // rays, of the exact test and of the bound itself. All of these are a few 2^-53 of the radius or of
 // one of the coordinates, whose upper bound is `extent`.
 double BoundMargin(double radius, double extent) { return 1e-9 * radius + 1e-12 * extent; }
@@ -19,13 +19,13 @@ double BoundMargin(double radius, double extent) { return 1e-9 * radius + 1e-12 
 // A sphere in the coordinates of a light, with its radius enlarged by BoundMargin.
 struct SphereFromLight {
   double radius;
-  // An upper bound of the distance of lit points: for a directional light from the centre, measured
-  // away from the light; for a positional light from the light.
+  // An upper bound of the distance of lit points. For a directional light it is measured from the
+  // centre, away from the light; for a positional light, from the light.
   double lit_extent;
   // Positional lights only:
-  bool around_light;    // the light may be inside of the sphere
+  bool around_light;    // the light may be inside the sphere
   Vec3d direction;      // unit, from the light to the centre
-  double distance;      // of the centre
+  double distance;      // from the light to the centre
   double sine, cosine;  // of the angle between the centre and the silhouette
 };
 
@@ -45,7 +45,7 @@ SphereFromLight FromPositionalLight(const Vec3d& light, const TraceSphere& spher
   seen.distance = offset.length();
   seen.around_light = seen.distance <= seen.radius;
   // The squared length of the tangents from the light. Points down to n.l = g < 0 count as lit, and
-  // lie at most 2 r |g| further away.
+  // lie at most 2 r |g| farther away.
   const double tangent2 =
       (seen.distance - sphere.radius + 2 * margin) * (seen.distance + sphere.radius);
   seen.lit_extent = outward
@@ -134,7 +134,7 @@ FloatOccluder MakeFloatOccluder(const TraceSphere& sphere, const TraceSphere& fr
   return occluder;
 }
 
-// For every sphere i the list of those spheres j for which may_block(i, j).
+// Makes the list of every sphere i: those spheres j for which may_block(i, j).
 template <class MayBlock>
 OccluderLists MakeLists(const HugeArray<TraceSphere>& spheres, const MayBlock& may_block) {
   const size_t count = spheres.size();

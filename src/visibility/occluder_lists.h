@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/occluder_lists.h: for each sphere of a small scene the list of spheres that can shadow
-// it from a light. Its shadow rays then need no tree, and none are traced if the list is empty.
+// visibility/occluder_lists.h: for each sphere of a small scene, the list of the spheres that can
+// shadow it from a light. Its shadow rays then need no BVH, and none are traced if the list is
+// empty.
 #pragma once
 
 #include <cstddef>
@@ -20,11 +21,11 @@ namespace nacre {
 inline constexpr size_t kMaxListedSpheres = 256;
 inline constexpr size_t kMaxListLength =
     8;  // rays to punctual lights test longer lists slower than bins
-inline constexpr size_t kMaxSampledListLength = 64;  // rays to area lights: slower than a tree
+inline constexpr size_t kMaxSampledListLength = 64;  // area lights: beyond, a BVH is faster
 
-// A listed sphere in float, relative to the centre of the sphere whose list it is in. A line whose
-// squared distance from `center` is above `outer2` misses it, and one below `inner2` hits it,
-// whatever the rounding of the centres and of points on the list's sphere.
+// A listed sphere in float, relative to the centre of the sphere whose list it is in. A line misses
+// it if its squared distance from `center` is above `outer2`, and hits it if that is below
+// `inner2`, however the centres and the points on the list's sphere are rounded.
 struct FloatOccluder {
   float center[3];
   float outer2, inner2;
@@ -40,28 +41,29 @@ struct OccluderLists {
   uint32_t Begin(size_t sphere) const { return sphere == 0 ? 0 : end[sphere - 1]; }
 };
 
-// The list of a sphere holds every sphere that the exact test could find to occlude a shadow ray
-// from any of its points that face the light. `outward`: such rays surely leave the sphere outward
-// (ShadowRayBatch); it is then not in its own list, nor are spheres that coincide with it.
-// Triangles are ignored.
+// Makes a list for each sphere, which holds every sphere that the exact test could find to occlude
+// a shadow ray from any of its points that face the light. `outward` says that such rays surely
+// leave the sphere outward (ShadowRayBatch); the list then contains neither the sphere itself nor
+// any that coincides with it. Triangles are ignored.
 OccluderLists ListOccluders(const TraceGeometry& geometry, const ShadowLight& light, bool outward);
 
-// The same for a light inside of a ball, which is relative to the camera; without a ball, for light
-// from all directions. `target`: spheres that are the light itself.
+// Makes the lists for a light inside a ball, which is relative to the camera; without a ball, for
+// light from all directions. `target` are the spheres that are the light itself.
 OccluderLists ListOccludersOfBall(const TraceGeometry& geometry,
                                   const std::optional<LightBall>& ball,
                                   const PrimitiveRange& target, bool outward);
 
-// Whether any sphere of its list can shadow a batch of hits, which all lie on one sphere and have
-// their positions, from the light that the lists were made for.
+// Whether any sphere in the list of their sphere can shadow a batch of hits, which all lie on one
+// sphere and have their positions, from the light that the lists were made for.
 bool MayShadow(const TraceGeometry& geometry, const OccluderLists& lists, const ShadowLight& light,
                const HitBatch& hits);
 
-// The same for the points of sphere `start` that lie in `ball`.
+// Whether any sphere in the list of sphere `start` can shadow those of its points that lie in
+// `ball`, from the light that the lists were made for.
 bool MayShadow(const TraceGeometry& geometry, const OccluderLists& lists, const ShadowLight& light,
                uint32_t start, const TraceSphere& ball);
 
-// Intersector::Occluded for rays that start on spheres and go to the light of the lists.
+// Implements Intersector::Occluded for rays that start on spheres and go to the light of the lists.
 void OccludedByLists(const TraceGeometry& geometry, const OccluderLists& lists,
                      ShadowRayBatch* rays);
 

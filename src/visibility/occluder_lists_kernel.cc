@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/occluder_lists_kernel.cc: vectors of shadow rays from one sphere against its list of
-// possible occluders. Most rays are decided in float, the others in double.
+// visibility/occluder_lists_kernel.cc: tests vectors of shadow rays from one sphere against its
+// list of possible occluders. Most rays are decided in float, the others in double.
 #include "visibility/occluder_lists.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -54,7 +54,7 @@ HWY_INLINE ListRays LoadListRays(const ShadowRayBatch& rays, size_t first, const
   return loaded;
 }
 
-// Rays relative to a sphere's centre.
+// The approach of rays to a sphere's centre.
 struct Approach {
   VF distance2;  // squared distance of the origin from the centre
   VF along;      // distance along the ray to the point nearest to the centre; negative behind the
@@ -69,14 +69,14 @@ HWY_INLINE Approach FindApproach(const FloatOccluder& sphere, const ListRays& ra
   return {FusedDot(to_center, to_center), FusedDot(to_center, rays.direction)};
 }
 
-// Sums, products and the rounding of the direction make the squared distance of the line err by
-// less than 32 2^-24 of that of the centres. Rays that start outside of a sphere and approach its
-// centre point towards it by far more than that. With a NaN direction both comparisons below are
-// false, so that the exact test decides.
+// Because sums, products and the direction are rounded, the squared distance of the line is off by
+// less than 32 2^-24 of the squared distance of the centres. Rays that start outside a sphere and
+// approach its centre point towards it by far more than that. With a NaN direction both comparisons
+// below are false, so that the exact test decides.
 constexpr float kSlack = 2e-6f;
 
-// The rays that surely miss the sphere: their nearest point, which is the origin for rays that move
-// away, is outside.
+// The rays that surely miss the sphere: their nearest point to the centre, which is the origin for
+// rays that move away, is outside.
 HWY_INLINE hn::Mask<F> SurelyMiss(const FloatOccluder& sphere, const Approach& approach) {
   const F d;
   const VF ahead = hn::Max(approach.along, hn::Zero(d));
@@ -84,7 +84,7 @@ HWY_INLINE hn::Mask<F> SurelyMiss(const FloatOccluder& sphere, const Approach& a
   return hn::Gt(hn::NegMulAdd(ahead, approach.along, distance2), hn::Set(d, sphere.outer2));
 }
 
-// The rays that start outside of the sphere and surely hit it before they end.
+// The rays that start outside the sphere and surely hit it before they end.
 HWY_INLINE hn::Mask<F> SurelyHit(const FloatOccluder& sphere, const Approach& approach,
                                  const VF& length) {
   const F d;
@@ -99,8 +99,8 @@ HWY_INLINE hn::Mask<F> SurelyHit(const FloatOccluder& sphere, const Approach& ap
   return hn::And(hn::And(outside, near), hn::And(ahead, before_end));
 }
 
-// Those of the rays `pending`, as bits, that the exact test finds to be occluded by a sphere of the
-// list. `own`: the sphere that they start on.
+// Returns those of the rays `pending`, as bits, that the exact test finds to be occluded by a
+// sphere of the list. `own` is the sphere that the rays start on.
 HWY_INLINE uint32_t OccludedExactly(const TraceSphere& sphere, const TraceSphere& own,
                                     const ShadowRayBatch& rays, size_t first, uint32_t pending) {
   const D d;
@@ -117,14 +117,14 @@ HWY_INLINE uint32_t OccludedExactly(const TraceSphere& sphere, const TraceSphere
   return occluded;
 }
 
-// The spheres of a list that a run of rays is tested against.
+// The entries of a list that a run of rays is tested against.
 struct ListPart {
   const uint32_t* entries;  // indices of OccluderLists::spheres and floats
   size_t count;
 };
 
 // Collects those spheres of the part that any of the rays `pending` may hit; returns their number.
-// Without a branch, because no branch predictor would find a pattern.
+// There is no branch, because no branch predictor would find a pattern.
 HWY_INLINE size_t FindNear(const OccluderLists& lists, const ListPart& part, const ListRays& rays,
                            uint32_t pending, uint32_t* near) {
   size_t count = 0;
@@ -137,7 +137,8 @@ HWY_INLINE size_t FindNear(const OccluderLists& lists, const ListPart& part, con
   return count;
 }
 
-// Those of the rays `pending`, which all start on sphere `start`, that are occluded.
+// Returns those of the rays `pending`, as bits, that are occluded. All of them start on sphere
+// `start`.
 HWY_INLINE uint32_t OccludedByList(const TraceGeometry& geometry, const OccluderLists& lists,
                                    const ListPart& part, uint32_t start, const ShadowRayBatch& rays,
                                    size_t first, uint32_t pending) {
@@ -187,7 +188,7 @@ HWY_INLINE MinMax MinMaxOf(const double* values, size_t first, size_t end) {
 
 // Rays that leave outward stay above the tangent plane at their origin, except for grazing ones,
 // whose directions are rounded (2e-6). Spheres below the tangent planes of all origins are
-// therefore skipped. Returns the number of the other entries of the list of sphere `start`.
+// therefore skipped. Returns the number of the other entries in the list of sphere `start`.
 HWY_INLINE size_t FindAbove(const TraceGeometry& geometry, const OccluderLists& lists,
                             uint32_t start, const ShadowRayBatch& rays, size_t first, size_t end,
                             uint32_t* entries) {
@@ -214,7 +215,7 @@ HWY_INLINE size_t FindAbove(const TraceGeometry& geometry, const OccluderLists& 
   return count;
 }
 
-// A ball that contains all positions of a batch.
+// A ball that contains all positions of the batch.
 TraceSphere BoundPositionsT(const HitBatch& hits) {
   const MinMax x = MinMaxOf(hits.position.x.data(), 0, hits.count);
   const MinMax y = MinMaxOf(hits.position.y.data(), 0, hits.count);
@@ -230,7 +231,7 @@ HWY_INLINE void StoreListOccluded(uint32_t occluded, size_t first, size_t count,
   }
 }
 
-// Rays [first, end), which all start on one sphere.
+// Tests rays [first, end), which all start on one sphere.
 HWY_INLINE void OccludedOfRun(const TraceGeometry& geometry, const OccluderLists& lists,
                               size_t first, size_t end, ShadowRayBatch* rays) {
   const size_t step = hn::Lanes(F());
@@ -253,7 +254,7 @@ void OccludedByListsT(const TraceGeometry& geometry, const OccluderLists& lists,
     while (end < rays->count && start[end] == start[first]) ++end;
     if (start[first] < lists.end.size()) {
       OccludedOfRun(geometry, lists, first, end, rays);
-    } else {  // on the light's own triangles, which are black
+    } else {  // rays start on the light's own triangles, which are black
       std::fill(rays->occluded.data() + first, rays->occluded.data() + end, uint8_t{0});
     }
     first = end;

@@ -34,7 +34,7 @@ HWY_INLINE Vec3V<hn::Vec<D>> ToEnd(const ShadowRaysV<D>& rays) {
   return Scale(rays.direction, rays.t_max);
 }
 
-// An upper bound of the coordinates that the rays' ends were computed from.
+// An upper bound of the coordinates that the ends of the rays were computed from.
 template <class D>
 HWY_INLINE hn::Vec<D> EndExtent(D d, const ShadowRaysV<D>& rays) {
   return hn::Add(hn::Add(SumOfAbs(rays.origin), SumOfAbs(ToEnd(rays))),
@@ -42,15 +42,15 @@ HWY_INLINE hn::Vec<D> EndExtent(D d, const ShadowRaysV<D>& rays) {
 }
 
 // The lanes whose end lies on the sphere within the rounding error: the light is on this surface,
-// and not occluded by it.
+// which does not occlude it.
 //
 // Let u = 2^-53 and R the sum of the origin's, the end's and the sphere's coordinates and radius,
-// of |to_center| and of the camera's coordinates. The light and the sphere are off by u R each as
-// they are given and by as much again relative to the camera; a rectangle's corner by another 4 u R
-// and the end on an area light, from its plane's equation, by 10 u R (FindEnds of
-// shading/sampled_light.h); direction, to_center and their difference by 4 u R: altogether at most
-// 22 u R. The error of |from_end|^2 - r^2 that follows is as much times |from_end| + r, and its own
-// rounding 5 u of that times R.
+// of |to_center| and of the camera's coordinates. The light and the sphere are each off by u R as
+// they are given, and by u R again relative to the camera; a rectangle's corner is off by another 4
+// u R, and the end on an area light, from its plane's equation, by 10 u R (FindEnds of
+// shading/light_sampling.h); direction, to_center and their difference by 4 u R: altogether by at
+// most 22 u R. The resulting error of |from_end|^2 - r^2 is 22 u R (|from_end| + r), and its own
+// rounding 5 u R (|from_end| + r).
 //
 // `load` loads the rays again: this function is rarely called, and keeping the rays for it would
 // occupy registers in all its callers.
@@ -68,12 +68,12 @@ HWY_NOINLINE hn::Mask<D> EndsOnSphere(D d, const LoadRays& load, const TraceSphe
   return hn::And(hn::Lt(rays.t_max, hn::Inf(d)), hn::Le(off, bound));
 }
 
-// The lanes whose ray the sphere occludes. `own`: the lanes that start on this sphere, or on one
+// The lanes whose ray the sphere occludes. `own` are the lanes that start on this sphere, or on one
 // that coincides with it. For these one root is 0, and the other is twice the distance to the
-// closest approach: negative for a ray that leaves outward, whatever the rounding of its origin;
-// with `outward` the sphere never occludes them. If the light lies on the sphere, one root is
-// t_max, whatever the rounding, and the other lies as far before the closest approach as t_max lies
-// behind it: only this other hit can occlude.
+// closest approach: negative for a ray that leaves outward, however its origin is rounded; with
+// `outward` the sphere never occludes them. If the light lies on the sphere, one root is t_max,
+// however it is rounded, and the other lies as far before the closest approach as t_max lies behind
+// it: only this other hit can occlude.
 template <class D, class LoadRays, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> InTheWay(D d, const TraceSphere& sphere, const SphereHitV<D>& hit,
                                 hn::Mask<D> own, bool outward, V t_max, const LoadRays& load) {
@@ -92,7 +92,7 @@ HWY_INLINE hn::Mask<D> InTheWay(D d, const TraceSphere& sphere, const SphereHitV
   return hn::AndNot(hn::And(unsure, EndsOnSphere(d, load, sphere)), met);
 }
 
-// A vector of the batch's rays, from any index i on.
+// Loads a vector of the batch's rays, from any index i on.
 template <class D>
 HWY_INLINE ShadowRaysV<D> LoadShadowRays(D d, const ShadowRayBatch& rays, size_t i) {
   ShadowRaysV<D> loaded;
@@ -106,7 +106,7 @@ HWY_INLINE ShadowRaysV<D> LoadShadowRays(D d, const ShadowRayBatch& rays, size_t
   return loaded;
 }
 
-// The same from a packet.
+// Loads a vector of the packet's rays.
 template <class D>
 HWY_INLINE ShadowRaysV<D> ShadowRaysOf(D d, const Packet& packet, int lane) {
   return {Origin(d, packet, lane), Direction(d, packet, lane),
@@ -114,8 +114,8 @@ HWY_INLINE ShadowRaysV<D> ShadowRaysOf(D d, const Packet& packet, int lane) {
           packet.camera_extent};
 }
 
-// Those of `lanes` that the sphere occludes. `own`: the lanes that start on it. `load` loads `rays`
-// again.
+// The subset of `lanes` whose rays the sphere occludes. `own` are the lanes that start on it.
+// `load` loads `rays` again.
 template <class D, class LoadRays>
 HWY_INLINE hn::Mask<D> OccludedLanes(D d, const TraceSphere& sphere, const ShadowRaysV<D>& rays,
                                      hn::Mask<D> lanes, hn::Mask<D> own, bool outward,

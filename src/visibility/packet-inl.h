@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/packet-inl.h: what the tests of a packet against spheres and triangles share: loading
-// its rays, and recording exact hits.
+// visibility/packet-inl.h: operations that the tests of a packet against spheres and triangles
+// share: loading its rays, and recording exact hits.
 #if defined(NACRE_VISIBILITY_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_VISIBILITY_PACKET_INL_H_
 #undef NACRE_VISIBILITY_PACKET_INL_H_
@@ -22,9 +22,9 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Masks of at most 16 lanes are converted to bits, and back, through memory. They are never loaded
+// Masks of at most 16 lanes are converted to bits and back through memory. They are never loaded
 // wider than they were stored: such a load cannot be forwarded from the store buffer, and stalls.
-// The first byte has the lowest lanes.
+// The first byte must have the lowest lanes.
 static_assert(std::endian::native == std::endian::little);
 
 template <class D>
@@ -58,8 +58,8 @@ HWY_INLINE Vec3V<hn::Vec<D>> Direction(D d, const Packet& packet, int lane) {
   return Load3(d, packet.direction_x + lane, packet.direction_y + lane, packet.direction_z + lane);
 }
 
-// The float rays' depths for t: never less. Demoting errs by half a unit in the last place at most,
-// or, near the smallest floats, by one of them.
+// The depth limits in float that belong to t, never lower. Demoting is off by at most half a unit
+// in the last place or, near the smallest floats, by one.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE auto UpperDepth(D /*d*/, V t, V t_scale) {
   const hn::Rebind<float, D> df;
@@ -68,8 +68,8 @@ HWY_INLINE auto UpperDepth(D /*d*/, V t, V t_scale) {
                  hn::Set(df, std::numeric_limits<float>::min()));
 }
 
-// Keeps the hits (t, primitive), at the lanes from `lane` on, that come before the best ones so
-// far: those nearer, and among equals the lower id. The tree need not look further than them.
+// Records the hits (t, primitive), at the lanes from `lane` on, that are nearer than the best so
+// far or, at the same t, have a lower id. The traversal need not look farther than them.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE void RecordClosest(D d, Packet* packet, int lane, hn::Mask<D> hit, V t,
                               uint32_t primitive) {
@@ -100,8 +100,7 @@ HWY_INLINE uint32_t StartingLanes(const Packet& packet, uint32_t primitive) {
   return lanes;
 }
 
-// Marks the lanes of `bits` as occluded; the sign for that is a limit of -infinity, as Embree has
-// it.
+// Marks the lanes of `bits` as occluded. As in Embree, a limit of -infinity stands for that.
 HWY_INLINE void RecordOccluded(Packet* packet, uint32_t bits) {
   packet->occluded |= bits;
   for (; bits != 0; bits &= bits - 1) {

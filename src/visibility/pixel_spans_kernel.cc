@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/pixel_spans_kernel.cc: the spans of outlines, for all rows of a tile at once.
+// visibility/pixel_spans_kernel.cc: computes the spans of outlines, for all rows of a tile at once.
 #include <algorithm>
 #include <limits>
 
+#include "base/aligned.h"
+#include "hit/batch.h"
 #include "visibility/pixel_spans.h"
 #include "visibility/sphere_bins.h"
 
@@ -23,14 +25,14 @@ namespace {
 constexpr size_t kMaxOutlines = 32;
 
 // An ellipse that extends beyond this coordinate, in pixels, is replaced by whole rows. The outline
-// of a sphere that nearly touches the camera's plane is so large that its near end has no digits
+// of a sphere that nearly touches the camera's plane is so large that no digits of its near end are
 // left.
 constexpr double kFarthest = 1e6;
 
 // The error bound of floats, relative to the sum of an outline's distance from the tile, half its
-// size and 32 pixels: 16 roundings. No side in ComputeSpans has more than 8: in x those of the
-// middle, the lean and the chord, which has a root and a product; in y those of the middle, of the
-// row's edge and of t, and that of the extreme that t is compared with.
+// size and 32 pixels: 16 roundings. No side in ComputeSpans has more than 8: in x the roundings of
+// the middle, the lean and the chord, which has a root and a product; in y those of the middle, of
+// the row's edge and of t, and that of the extreme that t is compared with.
 constexpr double kFloatSlack = 16 * 0x1p-24;
 
 // The outlines of spheres in the image, in pixels from the tile's top left corner. Each is an
@@ -90,7 +92,7 @@ struct ExtentV {
 // an ellipse about z (x, y) / (z^2 - r^2). The entries of the inverse of its matrix are the square
 // of half its width, the skew, and the square of half its height.
 //
-// A margin is added to half the width and to half the height, and the middle and the skew are kept:
+// A margin is added to half the width and to half the height, while the middle and the skew stay:
 // the larger ellipse contains the outline.
 void ComputeOutlines(const Projector& projector, const Window& tile, Outlines* o) {
   const hn::CappedTag<double, kMaxOutlines> d;
@@ -151,8 +153,8 @@ void ComputeOutlines(const Projector& projector, const Window& tile, Outlines* o
   }
 }
 
-// The spans of outline i. Samples lie up to `sample_margin` outside of their pixels. `width`: the
-// tile's.
+// Computes the spans of outline i. Samples lie up to `sample_margin` pixels outside their pixels.
+// `width` is that of the tile.
 void ComputeSpans(const Outlines& o, size_t i, float sample_margin, int width,
                   OutlineSpans* spans) {
   const hn::CappedTag<float, kCellSize> d;
@@ -222,8 +224,9 @@ HWY_EXPORT(FindOutlineSpansT);
 
 namespace {
 
-// Appends a row's spans; those that overlap are merged. `in_front`: the outlines' candidates where
-// they lie in front of the camera, else null. `first`: the row's first pixel.
+// Appends a row's spans; those that overlap are merged. `in_front` are the candidates of the
+// outlines, or null for those that do not lie in front of the camera. `first` is the row's first
+// pixel.
 void AppendSpansOfRow(RowSpan* row, size_t count, const TileCandidate* const* in_front,
                       uint32_t first, std::vector<PixelSpan>* spans) {
   if (!std::is_sorted(row, row + count)) std::sort(row, row + count);
@@ -260,7 +263,7 @@ void AppendWholeRows(const Window& tile, std::vector<PixelSpan>* spans) {
   }
 }
 
-// Collects the tile's spheres, each once. `in_front`: as for AppendSpansOfRow.
+// Collects the tile's spheres, each once. `in_front` is the same as in AppendSpansOfRow.
 void GatherSpheres(const TileCandidates& candidates, Outlines* outlines,
                    const TileCandidate** in_front) {
   for (const std::vector<TileCandidate>& cell : candidates.cells) {

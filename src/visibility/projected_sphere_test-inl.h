@@ -36,8 +36,8 @@ struct ProjectedHitV {
   V discriminant;  // the ray's line meets the sphere if this is not below 0
 };
 
-// `backward` is the negated direction, and dd the square of its length. Signs apart, the same bits
-// as the scalar twin's.
+// `backward` is the negated direction, and dd the square of its length. Up to signs, the bits are
+// those of the scalar twin.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE ProjectedHitV<V> TestProjected(D d, const ProjectedSphereV<V>& sphere,
                                           const Vec3V<V>& backward, V dd) {
@@ -56,7 +56,7 @@ HWY_INLINE ProjectedHitV<V> TestProjected(D d, const ProjectedSphereV<V>& sphere
 }
 
 // The distance from the ray's point at the centre's depth back to the hit, times |direction|.
-// `root`: the square root of the discriminant.
+// `root` is the square root of the discriminant.
 template <class V>
 HWY_INLINE V BackToHit(V root, V back) {
   return hn::Sub(root, back);
@@ -81,7 +81,7 @@ struct ProjectedDepthV {
   hn::Vec<D> t;
 };
 
-// The projected test where only the depth of the hit is wanted.
+// The projected test where only the depth of the hit is needed.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE ProjectedDepthV<D> TestProjectedDepth(D d, const ProjectedSphere& projected,
                                                  const TraceSphere& sphere,

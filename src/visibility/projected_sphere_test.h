@@ -30,8 +30,8 @@ namespace nacre {
 // Projecting a smaller sphere does not pay: there would be about one sphere for each ray.
 inline constexpr double kMinProjectedRadius = 8;  // in pixels
 
-// The largest distance, in radii. A projected centre in half a double's digits is off by 2^-26 of
-// the distance, which up to here is a small part of the radius.
+// The largest distance of a sphere, in radii. A projected centre that is rounded to half a double's
+// digits is off by 2^-26 of the distance, which up to here is a small part of the radius.
 inline constexpr double kMaxProjectedScale = 0x1p22;
 
 // The offset of a ray at an angle to `forward` may be as long as 1 / cos(angle), and its square
@@ -52,7 +52,7 @@ inline bool IsInFront(const TraceSphere& sphere, const Vec3d& forward) {
   return center.dot(forward) - sphere.radius > 1e-9 * sum;
 }
 
-// Whether rays of the view are tested against the sphere by this test. Never for the default view,
+// Whether rays of the view are tested against the sphere by this test: never for the default view,
 // whose `forward` is 0.
 inline bool UsesProjectedTest(const TraceSphere& sphere, const ProjectedTestView& view) {
   return sphere.center.dot(view.forward) <= sphere.radius * view.max_scale &&
@@ -87,7 +87,7 @@ inline ProjectedSphere MakeProjectedSphere(const TraceSphere& sphere, const Vec3
   return projected;
 }
 
-// The ray t direction, with direction . forward = 1, as a line.
+// The hit of the line t direction, with direction . forward = 1.
 struct ProjectedHit {
   bool hit = false;
   Vec3d offset{0, 0, 0};
@@ -112,8 +112,8 @@ inline ProjectedHit TestProjected(const ProjectedSphere& sphere, const Vec3d& di
   return hit;
 }
 
-// The hit's t, from the product of the roots as in TestSphere, which does not cancel where the
-// centre's distance is nearly the radius.
+// The hit's t, computed from the product of the roots as in TestSphere, which does not cancel where
+// the centre's distance is nearly the radius.
 inline double ProjectedDepth(const ProjectedHit& hit, const TraceSphere& sphere,
                              const Vec3d& direction, Products products) {
   const double product =
@@ -122,7 +122,7 @@ inline double ProjectedDepth(const ProjectedHit& hit, const TraceSphere& sphere,
          MulAdd(sphere.radius, hit.root, Dot(sphere.center, direction, products), products);
 }
 
-// The unit normal at the hit: offset - (along + root) direction / |direction|^2. `to_view`: the
+// The unit normal at the hit: offset - (along + root) direction / |direction|^2. `to_view` is the
 // negated direction times `inverse_length`, a unit vector.
 inline Vec3d ProjectedNormal(const ProjectedHit& hit, const Vec3d& to_view, double inverse_length,
                              Products products) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/refine_kernel.cc: repeats the exact test for each hit to get its point and normal in
+// visibility/refine_kernel.cc: repeats the exact test of each hit to get its point and normal in
 // double.
 #include "visibility/refine_kernel.h"
 
@@ -42,8 +42,8 @@ struct alignas(64) Block3 {
   Vec3V<V> Load(size_t i) const { return Load3(D(), x + i, y + i, z + i); }
 };
 
-// The primitives of a block of hits. Entries of triangles hold stale spheres, too, and entries of
-// spheres stale triangles; results computed from these are not used.
+// The primitives of a block of hits. Entries of triangles also hold stale spheres, and entries of
+// spheres stale triangles; results that are computed from these are not used.
 struct Gathered {
   Block3 origin, direction;
   Block3 center = {};
@@ -112,8 +112,8 @@ HWY_INLINE Vec3V<V> Interpolate(const Block3 (&corner)[3], size_t i, const Vec3V
              Scale(corner[2].Load(i), weights.z));
 }
 
-// A unit vector. v is scaled to about 1 first, so that squares of the products of very short edges
-// do not become denormal.
+// Normalises v, after scaling it to about 1, so that squares of the products of very short edges do
+// not become denormal.
 HWY_INLINE Vec3V<V> ScaledAndNormalized(const Vec3V<V>& v) {
   const D d;
   const V largest = hn::Max(hn::Max(hn::Abs(v.x), hn::Abs(v.y)), hn::Abs(v.z));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/refine_kernel.h: from closest hits to the points and normals that are shaded.
+// visibility/refine_kernel.h: computes the points and normals that are shaded, from closest hits.
 #pragma once
 
 #include "hit/batch.h"
@@ -19,7 +19,7 @@ struct RefineRequest {
 
 void RefineHits(const RefineRequest& request, const HitOutput& to);
 
-// The t of a camera ray on a sphere that it hits, as Closest finds it.
+// The t of a camera ray on a sphere that it is known to hit, as Closest finds it.
 double DepthOn(const TraceSphere& sphere, const RayBatch& rays, size_t ray);
 
 // Whether the active target fuses products, for the scalar twins of the hit tests.

@@ -14,7 +14,7 @@ struct ShadowLight {
   friend bool operator==(const ShadowLight&, const ShadowLight&) = default;
 };
 
-// `light` is punctual.
+// `light` must be punctual.
 ShadowLight MakeShadowLight(const Light& light, const Vec3d& camera_position);
 
 }  // namespace nacre

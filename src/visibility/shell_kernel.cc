@@ -144,7 +144,7 @@ HWY_INLINE void WalkShells(const ShellTree& tree, uint32_t lanes, const Packet& 
   }
 }
 
-// A packet whose tree reads its float rays here.
+// A packet together with the arrays of its float rays.
 struct ShellPacket {
   explicit ShellPacket(const TraceGeometry& geometry) {
     packet.width = std::max(4, 2 * static_cast<int>(hn::Lanes(ShellTag())));

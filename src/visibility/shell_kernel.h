@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/shell_kernel.h: batches of rays through the tree of shells, packet by packet.
+// visibility/shell_kernel.h: traces batches of rays through the shell tree, packet by packet.
 #pragma once
 
 #include "hit/batch.h"
@@ -7,10 +7,10 @@
 
 namespace nacre {
 
-// Puts the rays' first hits on spheres in the place of those that they are nearer than.
+// Finds the rays' first hits on spheres, and replaces those in `hits` that are farther.
 void NearerInShells(const TraceGeometry& geometry, const RayBatch& rays, ClosestHits* hits);
 
-// Sets rays->occluded where a sphere is in the way; the others stay.
+// Sets rays->occluded where a sphere occludes the ray; leaves the others as they are.
 void OccludedInShells(const TraceGeometry& geometry, ShadowRayBatch* rays);
 
 }  // namespace nacre

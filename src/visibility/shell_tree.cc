@@ -7,8 +7,6 @@
 #include <limits>
 #include <span>
 
-#include "visibility/geometry.h"
-
 namespace nacre {
 namespace {
 
@@ -151,7 +149,8 @@ bool AreNested(const HugeArray<TraceSphere>& spheres) {
   const size_t size = std::min(count, kNestedSample);
   sample.reserve(size);
   for (size_t i = 0; i < size; ++i) {
-    // Indices in steps of the golden ratio, as the order of spheres in a scene may have any period.
+    // Indices go in steps of the golden ratio, because the order of spheres in a scene may have any
+    // period.
     const uint64_t index = size == count ? i : ((i * 0x9e3779b97f4a7c15u >> 32) * count) >> 32;
     sample.push_back(PointOf(spheres, index));
   }

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // visibility/shell_tree.h: a bounding volume hierarchy for spheres that lie within one another.
 //
-// A tree of boxes cannot cull these: the boxes of a thousand nested, coincident or nearly
-// coincident spheres all contain the same space, and a ray through it would have to be tested
-// against every one. But a ray can only hit the surface of a sphere. The surfaces of a group of
-// spheres lie in a shell, the space between two concentric balls, and shells of spheres of about
-// the same centre and radius are thin: a ray that has hit one sphere stops before the shells of
-// others, a ray that leaves the spheres enters no shell, and one that starts inside all of them
-// crosses a hole first. The tree only skips tests that would miss, and makes no assumption about
-// where rays start or end.
+// A BVH of boxes cannot cull these: the boxes of a thousand nested, coincident or nearly coincident
+// spheres all contain the same space, and a ray through it would have to be tested against every
+// one. But a ray can only hit the surface of a sphere. The surfaces of a group of spheres lie in a
+// shell, the space between two concentric balls, and shells of spheres of about the same centre and
+// radius are thin: a ray that has hit one sphere stops before the shells of others, a ray that
+// leaves the spheres enters no shell, and one that starts inside all of them crosses a hole first.
+// The tree only skips tests that would miss, and makes no assumption about where rays start or end.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +15,12 @@
 
 #include "base/huge_pages.h"
 #include "base/vec.h"
+#include "visibility/trace_sphere.h"
 
 namespace nacre {
 
-struct TraceSphere;
-
-// Contains all surface points p of some spheres: inner <= |p - center| <= outer, up to rounding.
+// A shell that contains all surface points p of some spheres: inner <= |p - center| <= outer, up to
+// rounding.
 struct Shell {
   Vec3d center{0, 0, 0};
   double inner = 0;  // 0 or negative: there is no hole
@@ -43,9 +42,9 @@ struct ShellNode {
   uint32_t count = 0;  // number of a leaf's members; 0: the node has children
 };
 
-// A group of spheres that coincide, given by the lowest and the highest of their indices. Closest
-// hits are those of the lowest. Shadow rays check both, because spheres that are the light itself
-// do not occlude it; the indices of such spheres are consecutive.
+// A group of spheres that coincide, given by the lowest and the highest of their indices. A closest
+// hit reports the lowest. Shadow rays check both, because spheres that are the light itself do not
+// occlude it; the indices of such spheres are consecutive.
 struct ShellMember {
   uint32_t lowest = 0, highest = 0;
 };
@@ -59,11 +58,11 @@ struct ShellTree {
   bool empty() const { return nodes.empty(); }
 };
 
-// Whether so many of the spheres contain a common point that a shell tree pays off: where spheres
-// lie side by side it is slower than Embree's tree or bins. Decided by a sample.
+// Whether so many of the spheres contain a common point that a shell tree pays off; it is slower
+// than Embree's BVH or bins where spheres lie side by side. A sample of the spheres decides.
 bool AreNested(const HugeArray<TraceSphere>& spheres);
 
-// Takes O(n log n) on one thread.
+// Takes O(n log n) time on one thread.
 ShellTree BuildShellTree(const HugeArray<TraceSphere>& spheres);
 
 }  // namespace nacre

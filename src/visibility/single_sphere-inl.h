@@ -2,9 +2,10 @@
 // visibility/single_sphere-inl.h: camera rays against the only sphere that they may hit, which lies
 // in front of the camera. Most rays of most pictures take this path.
 //
-// From a film position to a hit leads one long chain of dependent operations, with a square root in
-// it, longer than a processor's out-of-order window. Rays are therefore collected in blocks, which
-// are processed in two passes: each pass interleaves the shorter chains of several vectors.
+// A hit is computed from its film position by one long chain of dependent operations, including a
+// square root, which is longer than a processor's out-of-order window. Rays are therefore collected
+// in blocks, which are processed in two passes: each pass interleaves the shorter chains of several
+// vectors.
 #if defined(NACRE_VISIBILITY_SINGLE_SPHERE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_VISIBILITY_SINGLE_SPHERE_INL_H_
 #undef NACRE_VISIBILITY_SINGLE_SPHERE_INL_H_
@@ -23,24 +24,24 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 inline constexpr int kSingleSphereBlock = 8 * kCameraPacket;
 
-// Consecutive rays of a batch that can hit one sphere only.
+// Consecutive rays of a batch that can hit only one sphere.
 struct SingleSphereRays {
   const TileCandidate* candidate;
   uint32_t first, count;
 };
 
 // Groups of lanes between the two passes. The rays of a group are consecutive in a batch and can
-// hit one sphere only.
+// hit only one sphere.
 struct SingleSphereBlock {
   int groups = 0;
   uint32_t ray[kSingleSphereBlock];   // index in the batch of a group's first ray
-  uint32_t bits[kSingleSphereBlock];  // lanes to be tested; after TestRays those that hit
+  uint32_t bits[kSingleSphereBlock];  // lanes to be tested; after TestRays, those that hit
   const TileCandidate* candidate[kSingleSphereBlock];
   bool projected = false;  // all spheres of the block use the projected test, or none does
   alignas(kVectorBytes) double backward[3][kSingleSphereBlock];  // the negated ray directions
   alignas(kVectorBytes) double inverse_length[kSingleSphereBlock];
-  // Terms of a hit's normal. For the projected test: BackToHit in `root`, and the offset in
-  // `moment`. For the general test: the root and the moment of TestSphere, and |direction|^2 in
+  // Terms of a hit's normal. The projected test stores BackToHit in `root` and the offset in
+  // `moment`. The general test stores the root and the moment of TestSphere, and |direction|^2 in
   // `dd`.
   alignas(kVectorBytes) double root[kSingleSphereBlock];
   alignas(kVectorBytes) double moment[3][kSingleSphereBlock];
@@ -59,10 +60,10 @@ HWY_INLINE void StoreGroup(const Vec3V<hn::Vec<CameraDouble>>& v, int first,
 
 // The first pass: the exact test of the groups' rays, which leaves in `bits` the lanes that hit.
 // Directions are negated, which changes no other bit, because hits keep the direction to the
-// viewer. The depth is not needed, and a line that meets a sphere in front of the camera is a ray
-// that hits it: that saves a division. The square root (NaN in lanes that miss) is computed in this
-// pass, where its unit works in parallel with the multipliers. This function and AppendBlock are
-// not inlined so that the code around them takes none of their registers.
+// viewer. No depth is computed, which saves a division: a ray hits a sphere in front of the camera
+// wherever its line meets it. The square root (NaN in lanes that miss) is computed in this pass,
+// where its unit works in parallel with the multipliers. This function and AppendBlock are not
+// inlined, so that the code around them takes none of their registers.
 template <bool kProjected>
 HWY_NOINLINE HWY_ATTR void TestRays(const CameraFrame& frame, const FilmBatch& film,
                                     SingleSphereBlock* block) {
@@ -75,7 +76,7 @@ HWY_NOINLINE HWY_ATTR void TestRays(const CameraFrame& frame, const FilmBatch& f
     const TileCandidate& candidate = *block->candidate[g];
     const auto x = hn::LoadU(d, film.x.data() + block->ray[g]);
     const auto y = hn::LoadU(d, film.y.data() + block->ray[g]);
-    // The operations of MakeCameraRays.
+    // The same operations as in MakeCameraRays.
     const auto backward = MulAdd3(step_y, y, MulAdd3(step_x, x, corner));
     const auto dd = FusedDot(backward, backward);
     StoreGroup(backward, first, block->backward);
@@ -97,8 +98,8 @@ HWY_NOINLINE HWY_ATTR void TestRays(const CameraFrame& frame, const FilmBatch& f
   }
 }
 
-// The second pass: appends the hits to `to`. The rays start outside of the spheres, so the normals
-// point outward.
+// The second pass: appends the hits to `to`. Normals point outward, because the rays start outside
+// the spheres.
 template <bool kProjected>
 HWY_NOINLINE HWY_ATTR void AppendBlock(const SingleSphereBlock& block, const HitOutput& to) {
   const CameraDouble d;
@@ -140,7 +141,7 @@ HWY_INLINE void AppendBlock(const SingleSphereBlock& block, const HitOutput& to)
   AppendBlock<false>(block, to);
 }
 
-// Appends the hits of the block's groups, and empties it.
+// Appends the hits of the block's groups, and empties the block.
 HWY_INLINE void TraceBlock(const CameraFrame& frame, const FilmBatch& film,
                            SingleSphereBlock* block, const HitOutput& to) {
   if (block->groups == 0) return;
@@ -168,8 +169,8 @@ HWY_INLINE void AddSingleSphereRays(const CameraFrame& frame, const FilmBatch& f
   }
 }
 
-// Fills the block with those groups of up to kSingleSphereBlock rays, in any order, that pass the
-// float test.
+// Fills the block with the groups of lanes that pass the float test, from up to kSingleSphereBlock
+// rays in any order.
 HWY_INLINE void ProposeGroups(const CameraFrame& frame, const TileCandidate& candidate,
                               const FilmBatch& film, size_t first, size_t rays,
                               CameraPacket* packet, SingleSphereBlock* block) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/slopes.h: the interval of slopes under which a disc is seen from a point in its plane:
-// the extent of a sphere's projection along one film axis.
+// visibility/slopes.h: the interval of slopes under which a disc is seen from a point in its plane,
+// which is the extent of a sphere's projection along one film axis.
 #pragma once
 
 #include <cmath>

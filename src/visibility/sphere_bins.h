@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // visibility/sphere_bins.h: spheres binned to square cells of the image by bounds of their
-// projections, so that camera rays find their candidates without a tree. For camera rays this is
-// many times faster than a tree, and no tree need be built.
+// projections, so that camera rays find their candidates without a BVH. For camera rays this is
+// many times faster than a BVH, and none need be built.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace nacre {
 
 // The side of a cell in pixels: cells are as high as the strips that a picture is rendered in.
 inline constexpr int kCellSize = 16;
-// Where the cell of a pixel's column, or row, begins.
+// The first column, or row, of the cell that a pixel's column, or row, lies in.
 inline int DownToCell(int pixel) { return pixel / kCellSize * kCellSize; }
 // The window extended to whole cells.
 inline Window ExtendToCells(const Window& window) {
@@ -34,11 +34,10 @@ struct Projector {
 
 Projector MakeProjector(const CameraFrame& frame);
 
-// How many pixels a unit length parallel to the film has at a point. Points are relative to the
-// camera.
+// The number of pixels per unit length parallel to the film, at a point relative to the camera.
 double PixelsPerLength(const Projector& projector, const Vec3d& point);
 
-// Positions on the film, in pixels.
+// A position on the film, in pixels.
 struct FilmPoint {
   double x, y;
 };
@@ -50,17 +49,18 @@ struct ProjectedBounds {
   bool visible;  // false: no camera ray can hit the sphere; the bounds are undefined
 };
 
-// With a margin on each side, so that the box surely contains the outline, and what rays hit that
-// round otherwise.
+// Bounds a sphere's projection with a margin on each side, so that the box surely contains the
+// outline and the samples of all rays that hit the sphere, however these are rounded.
 ProjectedBounds Project(const Projector& projector, const TraceSphere& sphere);
-// The same with a margin of the rounding of doubles alone, which is a small part of the box even
-// where that is a billionth of a pixel wide.
+// Bounds a sphere's projection with a margin only for the rounding of doubles, which is a small
+// part of the box even where that is a billionth of a pixel wide.
 ProjectedBounds ProjectClosely(const Projector& projector, const TraceSphere& sphere);
 
 // An upper bound of the rounding errors of bounds and rays at this film coordinate.
 double ProjectionMargin(const Projector& projector, double at);
-// A thousandth of a pixel, a billionth of the film coordinate, and the rounding of directions of
-// length 1, which matters for telephoto lenses, whose pixels are that small.
+// The terms of ProjectionMargin: a thousandth of a pixel, a billionth of the film coordinate, and
+// the rounding of directions of length 1, which matters for telephoto lenses, whose pixels are that
+// small.
 inline constexpr double kProjectionMargin = 1e-3;
 inline constexpr double kRelativeProjectionMargin = 1e-9;
 inline constexpr double kDirectionRounding = 1e-15;
@@ -68,11 +68,11 @@ inline constexpr double kDirectionRounding = 1e-15;
 // directions of length 1.
 inline constexpr double kProjectionRounding = 8 * 0x1p-52;
 
-// For each cell the spheres that any of its camera rays could hit, in ascending order.
+// Lists, for each cell, the spheres that any of its camera rays could hit, in ascending order.
 struct SphereBins {
-  Projector projector;        // of their camera
+  Projector projector;        // of the camera
   Window window;              // the pixels that are binned
-  double sample_margin = 0;   // how far outside of its pixel a sample may lie, in pixels
+  double sample_margin = 0;   // how far outside its pixel a sample may lie, in pixels
   int columns = 0, rows = 0;  // of cells, from the window's corner
   std::vector<uint32_t> end;  // where each cell's list in `spheres` ends, row by row
   HugeArray<uint32_t> spheres;
@@ -85,7 +85,7 @@ struct SphereBins {
   uint32_t Begin(size_t cell) const { return cell == 0 ? 0 : end[cell - 1]; }
 };
 
-// The columns of cells and the rows of pixels that a sphere may cover: from first to last, none if
+// The columns of cells and the rows of pixels that a sphere may cover, from first to last; none if
 // first > last. A picture has at most 65536 rows.
 struct SphereBox {
   struct Range {
@@ -97,12 +97,12 @@ struct SphereBox {
 // The boxes of spheres in the bins' window, by the bounds of Project and the bins' sample margin.
 void FindBoxes(const SphereBins& bins, const TraceSphere* spheres, size_t count, SphereBox* boxes);
 
-// The sample margin of samples that are all pixel centres: half a pixel inside the border.
+// The sample margin if all samples are pixel centres: half a pixel inside the border.
 inline constexpr double kPixelCenterMargin = -0.5;
 
-// `sample_margin`: how far outside of its pixel a sample may lie, in pixels. Fails, with empty
-// bins, if there would be more than `max_entries` in all: many spheres that cover much of the
-// picture.
+// Bins the spheres for a camera's window. `sample_margin` is how far outside its pixel a sample may
+// lie, in pixels. Returns false, with empty bins, if there would be more than `max_entries` in all,
+// because many spheres cover much of the picture.
 bool BinSpheres(const TraceGeometry& geometry, const CameraFrame& frame, const Window& window,
                 double sample_margin, size_t max_entries, int threads, SphereBins* bins);
 

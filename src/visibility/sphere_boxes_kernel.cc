@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // visibility/sphere_boxes_kernel.cc: Project on a vector of spheres, and the cells and rows that
-// its bounds overlap. No product is fused, so that all targets find the boxes of Project.
+// the bounds overlap. No product is fused, so that all targets find the boxes of Project.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -27,7 +27,7 @@ struct RangeV {
   BoxV low, high;
 };
 
-// Slopes (slopes.h) of discs about (x, z).
+// Slopes() of slopes.h for a vector of discs about (x, z).
 HWY_INLINE RangeV SlopesV(BoxV x, BoxV z, BoxV radius) {
   const BoxTag d;
   const BoxV infinity = hn::Set(d, std::numeric_limits<double>::infinity());
@@ -48,7 +48,7 @@ HWY_INLINE RangeV SlopesV(BoxV x, BoxV z, BoxV radius) {
   return range;
 }
 
-// From slopes to pixels, with the margins of Project and of samples outside of their pixels.
+// Converts slopes to pixels, with the margins of Project and of samples outside their pixels.
 HWY_INLINE RangeV ToPixels(const SphereBins& bins, const RangeV& slopes, double middle) {
   const BoxTag d;
   const double per_slope = bins.projector.inverse_pixel;
@@ -69,8 +69,8 @@ HWY_INLINE RangeV ToPixels(const SphereBins& bins, const RangeV& slopes, double 
   return {outward(slopes.low, -1), outward(slopes.high, 1)};
 }
 
-// The intervals of `size` pixels that [low, high] overlaps, of `count` that begin at pixel `begin`:
-// the first and the last one, {1, 0} if there are none.
+// Stores the first and the last of the `count` intervals of `size` pixels, beginning at pixel
+// `begin`, that [low, high] overlaps; 1 and 0 if there are none.
 HWY_INLINE void StoreIndices(const RangeV& range, int begin, int size, int count, BoxMask visible,
                              int32_t* first_to, int32_t* last_to) {
   const BoxTag d;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/sphere_packet-inl.h: a packet against one sphere: the conservative float test that
-// proposes lanes, and the exact test in double that decides them.
+// visibility/sphere_packet-inl.h: tests a packet against one sphere: a conservative float test
+// proposes lanes, and the exact test in double decides.
 #if defined(NACRE_VISIBILITY_SPHERE_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_VISIBILITY_SPHERE_PACKET_INL_H_
 #undef NACRE_VISIBILITY_SPHERE_PACKET_INL_H_
@@ -20,7 +20,7 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // The lanes, as bits, whose float rays come within `error` of the sphere at a depth between 0 and
-// their limit. They include all lanes that hit it truly.
+// their limit. They include all lanes that truly hit it.
 //
 // Let u = 2^-24 and S = |c|_1 + |o|_1 + r, which bounds every length below. Rounding the centre,
 // the origin and their difference moves to_center by at most 2 u (|c| + |o|); the direction is
@@ -79,8 +79,9 @@ HWY_INLINE hn::Mask<D> StartsOn(D d, const Packet& packet, int lane, const Trace
                  hn::And(same(2, sphere.center.z), same(3, sphere.radius)));
 }
 
-// The general test of rays that leave surfaces: of those that start on this sphere one root is 0,
-// whatever the rounding of their origin, and the other twice the distance to the closest approach.
+// Records hits of the general test for rays that leave surfaces. For rays that start on this sphere
+// one root is 0, however their origin is rounded, and the other is twice the distance to the
+// closest approach.
 template <class D>
 HWY_INLINE void RecordFromSurfaces(D d, const TraceSphere& sphere, uint32_t primitive,
                                    const SphereHitV<D>& hit, hn::Mask<D> proposed, int lane,
@@ -93,7 +94,7 @@ HWY_INLINE void RecordFromSurfaces(D d, const TraceSphere& sphere, uint32_t prim
                 primitive);
 }
 
-// Tests `lanes`, as bits, and records the hits that are nearer than the nearest so far.
+// Tests `lanes`, as bits, and records hits that are nearer than the nearest so far.
 HWY_INLINE void IntersectLanes(const TraceSphere& sphere, uint32_t primitive, uint32_t lanes,
                                Packet* packet) {
   lanes &= ProposedOfPacket(hn::CappedTag<float, kMaxPacketWidth>(), *packet, sphere);

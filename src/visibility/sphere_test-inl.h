@@ -46,7 +46,8 @@ HWY_INLINE SphereHitV<D> TestSphere(D d, const Vec3V<V>& to_center, const Vec3V<
   result.closest = closest;
   result.root = hn::Sqrt(hn::Max(discriminant, zero));
   result.moment = moment;
-  // Both by one comparison, because in the middle of a sphere `closest` may be 0 of either sign.
+  // One comparison decides both, because in the middle of a sphere `closest` may be 0 of either
+  // sign.
   const auto ahead = hn::Gt(closest, zero);
   const V half_chord = hn::Mul(result.root, inverse_dd);
   const V larger = hn::Add(closest, hn::IfThenElse(ahead, half_chord, hn::Neg(half_chord)));

@@ -34,8 +34,8 @@ struct SphereHit {
 // Squares must stay in the range of double: radius |direction| lies within 1e-150 and 1e150 for all
 // scenes that are accepted.
 //
-// The roots come from their sum and their product, (|to_center|^2 - radius^2) / |direction|^2,
-// so the one near the origin does not cancel: a sphere of radius 1e6 under the eye is right.
+// The roots come from their sum and their product, (|to_center|^2 - radius^2) / |direction|^2, so
+// the one near the origin does not cancel: a sphere of radius 1e6 under the eye is hit accurately.
 template <typename Real>
 SphereHit<Real> TestSphere(const Imath::Vec3<Real>& to_center, const Imath::Vec3<Real>& direction,
                            Real radius, Products products = Products::kFused) {
@@ -52,7 +52,8 @@ SphereHit<Real> TestSphere(const Imath::Vec3<Real>& to_center, const Imath::Vec3
   if (!(discriminant >= 0 && radius > 0)) return result;
   result.root = std::sqrt(discriminant);
   const Real half_chord = result.root * inverse_dd;
-  // Both by one comparison, because in the middle of a sphere `closest` may be 0 of either sign.
+  // One comparison decides both, because in the middle of a sphere `closest` may be 0 of either
+  // sign.
   const Real larger = closest > 0 ? closest + half_chord : closest - half_chord;
   const Real product = (Dot(to_center, to_center, products) - radius2) * inverse_dd;
   const Real smaller = product / larger;

@@ -15,7 +15,7 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The radius with the sign of -root, where `root` is negative for rays that start outside of the
+// The radius with the sign of -root, where `root` is negative for rays that start outside the
 // sphere. It is negative for rays that start inside: their normals point inward.
 template <class V>
 HWY_INLINE V SignedRadius(V radius, V root) {
@@ -24,8 +24,8 @@ HWY_INLINE V SignedRadius(V radius, V root) {
 
 // The vector from a sphere's centre to the hit, times |direction|^2, without forming the point on
 // the ray, whose rounding grows with its distance. Scalar twin: ScaledCenterToHit. `root` is
-// negative where the ray starts outside. For the reversed direction moment and root change their
-// signs, and no other bit changes, but the sign of zeros.
+// negative where the ray starts outside. If the direction is reversed, so that moment and root
+// change their signs, the bits of the result stay the same, but for the signs of zeros.
 template <class V>
 HWY_INLINE Vec3V<V> ScaledCenterToHit(const Vec3V<V>& direction, V root, const Vec3V<V>& moment) {
   return MulAdd3(direction, root, FusedCross(moment, direction));

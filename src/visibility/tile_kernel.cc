@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/tile_kernel.cc: traces the camera rays of a tile, in packets or as rays with a single
+// visibility/tile_kernel.cc: traces the camera rays of a tile, in packets or against a single
 // sphere, and writes their hits.
 #include "visibility/tile_kernel.h"
 
@@ -76,8 +76,8 @@ HWY_INLINE const TileCandidate* SingleSphereIn(const std::vector<TileCandidate>&
   return kPerspective && cell.size() == 1 && cell[0].in_front ? &cell[0] : nullptr;
 }
 
-// Traces the rays of the columns [x, x_end) of a pixel row, which may hit any spheres. `begin_ray`:
-// the index of the first ray in the batch. packet->pixel_rows is the row within the cells. In a
+// Traces the rays of the columns [x, x_end) of a pixel row, which may hit any spheres. `begin_ray`
+// is the index of the first ray in the batch. packet->pixel_rows is the row within the cells. In a
 // tile of one cell any consecutive rays may be passed, with all bits of pixel_rows set.
 template <bool kPerspective>
 HWY_NOINLINE void TraceRow(const CameraFrame& frame, const SphereBins& bins,
@@ -191,7 +191,7 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 namespace {
 
-// A float not below v >= 0.
+// A float that is not below v, for v >= 0.
 float UpperFloat(double v) { return static_cast<float>(v) * (1 + 0x1p-22f); }
 
 // A lower bound, in float, of the distance from the camera at which rays meet the sphere; for an
@@ -212,11 +212,11 @@ double VaryingBound(const CameraFrame& frame, const Window& window) {
          SumOfAbs(frame.step_y) * (window.y1 + 64);
 }
 
-// The varying vectors in float err by 8 u `varying` at most: two roundings of the factors and two
-// of the sums. |direction| is at least 1, so the cross product with the centre, over that length,
-// errs by (8 u varying + 8 u) |center|, and the dot product no more. An orthographic ray's origin
-// errs by 8 u varying itself, and its difference from the centre and the cross product by 16 u of
-// both.
+// The radius plus an upper bound of the errors of the float test, with u = kFloatUnit. The varying
+// vectors in float err by at most 8 u `varying`: two roundings of the factors and two of the sums.
+// |direction| is at least 1, so the cross product with the centre, over that length, errs by (8 u
+// varying + 8 u) |center|, and the dot product by no more. An orthographic ray's origin itself errs
+// by 8 u varying, and its difference from the centre and the cross product by 16 u of both.
 float RadiusBound(const TraceSphere& sphere, const CameraFrame& frame, double varying) {
   const double center = SumOfAbs(sphere.center);
   const double error = frame.projection == Projection::kPerspective
@@ -234,7 +234,7 @@ TileCandidate MakeCandidate(const TraceSphere& sphere, uint32_t primitive, uint1
   candidate.pixel_rows = pixel_rows;
   const double distance2 = Dot(sphere.center, sphere.center, products);
   const double distance = std::sqrt(distance2);
-  // The sign of the product of the roots of TestSphere.
+  // This has the sign of the product of the roots in TestSphere.
   candidate.around_camera = !(distance2 - candidate.radius2 > 0);
   candidate.in_front = IsInFront(sphere, frame.forward);
   candidate.near = NearBound(sphere, distance, frame);

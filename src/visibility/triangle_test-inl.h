@@ -88,8 +88,8 @@ HWY_INLINE TriangleHitV<D> TestTriangle(D d, const Vec3V<V>& a, const Vec3V<V>& 
   return result;
 }
 
-// Of hits: whether the rays come from the triangle's front, from where its corners run
-// counter-clockwise.
+// The lanes whose rays come from the triangle's front, the side from which its corners run
+// counter-clockwise, if they hit it.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> ComesFromFront(D d, const TriangleHitV<D>& hit, const Vec3V<V>& direction) {
   const V along = ShearAxis(d, direction).Pick(direction.x, direction.y, direction.z);

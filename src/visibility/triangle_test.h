@@ -21,7 +21,7 @@ struct RayShear {
   Imath::Vec3<Real> y_axis;
 };
 
-// The axis: that of the direction's largest component.
+// The axis of the direction's largest component.
 template <typename Real>
 int ShearAxis(const Imath::Vec3<Real>& direction) {
   const Imath::Vec3<Real> size(std::abs(direction.x), std::abs(direction.y), std::abs(direction.z));
@@ -81,8 +81,8 @@ TriangleHit<Real> TestTriangle(const Imath::Vec3<Real>& a, const Imath::Vec3<Rea
   return result;
 }
 
-// Of a hit: whether the ray comes from the triangle's front, from where its corners run
-// counter-clockwise. The shear turns no winding round: its axes and the direction's are cyclic.
+// Whether the ray of a hit comes from the triangle's front, the side from which its corners run
+// counter-clockwise. The shear keeps the winding: its axes and the direction's are cyclic.
 template <typename Real>
 bool ComesFromFront(const TriangleHit<Real>& hit, const Imath::Vec3<Real>& direction) {
   return (direction[ShearAxis(direction)] > 0) == (hit.area > 0);

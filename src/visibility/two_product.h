@@ -9,10 +9,10 @@
 
 namespace nacre {
 
-// Whether a target rounds a product before it is added to something.
+// Whether a target rounds a product before it is added to another number.
 enum class Products {
   kFused,    // not rounded: targets with fused multiply-add
-  kRounded,  // SSE4 and plain C++
+  kRounded,  // rounded: SSE4 and plain C++
 };
 
 // a b + c.

@@ -9,64 +9,37 @@
 #include "brdf/albedo-inl.h"
 #include "brdf/energy_kernel.h"
 #include "brdf/fresnel-inl.h"
+#include "queries-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
-using D = hn::ScalableTag<float>;
-using V = hn::Vec<D>;
-
-// Up to a whole vector of get(i), the last one repeated.
-template <class Get>
-V Gather(size_t first, size_t size, Get get) {
-  alignas(64) float lanes[16];
-  for (size_t i = 0; i < hn::Lanes(D()); ++i)
-    lanes[i] = get(first + i < size ? first + i : size - 1);
-  return hn::Load(D(), lanes);
-}
-
-template <class Output>
-void Scatter(V value, size_t first, float Output::*member, std::vector<Output>* outputs) {
-  alignas(64) float lanes[16];
-  hn::Store(value, D(), lanes);
-  for (size_t i = 0; i < hn::Lanes(D()) && first + i < outputs->size(); ++i) {
-    (*outputs)[first + i].*member = lanes[i];
-  }
-}
-
 void EvaluateFresnelT(const std::vector<FresnelInput>& inputs,
                       std::vector<FresnelOutput>* outputs) {
-  const D d;
-  for (size_t first = 0; first < inputs.size(); first += hn::Lanes(d)) {
-    const auto get = [&](float FresnelInput::*member) {
-      return Gather(first, inputs.size(), [&](size_t i) { return inputs[i].*member; });
-    };
-    const V c = get(&FresnelInput::v_dot_h);
-    const V m = get(&FresnelInput::one_minus_vh);
-    const V eta = get(&FresnelInput::eta);
-    const V f0 = get(&FresnelInput::f0);
-    Scatter(FresnelDielectric(d, c, m, eta), first, &FresnelOutput::dielectric, outputs);
-    Scatter(FresnelConductor(d, c, m, eta, get(&FresnelInput::k)), first, &FresnelOutput::conductor,
-            outputs);
-    Scatter(FresnelSchlick(d, f0, hn::Set(d, 1.0f), Power5(m)), first, &FresnelOutput::schlick,
-            outputs);
-    Scatter(FresnelF82(d, c, m, f0, get(&FresnelInput::slope)), first, &FresnelOutput::f82,
-            outputs);
-  }
+  AskInPackets<float>(inputs, outputs, [](const auto& packet) {
+    const hn::ScalableTag<float> d;
+    const auto c = packet.Number(&FresnelInput::v_dot_h);
+    const auto m = packet.Number(&FresnelInput::one_minus_vh);
+    const auto eta = packet.Number(&FresnelInput::eta), k = packet.Number(&FresnelInput::k);
+    const auto f0 = packet.Number(&FresnelInput::f0);
+    packet.Store(FresnelDielectric(d, c, m, eta), &FresnelOutput::dielectric);
+    packet.Store(FresnelConductor(d, c, m, eta, k), &FresnelOutput::conductor);
+    packet.Store(FresnelSchlick(d, f0, hn::Set(d, 1.0f), Power5(m)), &FresnelOutput::schlick);
+    packet.Store(FresnelF82(d, c, m, f0, packet.Number(&FresnelInput::slope)), &FresnelOutput::f82);
+  });
 }
 
 void EvaluateAlbedosT(const FresnelAlbedoFit& fit, const std::vector<float>& n_dot_v,
                       std::vector<AlbedoOutput>* outputs) {
-  const D d;
-  for (size_t first = 0; first < n_dot_v.size(); first += hn::Lanes(d)) {
-    const V mu = Gather(first, n_dot_v.size(), [&](size_t i) { return n_dot_v[i]; });
-    const V one = AlbedoOne(d, fit.lobe, mu);
-    Scatter(one, first, &AlbedoOutput::one, outputs);
-    Scatter(AlbedoLoss(d, fit.lobe, mu), first, &AlbedoOutput::loss, outputs);
-    Scatter(AlbedoSchlick(d, fit.lobe, mu), first, &AlbedoOutput::schlick, outputs);
-    Scatter(AlbedoFresnel(d, fit, mu), first, &AlbedoOutput::fresnel, outputs);
-  }
+  AskInPackets<float>(n_dot_v, outputs, [&](const auto& packet) {
+    const hn::ScalableTag<float> d;
+    const auto mu = packet.Number([](float cosine) { return cosine; });
+    packet.Store(AlbedoOne(d, fit.lobe, mu), &AlbedoOutput::one);
+    packet.Store(AlbedoLoss(d, fit.lobe, mu), &AlbedoOutput::loss);
+    packet.Store(AlbedoSchlick(d, fit.lobe, mu), &AlbedoOutput::schlick);
+    packet.Store(AlbedoFresnel(d, fit, mu), &AlbedoOutput::fresnel);
+  });
 }
 
 }  // namespace HWY_NAMESPACE

@@ -9,6 +9,7 @@
 #include "base/target_ops-inl.h"
 #include "brdf/lobe_kernel.h"
 #include "brdf/lobe_sampling-inl.h"
+#include "queries-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -16,22 +17,6 @@ namespace HWY_NAMESPACE {
 
 using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
-constexpr size_t kMaxLanes = 32;
-
-template <class Member>
-V Column(const std::vector<LobeQuery>& queries, size_t first, Member member) {
-  alignas(64) float lanes[kMaxLanes];
-  for (size_t i = 0; i < hn::Lanes(D()); ++i) {
-    lanes[i] = member(queries[std::min(first + i, queries.size() - 1)]);
-  }
-  return hn::Load(D(), lanes);
-}
-
-Vec3V<V> Column3(const std::vector<LobeQuery>& queries, size_t first, Vec3f LobeQuery::*vector) {
-  return {Column(queries, first, [=](const LobeQuery& q) { return (q.*vector).x; }),
-          Column(queries, first, [=](const LobeQuery& q) { return (q.*vector).y; }),
-          Column(queries, first, [=](const LobeQuery& q) { return (q.*vector).z; })};
-}
 
 struct Inputs {
   Vec3V<V> n, v, l;
@@ -74,24 +59,13 @@ V PdfOf(Lobe lobe, const Inputs& in) {
 }
 
 void AskLobeT(Lobe lobe, const std::vector<LobeQuery>& queries, std::vector<LobeAnswer>* answers) {
-  const D d;
-  for (size_t first = 0; first < queries.size(); first += hn::Lanes(d)) {
-    const Inputs in{Column3(queries, first, &LobeQuery::n),
-                    Column3(queries, first, &LobeQuery::v),
-                    Column3(queries, first, &LobeQuery::l),
-                    Column(queries, first, [](const LobeQuery& q) { return q.width; }),
-                    Column(queries, first, [](const LobeQuery& q) { return q.u0; }),
-                    Column(queries, first, [](const LobeQuery& q) { return q.u1; })};
-    const Vec3V<V> sample = SampleOf(lobe, in);
-    alignas(64) float lanes[4][kMaxLanes];
-    hn::Store(sample.x, d, lanes[0]);
-    hn::Store(sample.y, d, lanes[1]);
-    hn::Store(sample.z, d, lanes[2]);
-    hn::Store(PdfOf(lobe, in), d, lanes[3]);
-    for (size_t i = 0; i < hn::Lanes(d) && first + i < queries.size(); ++i) {
-      (*answers)[first + i] = {Vec3f(lanes[0][i], lanes[1][i], lanes[2][i]), lanes[3][i]};
-    }
-  }
+  AskInPackets<float>(queries, answers, [=](const auto& packet) {
+    const Inputs in{packet.Vector(&LobeQuery::n),  packet.Vector(&LobeQuery::v),
+                    packet.Vector(&LobeQuery::l),  packet.Number(&LobeQuery::width),
+                    packet.Number(&LobeQuery::u0), packet.Number(&LobeQuery::u1)};
+    packet.Store3(SampleOf(lobe, in), &LobeAnswer::sample);
+    packet.Store(PdfOf(lobe, in), &LobeAnswer::pdf);
+  });
 }
 
 }  // namespace HWY_NAMESPACE

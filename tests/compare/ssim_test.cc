@@ -10,6 +10,7 @@
 #include "color/luminance.h"
 #include "color/transfer.h"
 #include "compare/plane.h"
+#include "compare/ssim_rows.h"
 #include "targets.h"
 
 namespace nacre {

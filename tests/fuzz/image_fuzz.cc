@@ -5,7 +5,7 @@
 #include "compare/verdict.h"
 #include "fuzz/fuzz_input.h"
 #include "fuzz/targets.h"
-#include "image_io/image_file.h"
+#include "image_io/read_image.h"
 #include "scene_io/texture_image.h"
 
 namespace nacre {

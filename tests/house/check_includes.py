@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Checks every #include and every nacre_library() of src/ against the dependency order.
 
-The order is the table below. A folder may use those that its DEPENDS line in src/CMakeLists.txt
+Within a folder no includes form a ring. Between folders the order is the table below. A folder may use those that its DEPENDS line in src/CMakeLists.txt
 names, and what these depend on; and that line may name only what the table allows.
 """
 import argparse
@@ -198,6 +198,37 @@ def check_source(src, source, depends):
                 yield f"{at}: {fault}"
 
 
+def part_of(path):
+    """The part of its folder that a file belongs to: NAME of NAME.h, NAME.cc, NAME-inl.h and NAME_kernel.cc."""
+    return (path.parent.as_posix(), re.sub(r"(_kernel)?(-inl)?$", "", path.stem))
+
+
+def check_rings(src, sources):
+    """Parts of one folder that include one another in a circle."""
+    uses = {}
+    for source in sources:
+        file = source.relative_to(src)
+        part = part_of(file)
+        for match in map(INCLUDE.match, source.read_text().splitlines()):
+            used = match and pathlib.PurePath(match.group(2))
+            if used and used.parent == file.parent and part_of(used) != part:
+                uses.setdefault(part, {}).setdefault(part_of(used), file.as_posix())
+    done = set()
+
+    def walk(part, trail):
+        if part in trail:
+            ring = trail[trail.index(part):] + [part]
+            files = [uses[a][b] for a, b in zip(ring, ring[1:])]
+            yield f"src/{files[0]}: a ring of includes: {' -> '.join(name for _, name in ring)}"
+        elif part not in done:
+            for used in sorted(uses.get(part, ())):
+                yield from walk(used, trail + [part])
+            done.add(part)
+
+    for part in sorted(uses):
+        yield from walk(part, [])
+
+
 def check_public_header(header):
     """Faults of the public header, which others compile: it includes the standard library only."""
     for number, line in enumerate(header.read_text().splitlines(), 1):
@@ -215,6 +246,7 @@ def check(root):
     faults = list(check_cmake(depends, on_disk))
     for source in sources:
         faults.extend(check_source(src, source, depends))
+    faults.extend(check_rings(src, sources))
     if (src / PUBLIC_HEADER).is_file():
         faults.extend(check_public_header(src / PUBLIC_HEADER))
     return faults, len(sources)

@@ -134,6 +134,18 @@ class CheckIncludes(unittest.TestCase):
                 faults = faults_of({"CMakeLists.txt": CMAKE.replace(old, new)})
                 self.assertTrue(any(expected in fault for fault in faults), faults)
 
+    def test_rings_within_a_folder(self):
+        order = {"scene/a.h": '#include "scene/b.h"\n', "scene/b.h": '#include "scene/c.h"\n',
+                 "scene/c.h": "", "scene/b.cc": '#include "scene/b.h"\n#include "scene/c.h"\n'}
+        self.assertEqual(faults_of(order), [])
+        for ring in ({"scene/c.h": '#include "scene/a.h"\n'},
+                     {"scene/c.cc": '#include "scene/c.h"\n#include "scene/a.h"\n'},
+                     {"scene/c-inl.h": '#include "scene/b.h"\n'},
+                     {"scene/c_kernel.cc": '#include "scene/b.h"\n'}):
+            with self.subTest(ring):
+                faults = [fault for fault in faults_of({**order, **ring}) if "ring" in fault]
+                self.assertEqual(len(faults), 1)
+
     def test_folder_that_nobody_knows(self):
         faults = faults_of({"extra/a.cc": ""})
         self.assertEqual(len(faults), 1, faults)

@@ -7,8 +7,8 @@
 
 #include "files.h"
 #include "image_io/exr_compression.h"
-#include "image_io/image_file.h"
 #include "image_io/png_writer.h"
+#include "image_io/read_image.h"
 
 namespace nacre {
 namespace {

@@ -17,6 +17,7 @@
 #include <OpenEXR/ImfVecAttribute.h>
 
 #include "image_io/color_channels.h"
+#include "image_io/read_image.h"
 #include "pictures.h"
 
 namespace nacre {

@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "catch.h"
+#include "image_io/read_image.h"
 
 namespace nacre {
 namespace {

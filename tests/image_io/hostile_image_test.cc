@@ -15,7 +15,7 @@
 #include <OpenEXR/ImfTiledOutputFile.h>
 
 #include "image_io/exr_bands.h"
-#include "image_io/image_file.h"
+#include "image_io/read_image.h"
 #include "image_io/verify_image.h"
 #include "pictures.h"
 #include "png_bytes.h"

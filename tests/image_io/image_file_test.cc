@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/image_io/image_file_test.cc: images of any format, and text in them, by OpenImageIO.
-#include "image_io/image_file.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "image_io/draw_text.h"
+#include "image_io/read_image.h"
 #include "pictures.h"
 
 namespace nacre {

@@ -14,6 +14,7 @@
 #include "files.h"
 #include "image_io/exr_reader.h"
 #include "image_io/exr_writer.h"
+#include "image_io/read_image.h"
 
 namespace nacre {
 

@@ -9,6 +9,7 @@
 
 #include "catch.h"
 #include "files.h"
+#include "image_io/read_image.h"
 #include "pictures.h"
 #include "png_bytes.h"
 

@@ -8,7 +8,7 @@
 #include <zlib.h>
 
 #include "files.h"
-#include "image_io/image_file.h"
+#include "image_io/read_image.h"
 
 namespace nacre {
 namespace {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "files.h"
+#include "image_io/read_image.h"
 
 namespace nacre {
 namespace {

@@ -9,6 +9,7 @@
 #include "base/target_ops-inl.h"
 #include "light/area_kernel.h"
 #include "light/irradiance-inl.h"
+#include "queries-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -16,49 +17,28 @@ namespace HWY_NAMESPACE {
 
 using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
-constexpr size_t kMaxLanes = 32;
 
-// A vector of the member `member` of up to a vector of queries; the last query is repeated.
-template <class Query, class Member>
-V Column(const std::vector<Query>& queries, size_t first, Member member) {
-  alignas(64) float lanes[kMaxLanes];
-  for (size_t i = 0; i < hn::Lanes(D()); ++i) {
-    lanes[i] = member(queries[std::min(first + i, queries.size() - 1)]);
-  }
-  return hn::Load(D(), lanes);
+template <class Light>
+using Packet = QueryPacket<LightQuery<Light>, LightAnswer, float>;
+
+SphereLightV<V> LightOf(const Packet<SphereLight<float>>& p) {
+  return {p.Vector([](const auto& q) { return q.light.centre; }),
+          p.Number([](const auto& q) { return q.light.radius; })};
 }
-
-template <class Query, class Member>
-Vec3V<V> Column3(const std::vector<Query>& queries, size_t first, Member member) {
-  return {Column(queries, first, [&](const Query& q) { return member(q).x; }),
-          Column(queries, first, [&](const Query& q) { return member(q).y; }),
-          Column(queries, first, [&](const Query& q) { return member(q).z; })};
+RectangleLightV<V> LightOf(const Packet<RectangleLight<float>>& p) {
+  return {p.Vector([](const auto& q) { return q.light.corner; }),
+          p.Vector([](const auto& q) { return q.light.edge_x; }),
+          p.Vector([](const auto& q) { return q.light.edge_y; })};
 }
-
-SphereLightV<V> LightColumn(const std::vector<LightQuery<SphereLight<float>>>& queries,
-                            size_t first) {
-  return {Column3(queries, first, [](const auto& q) { return q.light.centre; }),
-          Column(queries, first, [](const auto& q) { return q.light.radius; })};
+TriangleLightV<V> LightOf(const Packet<TriangleLight<float>>& p) {
+  return {p.Vector([](const auto& q) { return q.light.corner; }),
+          p.Vector([](const auto& q) { return q.light.edge_x; }),
+          p.Vector([](const auto& q) { return q.light.edge_y; })};
 }
-
-RectangleLightV<V> LightColumn(const std::vector<LightQuery<RectangleLight<float>>>& queries,
-                               size_t first) {
-  return {Column3(queries, first, [](const auto& q) { return q.light.corner; }),
-          Column3(queries, first, [](const auto& q) { return q.light.edge_x; }),
-          Column3(queries, first, [](const auto& q) { return q.light.edge_y; })};
-}
-
-TriangleLightV<V> LightColumn(const std::vector<LightQuery<TriangleLight<float>>>& queries,
-                              size_t first) {
-  return {Column3(queries, first, [](const auto& q) { return q.light.corner; }),
-          Column3(queries, first, [](const auto& q) { return q.light.edge_x; }),
-          Column3(queries, first, [](const auto& q) { return q.light.edge_y; })};
-}
-
-DiskLightV<V> LightColumn(const std::vector<LightQuery<DiskLight<float>>>& queries, size_t first) {
-  return {Column3(queries, first, [](const auto& q) { return q.light.centre; }),
-          Column3(queries, first, [](const auto& q) { return q.light.normal; }),
-          Column(queries, first, [](const auto& q) { return q.light.radius; })};
+DiskLightV<V> LightOf(const Packet<DiskLight<float>>& p) {
+  return {p.Vector([](const auto& q) { return q.light.centre; }),
+          p.Vector([](const auto& q) { return q.light.normal; }),
+          p.Number([](const auto& q) { return q.light.radius; })};
 }
 
 template <class LightV>
@@ -67,34 +47,25 @@ V SolidAngleOf(const LightV& light) {
 }
 V SolidAngleOf(const DiskLightV<V>&) { return hn::Zero(D()); }
 
-template <class Query, class Answers>
-void Ask(const std::vector<Query>& queries, Answers* answers) {
-  const D d;
-  for (size_t first = 0; first < queries.size(); first += hn::Lanes(d)) {
-    const auto light = LightColumn(queries, first);
+template <class Query>
+void Ask(const std::vector<Query>& queries, std::vector<LightAnswer>* answers) {
+  AskInPackets<float>(queries, answers, [](const auto& packet) {
+    const D d;
+    const auto light = LightOf(packet);
     const AreaSampleV<V> sample =
-        SampleLight(d, light, Column(queries, first, [](const Query& q) { return q.u0; }),
-                    Column(queries, first, [](const Query& q) { return q.u1; }));
-    const V columns[] = {
-        sample.to_light.x,
-        sample.to_light.y,
-        sample.to_light.z,
-        sample.distance,
-        sample.inverse_pdf,
-        sample.cos_light,
-        LightPdf(d, light, Column3(queries, first, [](const Query& q) { return q.direction; })),
-        SolidAngleOf(light),
-        Irradiance(d, light, Column3(queries, first, [](const Query& q) { return q.normal; }))};
-    alignas(64) float lanes[std::size(columns)][kMaxLanes];
-    for (size_t c = 0; c < std::size(columns); ++c) hn::Store(columns[c], d, lanes[c]);
-    for (size_t i = 0; i < hn::Lanes(d) && first + i < queries.size(); ++i) {
-      (*answers)[first + i] = {
-          {Vec3f(lanes[0][i], lanes[1][i], lanes[2][i]), lanes[3][i], lanes[4][i], lanes[5][i]},
-          lanes[6][i],
-          lanes[7][i],
-          lanes[8][i]};
-    }
-  }
+        SampleLight(d, light, packet.Number(&Query::u0), packet.Number(&Query::u1));
+    packet.Store3(
+        sample.to_light, [](LightAnswer & a) -> auto& { return a.sample.to_light; });
+    packet.Store(
+        sample.distance, [](LightAnswer & a) -> auto& { return a.sample.distance; });
+    packet.Store(
+        sample.inverse_pdf, [](LightAnswer & a) -> auto& { return a.sample.inverse_pdf; });
+    packet.Store(
+        sample.cos_light, [](LightAnswer & a) -> auto& { return a.sample.cos_light; });
+    packet.Store(LightPdf(d, light, packet.Vector(&Query::direction)), &LightAnswer::pdf);
+    packet.Store(SolidAngleOf(light), &LightAnswer::solid_angle);
+    packet.Store(Irradiance(d, light, packet.Vector(&Query::normal)), &LightAnswer::irradiance);
+  });
 }
 
 void AskSpheresT(const std::vector<LightQuery<SphereLight<float>>>& queries,

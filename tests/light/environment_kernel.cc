@@ -10,6 +10,7 @@
 #include "light/environment-inl.h"
 #include "light/environment_kernel.h"
 #include "light/sky-inl.h"
+#include "queries-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -17,74 +18,50 @@ namespace HWY_NAMESPACE {
 
 using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
-constexpr size_t kMaxLanes = 32;
-
-Vec3V<V> Load(const std::vector<Vec3f>& vectors, size_t first) {
-  alignas(64) float lanes[3][kMaxLanes];
-  for (size_t i = 0; i < hn::Lanes(D()); ++i) {
-    const Vec3f& v = vectors[std::min(first + i, vectors.size() - 1)];
-    for (int c = 0; c < 3; ++c) lanes[c][i] = v[c];
-  }
-  return Load3(D(), lanes[0], lanes[1], lanes[2]);
-}
-
-// Calls store(index, lane) for each element of a vector of results.
-template <class Store>
-void ForLanes(size_t first, size_t count, const Store& store) {
-  for (size_t i = 0; i < hn::Lanes(D()) && first + i < count; ++i) store(first + i, i);
-}
+// The direction that is a query.
+const Vec3f& Itself(const Vec3f& direction) { return direction; }
 
 void LookUpTexelsT(const EnvironmentMap& map, const std::vector<Vec3f>& directions,
                    std::vector<EnvironmentTexel>* out) {
-  const D d;
-  for (size_t first = 0; first < directions.size(); first += hn::Lanes(d)) {
-    const EnvironmentTexelV<V> texel = TexelAt(d, map, Load(directions, first));
-    alignas(64) float lanes[4][kMaxLanes];
-    hn::Store(texel.red, d, lanes[0]);
-    hn::Store(texel.green, d, lanes[1]);
-    hn::Store(texel.blue, d, lanes[2]);
-    hn::Store(texel.pdf, d, lanes[3]);
-    ForLanes(first, out->size(), [&](size_t index, size_t i) {
-      (*out)[index] = {lanes[0][i], lanes[1][i], lanes[2][i], lanes[3][i]};
-    });
-  }
+  AskInPackets<float>(directions, out, [&](const auto& packet) {
+    const EnvironmentTexelV<V> texel = TexelAt(D(), map, packet.Vector(Itself));
+    packet.Store(texel.red, &EnvironmentTexel::red);
+    packet.Store(texel.green, &EnvironmentTexel::green);
+    packet.Store(texel.blue, &EnvironmentTexel::blue);
+    packet.Store(texel.pdf, &EnvironmentTexel::pdf);
+  });
 }
 
 void SampleEnvironmentsT(const EnvironmentMap& map, const std::vector<uint32_t>& bits0,
                          const std::vector<uint32_t>& bits1,
                          std::vector<EnvironmentSample<float>>* out) {
-  const D d;
-  for (size_t first = 0; first < bits0.size(); first += hn::Lanes(d)) {
-    uint32_t b0[kMaxLanes], b1[kMaxLanes];
-    for (size_t i = 0; i < hn::Lanes(d); ++i) {
-      b0[i] = bits0[std::min(first + i, bits0.size() - 1)];
-      b1[i] = bits1[std::min(first + i, bits1.size() - 1)];
+  AskInPackets<float>(bits0, out, [&](const auto& packet) {
+    uint32_t b0[packet.kMaxLanes], b1[packet.kMaxLanes];
+    for (size_t i = 0; i < hn::Lanes(D()); ++i) {
+      b0[i] = packet.At(i);
+      b1[i] = bits1[std::min(packet.first + i, bits1.size() - 1)];
     }
-    const EnvironmentSampleV<V> sample = SampleEnvironment(d, map, b0, b1);
-    alignas(64) float lanes[7][kMaxLanes];
-    Store3(sample.to_light, d, lanes[0], lanes[1], lanes[2]);
-    hn::Store(sample.texel.red, d, lanes[3]);
-    hn::Store(sample.texel.green, d, lanes[4]);
-    hn::Store(sample.texel.blue, d, lanes[5]);
-    hn::Store(sample.texel.pdf, d, lanes[6]);
-    ForLanes(first, out->size(), [&](size_t index, size_t i) {
-      (*out)[index] = {Vec3f(lanes[0][i], lanes[1][i], lanes[2][i]),
-                       {lanes[3][i], lanes[4][i], lanes[5][i], lanes[6][i]}};
-    });
-  }
+    using Sample = EnvironmentSample<float>;
+    const EnvironmentSampleV<V> sample = SampleEnvironment(D(), map, b0, b1);
+    packet.Store3(sample.to_light, &Sample::to_light);
+    packet.Store(
+        sample.texel.red, [](Sample & s) -> auto& { return s.texel.red; });
+    packet.Store(
+        sample.texel.green, [](Sample & s) -> auto& { return s.texel.green; });
+    packet.Store(
+        sample.texel.blue, [](Sample & s) -> auto& { return s.texel.blue; });
+    packet.Store(
+        sample.texel.pdf, [](Sample & s) -> auto& { return s.texel.pdf; });
+  });
 }
 
 template <class Sky>
 void Evaluate(const Sky& sky, const std::vector<Vec3f>& directions, std::vector<Vec3f>* out) {
-  const D d;
-  for (size_t first = 0; first < directions.size(); first += hn::Lanes(d)) {
-    const Vec3V<V> direction = Load(directions, first);
-    alignas(64) float lanes[2][kMaxLanes];
-    hn::Store(Radiance(d, sky, direction), d, lanes[0]);
-    hn::Store(Irradiance(d, sky, direction), d, lanes[1]);
-    ForLanes(first, out->size(),
-             [&](size_t index, size_t i) { (*out)[index] = Vec3f(lanes[0][i], lanes[1][i], 0); });
-  }
+  AskInPackets<float>(directions, out, [&](const auto& packet) {
+    const Vec3V<V> direction = packet.Vector(Itself);
+    packet.Store(Radiance(D(), sky, direction), &Vec3f::x);
+    packet.Store(Irradiance(D(), sky, direction), &Vec3f::y);
+  });
 }
 
 void EvaluateGradientT(const GradientSkyTerms<float>& sky, const std::vector<Vec3f>& directions,

@@ -6,6 +6,7 @@ import tempfile
 import unittest
 
 import fault_list
+import slips
 
 LIST = """
 # A comment.
@@ -83,6 +84,37 @@ class FaultList(unittest.TestCase):
         for text in ("fault A: base", "x\n" + LIST, LIST + "x\n", LIST + "  late reason\n"):
             with self.assertRaises(fault_list.ListError, msg=text):
                 fault_list.parse(text, "a.txt")
+
+
+SOURCE = """// a + b < 1
+#include "base/a < b.h"
+if (a < b && name == "1 + 2") {
+  total += a * 0.5;  // a * b
+}
+if (a < b && name == "1 + 2") {
+"""
+
+
+class Slips(unittest.TestCase):
+    def test_operators_and_constants_of_code_alone(self):
+        found = slips.slips_of("src/base/a.cc", SOURCE, 100)
+        self.assertEqual([fault.name.partition(": ")[2] for fault in found],
+                         ["< -> <=", "&& -> ||", "== -> !=", "+= -> -=", "* -> /", "0.5 -> 1.25",
+                          "< -> <=", "&& -> ||", "== -> !="])
+
+    def test_each_changes_one_place(self):
+        for fault in slips.slips_of("src/base/a.cc", SOURCE, 100):
+            part, = fault.parts
+            self.assertEqual(SOURCE.count(part.find), 1)
+            self.assertNotEqual(part.find, part.replace)
+            changed = SOURCE.replace(part.find, part.replace).split("\n")
+            row = int(fault.place.rpartition(":")[2]) - 1
+            self.assertEqual([k for k, line in enumerate(SOURCE.split("\n")) if line != changed[k]], [row])
+
+    def test_the_same_few_each_time(self):
+        few = slips.slips_of("src/base/a.cc", SOURCE, 3)
+        self.assertEqual(len(few), 3)
+        self.assertEqual(few, slips.slips_of("src/base/a.cc", SOURCE, 3))
 
 
 if __name__ == "__main__":

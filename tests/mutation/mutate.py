@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Plants the faults of tests/mutation/faults/ one at a time and runs the tests on each.
+"""Plants the faults of tests/mutation/faults/ one at a time and runs the tests on each; or, of each
+FILE in src/, slips: other operators and constants (slips.py).
 
 A fault that no test sees has SURVIVED: a test is missing. Works on a copy of the tree, in one build
 folder; only the programs of the tests that a fault names are built. A run without a fault comes
@@ -11,7 +12,8 @@ Two runs can go side by side, each in a folder of its own:
 less is compiled and tested for each fault: try what survives again without it, as some faults are
 in code of other targets.
 
-Exit code: 0 every fault was killed, 1 one survived or did not compile, 2 no run was possible.
+Exit code: 0 every fault was killed, 1 one survived or did not compile (of slips: survived), 2 no run
+was possible.
 """
 import argparse
 import collections
@@ -28,6 +30,7 @@ import sys
 import time
 
 import fault_list
+import slips
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
@@ -204,6 +207,13 @@ def try_fault(workshop, fault):
         workshop.put(originals)
 
 
+def slips_of_file(file, most):
+    path = pathlib.Path(file).resolve()
+    if not path.is_file() or not path.is_relative_to(ROOT / "src"):
+        raise NoRun(f"{file}: no file of {ROOT / 'src'}")
+    return slips.slips_of(path.relative_to(ROOT).as_posix(), path.read_text(encoding="utf-8"), most)
+
+
 def run_all(workshop, chosen):
     """Prints the table; true if every fault was killed."""
     tests = sorted({test for fault in chosen for test in fault.tests})
@@ -225,12 +235,15 @@ def run_all(workshop, chosen):
               f"{outcome}{' by ' + killer if killer else ''}", flush=True)
     told = ", ".join(f"{counts[o]} {o}" for o in ("killed", "SURVIVED", "did not compile"))
     print(f"{len(chosen)} faults in {(time.monotonic() - begin) / 60:.1f} min: {told}")
-    return counts["killed"] == len(chosen)
+    # A slip that does not compile is the compiler's find.
+    return counts["killed"] == len(chosen) or all(f.why == slips.WHY for f in chosen) and not counts["SURVIVED"]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("files", metavar="FILE", nargs="*", help="files of src/: slips of these, not the list")
+    parser.add_argument("--most", type=int, default=30, metavar="N", help="slips of each file; default: 30")
     parser.add_argument("--only", metavar="PATTERN", default="",
                         help="faults whose name or files match this regular expression")
     parser.add_argument("--list", action="store_true", help="print the faults, and build nothing")
@@ -243,7 +256,8 @@ def main():
                         help="folder for the copy and its build")
     arguments = parser.parse_args()
     try:
-        faults = fault_list.read_list(HERE / "faults")
+        faults = [slip for file in arguments.files for slip in slips_of_file(file, arguments.most)]
+        faults = faults or fault_list.read_list(HERE / "faults")
         mistakes = fault_list.check(faults, ROOT)
         if mistakes:
             raise NoRun("\n".join(mistakes))

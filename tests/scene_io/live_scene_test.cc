@@ -17,6 +17,7 @@
 #include "base/error.h"
 #include "catch.h"
 #include "scene/hash.h"
+#include "scene_io/load_scene.h"
 
 namespace nacre {
 namespace {

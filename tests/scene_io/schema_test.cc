@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The schema that the program carries, against the tables that the reader uses. Against scenes:
 // schema_test.py.
+#include "scene_io/schema.h"
+
 #include <fstream>
 #include <iterator>
 #include <set>

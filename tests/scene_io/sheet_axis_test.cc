@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "catch.h"
 #include "color/transfer.h"
+#include "scene_io/load_scene.h"
 #include "scene_io/material_json.h"
 
 namespace nacre {
@@ -110,14 +111,14 @@ TEST_CASE("values that the material cannot take are bad input") {
 TEST_CASE("materials survive the way through JSON") {
   const Json json = {{"model", "phong"}, {"color", {0.8, 0.2, 0.2}}, {"ka", 0.96}, {"kd", 0.96},
                      {"ks", 0.04},       {"shininess", 19.0}};
-  CHECK(MaterialJson(MaterialFromJson(json, "test")) == json);
+  CHECK(MaterialJson(LoadMaterialText(JsonText(json), "test")) == json);
   const Json chosen = MaterialJson(
-      MaterialFromJson({{"model", "metallic_roughness"}, {"shadowing", "separable"}}, "test"));
+      LoadMaterialText(R"({"model": "metallic_roughness", "shadowing": "separable"})", "test"));
   CHECK(chosen["shadowing"] == "separable");
   CHECK_FALSE(chosen.contains("compensation"));  // the default
   CHECK(DescribeMaterial(json) ==
         "phong: color 0.8 0.2 0.2, ka 0.96, kd 0.96, ks 0.04, shininess 19");
-  CHECK_THROWS_AS(MaterialFromJson({{"model", "fong"}}, "test"), Error);
+  CHECK_THROWS_AS(LoadMaterialText(R"({"model": "fong"})", "test"), Error);
 }
 
 }  // namespace

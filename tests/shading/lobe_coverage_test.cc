@@ -15,6 +15,7 @@
 #include "scene/material_parameters.h"
 #include "shading/lobe_sample.h"
 #include "shading/scalar_material.h"
+#include "shading/shade.h"
 #include "targets.h"
 
 namespace nacre {

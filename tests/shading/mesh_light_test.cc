@@ -13,7 +13,7 @@
 
 #include "light/irradiance.h"
 #include "scene/sphere_mesh.h"
-#include "shading/sampled_light.h"
+#include "shading/light_sampling.h"
 #include "targets.h"
 
 namespace nacre {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "catch.h"
-#include "image_io/image_file.h"
+#include "image_io/read_image.h"
 
 namespace nacre {
 namespace {

@@ -13,14 +13,14 @@
 namespace nacre {
 namespace {
 
-// Losses of smooth surfaces are tiny differences: points to spare.
+// The losses of smooth surfaces are tiny differences, so the rule has points to spare.
 constexpr int kPoints = 24;
 
 struct Curves {
   std::array<double, kAlbedoTerms> one, schlick;
 };
 
-// What the polynomials of a roughness must be at the nodes, as brdf/albedo.h evaluates them.
+// The polynomials that take the required values at the nodes, as brdf/albedo.h evaluates them.
 Curves SampleCurves(Shadowing shadowing, double roughness, const AlbedoShape& shape) {
   Curves values;
   for (int i = 0; i < kAlbedoTerms; ++i) {
@@ -40,8 +40,9 @@ struct Averages {
   double one, schlick;
 };
 
-// 2 int of the fitted curves mu dmu: averages belong to the fit, so that what is lost along one
-// direction and what is given back along all others agree. `one` is of the loss but for kMasked.
+// 2 int of the fitted curves mu dmu. The averages are those of the fit, so that the light lost
+// along one direction agrees with the light returned along all others. `one` is the average loss,
+// or for kMasked the average albedo.
 Averages Average(const AlbedoShape& shape, const Curves& curves) {
   const auto evaluate = [](const std::array<double, kAlbedoTerms>& polynomial, double z) {
     double sum = 0;
@@ -80,8 +81,8 @@ void PrintEntry(std::FILE* file, Shadowing shadowing, double roughness) {
   std::fprintf(file, "%.9eF, %.9eF},\n", average.one / scale, average.schlick);
 }
 
-// At roughness 0 stands the boundary layer's own limit. It is reached at the next node, below which
-// the loss is rounding, but by kSchlickDirect, whose k still changes.
+// The entry for roughness 0 holds the boundary layer's limit. It is reached at the next node, below
+// which the loss is rounding error, except for kSchlickDirect, whose k still changes.
 double NodeRoughness(Shadowing shadowing, int i) {
   if (i == 0 && shadowing == Shadowing::kSchlickDirect) return 1e-5;
   const double root = std::max(i, 1) / static_cast<double>(kAlbedoIntervals);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/layer_kernel.cc: a layer over what hits reflect of a light. In double: lobes of layers
-// stand at the horizon, where products with n.l leave the range of float. Scalar twin: layer.cc.
+// shading/cover_kernel.cc: adds a layer over what hits reflect of a light. Computed in double,
+// because layers have lobes near the horizon, where products with n.l leave the range of float.
+// Scalar twin: layer.cc.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "shading/layer_kernel.cc"
+#define HWY_TARGET_INCLUDE "shading/cover_kernel.cc"
 #include "hwy/foreach_target.h"
 
 #include "hwy/highway.h"
@@ -29,7 +30,7 @@ struct LayerReflectionV {
   V below;
 };
 
-// Numbers of hits i...: the material's, or, where there are maps, those of each.
+// Parameters of hits i...: the material's, or, where there are maps, those of each hit.
 HWY_INLINE V NumberOfHits(double of_material, const HitTextures* maps, MappedNumber number,
                           size_t i) {
   const D d;
@@ -43,8 +44,8 @@ HWY_INLINE Vec3V<V> ColorOfHits(const Rgb& of_material, const HitTextures* maps,
   return LoadSoa(d, maps->numbers[static_cast<size_t>(number)], i);
 }
 
-// --- The kinds of layers. LayerOnHits(model, maps).At(i, angles): the reflection of hits i... Both
-// cosines are at least 0. `maps` is null where all hits have the model's numbers.
+// --- The kinds of layers. LayerOnHits(model, maps).At(i, angles) is the layer's reflection at hits
+// i... Both cosines are at least 0. `maps` is null where all hits have the model's parameters.
 
 template <class Model>
 class LayerOnHits;
@@ -75,9 +76,9 @@ class LayerOnHits<SheenModel> {
   const HitTextures* maps_;
 };
 
-// --- What they share.
+// --- Code that all kinds of layers share.
 
-// Directions that were rounded to float, of length 1 again.
+// Normalises directions that were rounded to float.
 HWY_INLINE Vec3V<V> UnitOf(const Vec3V<V>& v) {
   const D d;
   const V squared = FusedDot(v, v);
@@ -96,7 +97,8 @@ HWY_INLINE AnglesV<V> AnglesAt(const Surface& surface, const LightBatch& light, 
   return angles;
 }
 
-// light * share, but 0 for a share of 0 where the light has overflowed: infinity times 0 is NaN.
+// light * share, but 0 for a share of 0 even where the light has overflowed: infinity times 0 is
+// NaN.
 HWY_INLINE V Left(V light, V share) {
   const D d;
   return hn::IfThenElseZero(hn::Gt(share, hn::Zero(d)), hn::Mul(light, share));

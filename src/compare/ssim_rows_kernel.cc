@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// compare/ssim_kernel.cc: the kernels of compare/ssim_rows.h.
+// compare/ssim_rows_kernel.cc: the kernels of compare/ssim_rows.h.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "compare/ssim_kernel.cc"
+#define HWY_TARGET_INCLUDE "compare/ssim_rows_kernel.cc"
 #include "hwy/foreach_target.h"
 
 #include "hwy/highway.h"
@@ -17,7 +17,7 @@ namespace HWY_NAMESPACE {
 void EncodeGreysT(size_t count, const float* r, const float* g, const float* b, float* greys) {
   const hn::ScalableTag<float> d;
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-    // As color/luminance.h has it.
+    // The weights are those of color/luminance.h.
     const auto luminance =
         hn::MulAdd(hn::Set(d, 0.2126f), hn::LoadU(d, r + i),
                    hn::MulAdd(hn::Set(d, 0.7152f), hn::LoadU(d, g + i),
@@ -26,14 +26,14 @@ void EncodeGreysT(size_t count, const float* r, const float* g, const float* b, 
   }
 }
 
-// Weighted means: of both pictures, of their squares and of their product.
+// Weighted means of both pictures, of their squares and of their product.
 template <class V>
 struct SsimMeans {
   V a, b, aa, bb, ab;
 };
 
-// Eqs. 13 to 16: variances and covariance as E[ab] - E[a] E[b]. Without fused operations, which
-// would round the numerator of equal pictures otherwise than the denominator.
+// Eqs. 13 to 16, with variances and covariance as E[ab] - E[a] E[b]. Fused operations are avoided:
+// they would round numerator and denominator differently for equal pictures.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V SsimOf(D d, const SsimMeans<V>& mean) {
   const V product = hn::Mul(mean.a, mean.b);
@@ -49,7 +49,7 @@ HWY_INLINE V SsimOf(D d, const SsimMeans<V>& mean) {
   return hn::Div(upper, lower);
 }
 
-// Sums in double: a variance is the small difference of two means.
+// The sums are in double, because a variance is a small difference of two means.
 double SsimRowSumT(const Kernel& kernel, size_t width, const float* const* a, const float* const* b,
                    double* HWY_RESTRICT scratch) {
   const hn::ScalableTag<double> d;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/read_area_lights.cc: lights with an extent, and environments.
+// scene_io/read_skies.cc: the sky of an environment.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -14,67 +14,32 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "image_io/color_channels.h"
-#include "image_io/image_file.h"
+#include "image_io/read_image.h"
+#include "scene_io/read_keys.h"
 #include "scene_io/readers.h"
 #include "scene_io/text_file.h"
 
 namespace nacre {
 namespace {
 
-constexpr std::string_view kRadianceHint = "radiance, [r, g, b] or grey, the same all over";
-
-void ReadLength(JsonObject* object, std::string_view name, double* out) {
-  object->Require(name, "a length greater than 0");
-  object->Number(name, limits::kLength, out);
-}
-
-// What rectangles and disks have in common.
-template <class Flat>
-void ReadFlat(JsonObject* object, Flat* light) {
-  ReadRequiredPoint(object, "center", "[x, y, z]", &light->center);
-  ReadRequiredPoint(object, "facing", "[x, y, z], from the light to what it shines on",
-                    &light->facing);
-  ReadRadiance(object, "radiance", kRadianceHint, &light->radiance);
-  object->Boolean("two_sided", &light->two_sided);
-  object->Boolean("visible", &light->visible);
-}
-
-// Up, or for a light that faces up or down, away from the viewer.
-Vec3d DefaultUp(const Vec3d& facing) {
-  const bool vertical = std::hypot(facing.x, facing.z) <= 1e-6 * std::abs(facing.y);
-  return vertical ? Vec3d(0, 0, -1) : Vec3d(0, 1, 0);
-}
-
-GradientSky ReadGradient(const JsonValue& value) {
-  GradientSky sky;
-  JsonObject object(value, R"({"zenith": c, "horizon": c, "ground": c})");
-  object.Color("zenith", limits::kRadiance, &sky.zenith);
-  object.Color("horizon", limits::kRadiance, &sky.horizon);
-  object.Color("ground", limits::kRadiance, &sky.ground);
-  object.RefuseOthers();
-  return sky;
-}
-
-QuadraticSky ReadQuadratic(const JsonValue& value) {
-  QuadraticSky sky;
-  JsonObject object(value, R"({"axis": [x, y, z], "constant": a, "linear": b, "quadratic": c})");
-  ReadRadiance(&object, "radiance", "[r, g, b] or grey, what the quadratic scales", &sky.radiance);
-  object.Point("axis", &sky.axis);
-  object.Number("constant", limits::kSkyTerm, &sky.constant);
-  object.Number("linear", limits::kSkyTerm, &sky.linear);
-  object.Number("quadratic", limits::kSkyTerm, &sky.quadratic);
+// Reads a sky that is an object of its own.
+template <class Sky>
+Sky ReadSkyObject(const JsonValue& value, std::string_view hint) {
+  Sky sky;
+  JsonObject object(value, hint);
+  ReadKeys(&object, &sky);
   object.RefuseOthers();
   return sky;
 }
 
 struct PictureReading {
-  std::string part;             // of an EXR file that has several
-  bool clamp_negative = false;  // samples below 0 count as 0
+  std::string part;             // which part of a multi-part EXR file
+  bool clamp_negative = false;  // negative samples count as 0
 };
 
 constexpr float kMostRadiance = limits::kRadiance.max;
 
-// Whether all samples are as they must be.
+// Whether all samples are valid radiances.
 bool AreRadiances(std::span<const float> samples, int threads) {
   constexpr size_t kPiece = size_t{1} << 18;
   std::atomic<bool> all = true;
@@ -89,8 +54,8 @@ bool AreRadiances(std::span<const float> samples, int threads) {
   return all;
 }
 
-// Throws Error (kBadInput) for what is no picture of light. `light`: where it is in the scene;
-// `notes`: what is to be told of it.
+// Reads an environment picture. Throws Error (kBadInput) for files that are not one. `light` is its
+// pointer in the scene; remarks about the picture are added to `notes`.
 std::shared_ptr<const SkyPicture> MakePicture(const std::string& path, const std::string& file,
                                               const PictureReading& reading,
                                               const std::string& light, int threads,
@@ -111,13 +76,13 @@ std::shared_ptr<const SkyPicture> MakePicture(const std::string& path, const std
   if (!colors) {
     refuse("no channels R, G and B, nor one alone", TellChannels(image.header.channels));
   }
-  // A fisheye or a photograph would be taken for what it is not without a word.
+  // Without this note, a fisheye picture or a photograph would silently be taken for a panorama.
   if (envmap == image.header.metadata.end() && std::abs(window.width() - 2 * window.height()) > 2) {
     notes->push_back(fmt::format(
         "{} x {} pixels are not 2:1, and are taken as latitude and longitude all the same",
         window.width(), window.height()));
   }
-  image.CheckSize(window, 3);  // of grey ones, too: radiance has three
+  image.CheckSize(window, 3);  // also for grey pictures: the radiance has three channels
   auto picture = std::make_shared<SkyPicture>();
   picture->width = window.width();
   picture->height = window.height();
@@ -130,7 +95,7 @@ std::shared_ptr<const SkyPicture> MakePicture(const std::string& path, const std
     targets.push_back({channels[c], rgb + c, 3, step_y});
   }
   image.read(window, targets);
-  // Throws for the first sample that is no radiance. Below 0: if `clamp`, they count as 0.
+  // Throws for the first sample that is not a radiance. If `clamp`, negative samples count as 0.
   const auto judge = [&](bool clamp, const std::string& of) {
     if (AreRadiances(picture->rgb, threads)) return;
     size_t clamped = 0;
@@ -199,42 +164,7 @@ void ReadPicture(const JsonValue& value, const PictureReading& reading, const Sc
 
 }  // namespace
 
-SphereAreaLight ReadSphereArea(JsonObject* object) {
-  SphereAreaLight light;
-  ReadRequiredPoint(object, "center", "[x, y, z]", &light.center);
-  ReadLength(object, "radius", &light.radius);
-  ReadRadiance(object, "radiance", kRadianceHint, &light.radiance);
-  object->Boolean("visible", &light.visible);
-  return light;
-}
-
-RectangleAreaLight ReadRectangleArea(JsonObject* object) {
-  RectangleAreaLight light;
-  ReadFlat(object, &light);
-  ReadLength(object, "width", &light.width);
-  ReadLength(object, "height", &light.height);
-  if (!object->Point("up", &light.up)) light.up = DefaultUp(light.facing);
-  return light;
-}
-
-DiskAreaLight ReadDiskArea(JsonObject* object) {
-  DiskAreaLight light;
-  ReadFlat(object, &light);
-  ReadLength(object, "radius", &light.radius);
-  return light;
-}
-
-MeshAreaLight ReadMeshArea(JsonObject* object, const SceneContext& context) {
-  MeshAreaLight light;
-  light.mesh = ReadLightMesh(object, context);
-  ReadRadiance(object, "radiance", kRadianceHint, &light.radiance);
-  object->Boolean("two_sided", &light.two_sided);
-  object->Boolean("visible", &light.visible);
-  return light;
-}
-
-EnvironmentLight ReadEnvironment(JsonObject* object, const SceneContext& context) {
-  EnvironmentLight light;
+void ReadSky(JsonObject* object, const SceneContext& context, EnvironmentLight* light) {
   const Json* const radiance = object->Find("radiance");
   const Json* const gradient = object->Find("gradient");
   const Json* const quadratic = object->Find("quadratic");
@@ -246,33 +176,33 @@ EnvironmentLight ReadEnvironment(JsonObject* object, const SceneContext& context
       (radiance != nullptr) + (gradient != nullptr) + (quadratic != nullptr) + (image != nullptr);
   if (given == 0 && context.room != nullptr) {
     PictureSky room{context.room, Rgb(1)};
-    object->Color("scale", limits::kRadiance, &room.scale);
-    light.sky = std::move(room);
+    ReadKeys(object, &room);
+    light->sky = std::move(room);
   } else if (given != 1) {
     object->value().AddFault(given == 0 ? "no sky" : "more than one sky",
                              R"(give one of "radiance", "gradient", "quadratic" and "image")");
   }
   if (radiance != nullptr) {
     ConstantSky sky;
-    ReadColor(value("radiance", radiance), limits::kRadiance, &sky.radiance);
-    light.sky = sky;
+    ReadKeys(object, &sky);
+    light->sky = sky;
   } else if (gradient != nullptr) {
-    light.sky = ReadGradient(value("gradient", gradient));
+    light->sky = ReadSkyObject<GradientSky>(value("gradient", gradient),
+                                            R"({"zenith": c, "horizon": c, "ground": c})");
   } else if (quadratic != nullptr) {
-    light.sky = ReadQuadratic(value("quadratic", quadratic));
+    light->sky = ReadSkyObject<QuadraticSky>(
+        value("quadratic", quadratic),
+        R"({"axis": [x, y, z], "constant": a, "linear": b, "quadratic": c})");
   } else if (image != nullptr) {
     PictureSky sky;
     PictureReading reading;
     if (const Json* const part = object->Find("part")) ReadText(value("part", part), &reading.part);
     object->Boolean("clamp_negative", &reading.clamp_negative);
     ReadPicture(value("image", image), reading, context, &sky);
-    object->Color("scale", limits::kRadiance, &sky.scale);
-    // Without a picture, of which there is a fault, the default sky stands in.
-    if (sky.picture != nullptr) light.sky = std::move(sky);
+    ReadKeys(object, &sky);
+    // Without a picture, whose fault has been reported, the light keeps its default sky.
+    if (sky.picture != nullptr) light->sky = std::move(sky);
   }
-  object->Number("rotate_deg", limits::kCoordinate, &light.rotate_deg);
-  object->Boolean("background", &light.background);
-  return light;
 }
 
 }  // namespace nacre

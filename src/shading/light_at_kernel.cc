@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/light_kernel.cc: lights evaluated at all hits of a batch, and the rounding of the hits'
-// directions to float.
+// shading/light_at_kernel.cc: lights evaluated at all hits of a batch, and the rounding of the
+// hits' directions to float.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "shading/light_kernel.cc"
+#define HWY_TARGET_INCLUDE "shading/light_at_kernel.cc"
 #include "hwy/foreach_target.h"
 
 #include "hwy/highway.h"
 
-#include "shading/kernels.h"
 #include "shading/light_at-inl.h"
 #include "shading/soa-inl.h"
 
@@ -35,7 +34,7 @@ void PrepareSurfaceT(const HitBatch& hits, Surface* surface) {
   RoundArray3(hits.to_view, hits.count, &surface->to_view);
 }
 
-// Calls at(i) for each packet of hits and stores the light it gives.
+// Calls at(i) for each packet of hits and stores the LightV that it returns.
 template <class At>
 HWY_INLINE void ForEachPacket(const HitBatch& hits, const Surface& surface, LightBatch* result,
                               const At& at) {
@@ -46,7 +45,7 @@ HWY_INLINE void ForEachPacket(const HitBatch& hits, const Surface& surface, Ligh
     const LightV light = at(i);
     const Vec3V<FloatV> normal = LoadU3(d, n.x.data() + i, n.y.data() + i, n.z.data() + i);
     const FloatV n_dot_l = light.toward.Dot(normal);
-    // Nothing here reflects light from below, and no shadow ray need be traced to it.
+    // No model reflects light from below the surface, so no shadow ray need be traced to it.
     const FloatV irradiance = hn::IfThenElseZero(hn::Gt(n_dot_l, hn::Zero(d)), light.irradiance);
     hn::StoreU(light.toward.offset.x, d, l.x.data() + i);
     hn::StoreU(light.toward.offset.y, d, l.y.data() + i);

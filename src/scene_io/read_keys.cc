@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_io/read_keys.h"
+
+namespace nacre {
+
+std::string HintOf(KeyForm form, const Range& range, std::string_view meaning) {
+  std::string hint;
+  switch (form) {
+    case KeyForm::kPoint:
+      hint = "[x, y, z]";
+      break;
+    case KeyForm::kDirection:  // the meaning says more
+      return std::string(meaning);
+    case KeyForm::kColor:
+      hint = "[r, g, b] or grey";
+      break;
+    default:
+      hint = range == limits::kLength ? "a length greater than 0" : "a number " + Describe(range);
+  }
+  return meaning.empty() ? hint : hint + ": " + std::string(meaning);
+}
+
+std::optional<Vec3d> ReadKeyValue(JsonObject* object, std::string_view name, KeyForm form,
+                                  const Range& range, std::span<const std::string_view> options) {
+  const auto number = [](auto value) { return Vec3d(static_cast<double>(value), 0, 0); };
+  switch (form) {
+    case KeyForm::kNumber:
+      if (double value = 0; object->Number(name, range, &value)) return number(value);
+      break;
+    case KeyForm::kWhole:
+      if (int64_t value = 0; object->Whole(name, range, &value)) return number(value);
+      break;
+    case KeyForm::kColor:
+      if (Rgb value; object->Color(name, range, &value)) return Vec3d(value);
+      break;
+    case KeyForm::kPoint:
+    case KeyForm::kDirection:
+      if (Vec3d value; object->Point(name, &value)) return value;
+      break;
+    case KeyForm::kBoolean:
+      if (bool value = false; object->Boolean(name, &value)) return number(value);
+      break;
+    case KeyForm::kChoice:
+      if (size_t value = 0; object->Choice(name, options, &value)) return number(value);
+      break;
+  }
+  return std::nullopt;
+}
+
+Json KeyValueJson(KeyForm form, std::span<const std::string_view> options, const Vec3d& value) {
+  switch (form) {
+    case KeyForm::kNumber:
+      break;
+    case KeyForm::kWhole:
+      return static_cast<int64_t>(value.x);
+    case KeyForm::kColor:
+      if (value.x == value.y && value.y == value.z) return value.x;
+      return {value.x, value.y, value.z};
+    case KeyForm::kPoint:
+    case KeyForm::kDirection:
+      return {value.x, value.y, value.z};
+    case KeyForm::kBoolean:
+      return value.x != 0;
+    case KeyForm::kChoice:
+      return options[static_cast<size_t>(value.x)];
+  }
+  return value.x;
+}
+
+}  // namespace nacre

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// shading/models.h: the constants of each reflection model, in double.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "brdf/albedo.h"
+#include "brdf/ggx.h"
+#include "scene/material.h"
+#include "scene/user_brdf.h"
+#include "shading/constants.h"
+
+namespace nacre {
+
+// Below this roughness, and above this exponent, the half vector's terms are computed in double:
+// a lobe of width alpha turns float's 6e-8 rad of direction into a relative error of about
+// 1e-7 / alpha, 1e-5 at the limit of roughness. The limit of the exponent is where Phong's lobe,
+// three widths out and on targets without fused multiply-add, is still within 2e-5 for the hits of
+// tests/shading/highlight_test.cc. The choice depends on the material only, so a hit's bits never
+// depend on what else is in its batch.
+inline constexpr double kDoubleTermsRoughness = 0.1;
+inline constexpr double kDoubleTermsShininess = 300;
+
+// A diffuse surface: Lambert's, Oren-Nayar (EON) or Burley's.
+struct MatteModel {
+  DiffuseForm form = DiffuseForm::kLambert;
+  Rgb diffuse;           // albedo / pi
+  Rgb ratio{0, 0, 0};    // kOrenNayar: EonMultipleRatio of the albedo
+  double roughness = 0;  // kOrenNayar and kBurley
+};
+
+struct PhongFamilyModel {
+  PhongModel model;
+  Rgb diffuse;   // kd color, over pi if radiometric
+  Rgb specular;  // ks, times the lobe's normalisation if radiometric
+  double shininess;
+  bool double_terms;
+};
+
+enum class FresnelForm : uint8_t { kSchlick, kF82, kDielectric, kConductor };
+
+// The variant of a microfacet model.
+struct MicrofacetForm {
+  Shadowing shadowing;
+  FresnelForm fresnel;
+  Compensation compensation;
+  DiffuseCoupling coupling;
+  DiffuseForm base_form = DiffuseForm::kLambert;
+};
+
+// A GGX lobe over a diffuse base: metallic-roughness, conductor and dielectric.
+//
+// Metallic-roughness mixes two surfaces, as glTF 2.0 does (Appendix B.2): (1 - metallic) of a
+// dielectric over a diffuse base, and metallic of a bare metal. Their lobes have the same
+// distribution and visibility, so one lobe with the mix of their Fresnel curves is exactly the mix
+// of their lobes. Terms that are not linear in the Fresnel curve are mixed themselves:
+// compensation, and the base's share of the light, which only the dielectric above it reduces.
+// Conductors are all metal, dielectrics all dielectric.
+struct MicrofacetModel : MicrofacetForm {
+  // The base's albedo over pi, times 1 - metallic; with kAlbedoScaled and kKullaConty also over the
+  // mean of 1 - the albedo of what covers the base.
+  Rgb diffuse{0, 0, 0};
+  double base_roughness = 0;  // for forms that are not Lambert's
+  Rgb base_ratio{0, 0, 0};    // kOrenNayar: EonMultipleRatio of the base's colour
+  double metallic = 0;        // the metal's share of the mix
+  // Reflectance at normal incidence and, for Schlick's curve (and F82's), at grazing incidence,
+  // where the metal's is 1.
+  Rgb dielectric_f0{0, 0, 0};
+  double dielectric_f90 = 1;
+  Rgb metal_f0{0, 0, 0};
+  Rgb f82_slope{0, 0, 0};        // kF82: for the metal
+  Rgb eta{0, 0, 0}, k{0, 0, 0};  // kDielectric (eta only) and kConductor
+  Rgb f0{0, 0, 0};               // of the mix, as is f90
+  double f90 = 1;
+  // kKullaConty: the means of both Fresnel curves over the hemisphere; and the colour F_ms of the
+  // second lobe, for the dielectric and for the mix.
+  Rgb dielectric_f_average{0, 0, 0}, metal_f_average{0, 0, 0};
+  Rgb dielectric_f_multiple{0, 0, 0}, f_multiple{0, 0, 0};
+  double multiple = 0;  // kKullaConty: 1 / (pi (1 - E_avg)); 0 where nothing is lost
+  double alpha;         // of the GGX lobe
+  double schlick_k;     // SchlickK
+  bool delta;           // a perfect mirror, which punctual lights cannot show
+  bool double_terms;
+  bool prepared = false;    // shading needs PrepareRun
+  FresnelAlbedoFit albedo;  // the exact Fresnel curve is set if kDielectric
+  // kDielectric, if hits have a roughness each: the albedo curves of its index for all roughnesses;
+  // else null.
+  std::shared_ptr<const DielectricCurves> curves;
+  MicrofacetConstants<float> constants;  // the numbers above, as kernels read them
+};
+
+// A model that the library's caller has written (user_model.h). `brdf` is not null.
+struct UserModel {
+  std::shared_ptr<const UserBrdf> brdf;
+};
+
+// Whether the terms of a lobe of this roughness are computed in double.
+inline bool IsSharp(double roughness, double alpha) {
+  return !IsDeltaLobe(alpha) && roughness < kDoubleTermsRoughness;
+}
+
+}  // namespace nacre

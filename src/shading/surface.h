@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// shading/surface.h: the hits of a batch in the form that shading needs, the light on them and the
+// light that they reflect, as structure of arrays.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "hit/batch.h"
+
+namespace nacre {
+
+// The hits of a batch, with terms that do not depend on the light.
+struct Surface : HitDirections {
+  // True if some of the hits are normal-mapped or bump-mapped. `unturned` then holds the shading
+  // normals of all hits before that.
+  bool turned = false;
+  Soa3<float> unturned;
+  // Set by PrepareRun for hits on microfacet materials:
+  AlignedArray<float> multiple{kBatchCapacity};  // the weight of multiple scattering
+  // The fraction of light that the diffuse base gets, seen from n.v, if the coupling is
+  // kAlbedoScaled. For a coat, whose base is black, it is the coat's transmittance.
+  Soa3<float> base;
+};
+
+// One light at the hits of a batch.
+struct LightBatch {
+  // Unit vectors if the light is LightForm::kGiven. After EvaluateLight they are not normalised:
+  // the direction is to_light times inverse_length.
+  Soa3<float> to_light;
+  AlignedArray<float> inverse_length{kBatchCapacity};
+  // Irradiance perpendicular to the light per unit of its colour: fall-off, cone and visibility.
+  // 0 where the surface faces away (n.l <= 0), because no model reflects such light.
+  AlignedArray<float> irradiance{kBatchCapacity};
+};
+
+// The radiance that the hits of a batch reflect: the sum and, if requested, its components. In the
+// sum, the specular component is rounded only once, by the addition.
+struct ReflectedRadiance {
+  Soa3<float> sum;
+  Soa3<float> diffuse, specular;
+};
+
+// The half-vector terms of sharp lobes, computed in double (sharp_lobe_kernel.cc). Hits with their
+// own roughness or exponent may mix sharp and wide lobes: wide ones are marked by a distribution or
+// one_minus_cos of -1.
+struct SharpLobeTerms {
+  AlignedArray<float> distribution{kBatchCapacity};                        // GGX
+  AlignedArray<float> one_minus_cos{kBatchCapacity}, cos{kBatchCapacity};  // Phong family
+};
+
+// The Lambertian reflection of rough bases is multiplied by single + ratio multiple, where `ratio`
+// is that of MatteConstants.
+struct BaseSpread {
+  AlignedArray<float> single{kBatchCapacity}, multiple{kBatchCapacity};
+};
+
+// Buffers for a user model: the hits for which it is evaluated, compacted, and its results.
+struct UserRoom {
+  LightBatch light;
+  Soa3<double> normal, to_view, to_light, value;
+  AlignedArray<double> n_dot_l{kBatchCapacity}, u{kBatchCapacity}, v{kBatchCapacity};
+  AlignedArray<uint32_t> hit{kBatchCapacity};
+};
+
+// Buffers that ShadeRun and LobePdf use between the kernels of a run.
+struct ShadeScratch {
+  SharpLobeTerms sharp;
+  BaseSpread base;
+  std::unique_ptr<UserRoom> user;  // made for the first hit with a user model
+};
+
+// Sets the surface's directions by rounding those of the hits, which are in double, to float.
+void PrepareSurface(const HitBatch& hits, Surface* surface);
+
+// Zeroes the first `count` entries.
+inline void ClearSoa(size_t count, Soa3<float>* soa) {
+  std::fill_n(soa->x.data(), count, 0.0f);
+  std::fill_n(soa->y.data(), count, 0.0f);
+  std::fill_n(soa->z.data(), count, 0.0f);
+}
+inline void ClearRadiance(size_t count, ReflectedRadiance* radiance) {
+  ClearSoa(count, &radiance->sum);
+  ClearSoa(count, &radiance->diffuse);
+  ClearSoa(count, &radiance->specular);
+}
+
+}  // namespace nacre

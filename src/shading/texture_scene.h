@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// shading/texture_scene.h: textures of a scene, prepared once per plan, and the hits that look them
+// up.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "hit/camera_frame.h"
+#include "scene/primitives.h"
+#include "scene/scene.h"
+#include "scene/tangents.h"
+#include "shading/material.h"
+
+namespace nacre {
+
+// A texture with its mapping prepared.
+struct PreparedTexture {
+  const MipChain* image;
+  SampleSettings sampling;
+  MappingKind mapping;
+  bool second_uvs;
+  float middle;         // normal maps: the texel value that stands for 0
+  Vec3d frame[3];       // unit x, y and z axes of the mapping; z is the mapping's axis
+  Vec3d center;         // centre of the mapping on meshes, relative to the camera
+  double inverse_size;  // 1 / size of the mapping on meshes
+  // (u, v) of the texture are these rows times (u, v) of the mapping, plus `offset`.
+  Vec2d u_row, v_row;
+  Vec2d offset;
+  size_t coordinates;  // equal for textures with the same mapping and transform
+};
+
+// The tangents of a normal map on the coordinates of one mesh.
+struct MapTangents {
+  uint32_t texture;
+  uint32_t tangents;  // index into TextureScene::tangents
+};
+
+// The data for texture look-ups at all hits of a plan.
+struct TextureScene {
+  const Scene* scene = nullptr;
+  CameraFrame camera;
+  Rgb ambient{0, 0, 0};  // radiance of the scene's ambient light
+  // The width of a sample's footprint, in pixels: with many samples per pixel, each stands for a
+  // small part of it.
+  double footprint = 1;
+  std::vector<PreparedTexture> textures;  // one per texture of the scene
+  PrimitiveNumbers primitives;
+  std::vector<std::shared_ptr<const CornerTangents>> tangents;
+  std::vector<std::vector<MapTangents>> mesh_tangents;  // by mesh; empty if no mesh has any
+};
+
+// Hits [begin, end) of a batch, all of one material with maps.
+struct TexturedRun {
+  const TextureScene& scene;
+  const ShadingMaterial& material;
+  size_t begin, end;
+};
+
+}  // namespace nacre
