@@ -111,11 +111,11 @@ void BenchMapped(benchmark::State& state, const Material& material, Target targe
   light.kind = PointLight{.position = {3, 4, 8}, .intensity = {60, 60, 60}, .attenuation = {}};
   const ShadingLight shading_light = PrepareLight(light, scene.camera.position);
   LightBatch on_hits;
-  const auto texture_hits = std::make_unique<HitTextures>();
+  const auto texture_hits = std::make_unique<HitParameters>();
   ShadeScratch scratch;
   ReflectedRadiance radiance;
   for (auto _ : state) {
-    if (prepared.textured != nullptr) {
+    if (prepared.scene_material != nullptr) {
       TextureHits({textures, prepared, 0, kHits}, &hits, &surface, texture_hits.get());
     }
     PrepareRun(prepared, 0, kHits, &surface, texture_hits.get());

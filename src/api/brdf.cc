@@ -11,9 +11,8 @@
 #include "base/parallel.h"
 #include "brdf/fresnel.h"
 #include "brdf/ggx.h"
-#include "shading/scalar_material.h"
-#include "shading/scalar_sample.h"
-#include "shading/shade.h"
+#include "shading/bsdf.h"
+#include "shading/scalar_bsdf.h"
 #include "shading/share.h"
 
 namespace nacre::v0 {
@@ -133,7 +132,7 @@ class Batch {
       lit_.irradiance[i] = above ? 1.0f : 0.0f;
     }
     PrepareSurface(hits_, &surface_);
-    ShadeWithCoat(material, hits_, light_, lit_, &surface_, &scratch_, &of_coat_, &radiance_);
+    EvaluateBatch(material, hits_, light_, lit_, &surface_, &coats_, &room_, &radiance_);
   }
 
   const ReflectedRadiance& radiance() const { return radiance_; }
@@ -143,8 +142,9 @@ class Batch {
   Surface surface_;
   ShadingLight light_;
   LightBatch lit_;
-  ShadeScratch scratch_;
-  ReflectedRadiance radiance_, of_coat_;
+  std::vector<CoatHits> coats_;
+  BsdfRoom room_;
+  ReflectedRadiance radiance_;
 };
 
 // The thread's batch, which is kept for the thread's next call: making one takes as long as shading
@@ -255,7 +255,8 @@ std::array<std::vector<double>, 3> Brdf::Sample(const Directions& d, const doubl
                            "points lie in [0, 1)^2");
       }
       const Vec3d sampled =
-          SampleReflection(impl_->material, At(d.normal, i), At(d.to_view, i), u[i], v[i]);
+          SampleReflection(impl_->material, At(d.normal, i), At(d.to_view, i), u[i], v[i], false)
+              .to_light;
       to_light[0][i] = sampled.x;
       to_light[1][i] = sampled.y;
       to_light[2][i] = sampled.z;
@@ -269,7 +270,8 @@ std::vector<double> Brdf::Pdf(const Directions& d) const {
     CheckUnits(d, "Pdf");
     std::vector<double> pdf(d.count);
     for (size_t i = 0; i < d.count; ++i) {
-      pdf[i] = ReflectionPdf(impl_->material, At(d.normal, i), At(d.to_view, i), At(d.to_light, i));
+      pdf[i] = ReflectionPdf(impl_->material, At(d.normal, i), At(d.to_view, i), At(d.to_light, i),
+                             false);
     }
     return pdf;
   });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // brdf/multi_scatter.h: constants of the second lobe that compensates for the energy that a single
 // bounce on microfacets loses. Turquin's factor 1 + F0 (1 / E - 1) on the lobe itself is in the
-// models' Fresnel terms (shading/scalar_material.h).
+// models' Fresnel terms (shading/scalar_bsdf.h).
 //
 // E, the albedo for F = 1, comes from brdf/albedo.h, F_avg from brdf/fresnel_average.h.
 #pragma once

@@ -10,7 +10,7 @@
 #include "brdf/fresnel.h"
 #include "brdf/ggx.h"
 #include "shading/material.h"
-#include "shading/scalar_material.h"
+#include "shading/scalar_bsdf.h"
 #include "textbook/albedo.h"
 #include "textbook/conventions.h"
 

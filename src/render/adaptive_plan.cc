@@ -17,23 +17,25 @@ namespace {
 // The angle at which the material's narrowest lobe has fallen to about half its peak, in radians;
 // infinite without a lobe.
 double NarrowestLobe(const ShadingMaterial& material) {
-  if (material.coat) {
-    ShadingMaterial below = material;
-    below.coat = nullptr;
-    return std::min(NarrowestLobe(below), NarrowestLobe(*material.coat));
-  }
   const double infinity = std::numeric_limits<double>::infinity();
-  return std::visit(Overloaded{[&](const PhongFamilyModel& phong) {
-                                 const bool matte = phong.specular.length2() == 0;
-                                 return matte ? infinity : std::sqrt(2 / (phong.shininess + 2));
-                               },
-                               [&](const MicrofacetModel& microfacet) {
-                                 return microfacet.delta ? infinity : microfacet.alpha;
-                               },
-                               [](const UserModel& user) { return UserLobeWidth(user); },
-                               [&](const MatteModel&) { return infinity; },
-                               [&](const std::monostate&) { return infinity; }},
-                    material.model);
+  double narrowest = infinity;
+  for (const auto& coat : material.coats) narrowest = std::min(narrowest, NarrowestLobe(*coat));
+  for (const LayerModel& layer : material.layers) {
+    narrowest = std::min(narrowest, LayerLobeWidth(layer));
+  }
+  const double of_model =
+      std::visit(Overloaded{[&](const PhongFamilyModel& phong) {
+                              const bool matte = phong.specular.length2() == 0;
+                              return matte ? infinity : std::sqrt(2 / (phong.shininess + 2));
+                            },
+                            [&](const MicrofacetModel& microfacet) {
+                              return microfacet.delta ? infinity : microfacet.alpha;
+                            },
+                            [](const UserModel& user) { return UserLobeWidth(user); },
+                            [&](const MatteModel&) { return infinity; },
+                            [&](const std::monostate&) { return infinity; }},
+                 material.model);
+  return std::min(narrowest, of_model);
 }
 
 // The second moment of |filter| along one axis, in pixels squared. The mean over a pixel differs

@@ -5,7 +5,6 @@
 #include <span>
 
 #include "render/camera.h"
-#include "render/mapped_horizon.h"
 #include "render/mesh_radiance.h"
 #include "render/sampled_lights.h"
 #include "render/shadow_origins.h"
@@ -51,24 +50,12 @@ void CastShadows(const DirectBatch& batch, const PlannedPunctualLight& planned) 
   }
 }
 
-// Computes the radiance that all lit runs reflect of the light. `on_hits` is room.light, or null if
-// the kernels evaluate the light.
-void ShadeRuns(const DirectBatch& batch, const ShadingLight& light, const LightBatch* on_hits,
-               ReflectedRadiance* radiance) {
-  const LitHits lit{batch.hits(), batch.surface(),       light,
-                    on_hits,      batch.plan.components, batch.surfaces.textures.get()};
-  for (const MaterialRun& run : LitRuns(batch.surfaces)) {
-    ShadeRun(*run.shading, lit, run.begin, run.end, &batch.room.shade, radiance);
-    if (batch.surface().turned) AddMirroredLobe(batch, run, light, radiance);
-  }
-}
-
 // Whether the kernels of the batch's materials evaluate the light, which casts no shadow here.
 bool IsLeftToKernels(const DirectBatch& batch, const ShadingLight& light) {
   const std::span<const MaterialRun> runs = LitRuns(batch.surfaces);
-  return EvaluatedInPlace(light) && !batch.surface().turned &&
-         std::all_of(runs.begin(), runs.end(),
-                     [](const MaterialRun& run) { return run.shading->layers.empty(); });
+  return EvaluatedInPlace(light) &&
+         std::none_of(runs.begin(), runs.end(),
+                      [](const MaterialRun& run) { return NeedsLightAtHits(*run.shading); });
 }
 
 void ShadeByPunctualLight(const DirectBatch& batch, const PlannedPunctualLight& planned,
@@ -77,13 +64,16 @@ void ShadeByPunctualLight(const DirectBatch& batch, const PlannedPunctualLight& 
   const bool shadow_rays = CastsShadowRays(batch.plan, planned, batch.hits());
   const bool in_place = !shadow_rays && IsLeftToKernels(batch, planned.light);
   if (!in_place) EvaluateLight(planned.light, batch.hits(), batch.surface(), on_hits);
-  if (batch.surface().turned) HideLightsBelowHorizon(batch);
+  HideUnreflectedLight(batch);
   batch.clock.Charge(Stage::kLight);
   if (shadow_rays) {
     CastShadows(batch, planned);
     batch.clock.Charge(Stage::kShadow);
   }
-  ShadeRuns(batch, planned.light, in_place ? nullptr : on_hits, radiance);
+  for (const MaterialRun& run : LitRuns(batch.surfaces)) {
+    EvaluateBsdf(BsdfHitsOf(batch.surfaces, run), planned.light, in_place ? nullptr : on_hits,
+                 batch.plan.components, &batch.room.bsdf, radiance);
+  }
   batch.stats.shades += batch.lit();
   batch.clock.Charge(Stage::kShade);
 }
@@ -103,8 +93,9 @@ void ShadeByPunctualLights(const DirectBatch& batch) {
   }
 }
 
-// Shades everything except the coats over the hits.
-void ShadeSurfaces(const DirectBatch& batch, const SampleNumbers* numbers) {
+}  // namespace
+
+void ShadeDirect(const DirectBatch& batch, const SampleNumbers* numbers) {
   batch.radiance.per_light.resize(batch.plan.light_layer_count);
   if (batch.lit() > 0) {
     for (Soa3<float>& layer : batch.radiance.per_light) ClearSoa(batch.lit(), &layer);
@@ -115,47 +106,6 @@ void ShadeSurfaces(const DirectBatch& batch, const SampleNumbers* numbers) {
   if (batch.lit() == batch.hits().count) return;
   InterpolateRadiance(batch);
   batch.clock.Charge(Stage::kShade);
-}
-
-// light * share, but 0 for a share of 0 even if the light has overflowed to infinity.
-float Attenuated(float light, float share) { return share > 0 ? light * share : 0; }
-
-// Attenuates the radiance of the hits below coats by what each coat transmits, which is 1 minus its
-// directional albedo, and adds what the coat itself reflects.
-void CoverBelow(const CoatedHits& coats, const Soa3<float>& coat_radiance, Soa3<float>* below) {
-  const Soa3<float>& transmitted = coats.surfaces.surface.base;
-  for (size_t i = 0; i < coats.surfaces.hits.count; ++i) {
-    const size_t j = coats.below[i];
-    below->x[j] = Attenuated(below->x[j], transmitted.x[i]) + coat_radiance.x[i];
-    below->y[j] = Attenuated(below->y[j], transmitted.y[i]) + coat_radiance.y[i];
-    below->z[j] = Attenuated(below->z[j], transmitted.z[i]) + coat_radiance.z[i];
-  }
-}
-
-void ShadeCoats(const DirectBatch& batch, const SampleNumbers* numbers) {
-  const CoatedHits& coats = *batch.surfaces.coats;
-  std::unique_ptr<BatchRadiance>& room = batch.room.coat_radiance;
-  if (!room) room = std::make_unique<BatchRadiance>();
-  ShadeSurfaces({batch.plan, coats.surfaces, batch.room, *room, batch.clock, batch.stats,
-                 batch.plan.coat_pairs},
-                numbers);
-  ReflectedRadiance& total = batch.radiance.total;
-  CoverBelow(coats, room->total.sum, &total.sum);
-  if (batch.plan.components) {
-    CoverBelow(coats, room->total.diffuse, &total.diffuse);
-    CoverBelow(coats, room->total.specular, &total.specular);
-  }
-  for (size_t layer = 0; layer < room->per_light.size(); ++layer) {
-    CoverBelow(coats, room->per_light[layer], &batch.radiance.per_light[layer]);
-  }
-  batch.clock.Charge(Stage::kShade);
-}
-
-}  // namespace
-
-void ShadeDirect(const DirectBatch& batch, const SampleNumbers* numbers) {
-  ShadeSurfaces(batch, numbers);
-  if (AnyCoat(batch.surfaces)) ShadeCoats(batch, numbers);
 }
 
 void ShadeSky(const DirectPlan& plan, const FilmBatch& film, size_t hits, DirectRoom* room,

@@ -72,7 +72,7 @@ bool MayBeInView(const Scene& scene, const LightBall& ball) {
 }
 
 void PlanSampledLights(const Scene& scene, const RenderSettings& settings,
-                       const std::vector<Layer>& layers, const SceneWithLights* shown, bool coats,
+                       const std::vector<Layer>& layers, const SceneWithLights* shown,
                        KeptTables* tables, DirectPlan* plan, Explanation* why) {
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
@@ -95,10 +95,8 @@ void PlanSampledLights(const Scene& scene, const RenderSettings& settings,
   DropUnused(&tables->skies);
   DropUnused(&tables->mesh_lights);
   if (plan->sampled_lights.empty()) return;
-  // A coat is a surface of its own, whose samples are independent of those of the surface below.
-  plan->coat_pairs = kPairsPerLight * plan->sampled_lights.size();
   plan->pairs = MakePairSampler(LongestSequence(scene, settings),
-                                (coats ? 2 : 1) * plan->coat_pairs, scene.image.seed);
+                                kPairsPerLight * plan->sampled_lights.size(), scene.image.seed);
   for (size_t i = 0; i < plan->sampled_lights.size(); ++i) {
     const PlannedSampledLight& planned = plan->sampled_lights[i];
     const auto* sky = std::get_if<EnvironmentLight>(&scene.lights[planned.index].kind);
@@ -188,7 +186,7 @@ std::shared_ptr<const SceneWithLights> AddVisibleLights(const Scene& scene,
 }
 
 DirectPlan PlanLights(const Scene& scene, const RenderSettings& settings,
-                      const std::vector<Layer>& layers, const SceneWithLights* shown, bool coats,
+                      const std::vector<Layer>& layers, const SceneWithLights* shown,
                       PreparedScene* prepared, Explanation* why) {
   DirectPlan plan;
   plan.background = scene.background;
@@ -198,7 +196,7 @@ DirectPlan PlanLights(const Scene& scene, const RenderSettings& settings,
         return layer.kind == LayerKind::kLight;
       }));
   PlanPunctualLights(scene, layers, &plan, why);
-  PlanSampledLights(scene, settings, layers, shown, coats, &prepared->tables, &plan, why);
+  PlanSampledLights(scene, settings, layers, shown, &prepared->tables, &plan, why);
   PlanComponents(scene, layers, &plan, why);
   plan.diffuse_light_layers = plan.components && settings.diffuse_light_layers;
   return plan;

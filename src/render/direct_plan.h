@@ -76,7 +76,6 @@ struct DirectPlan {
   std::vector<PlannedPunctualLight> lights;
   std::vector<PlannedSampledLight> sampled_lights;
   PairSampler pairs;          // random points for the sampled lights: three pairs a light
-  size_t coat_pairs = 0;      // the first pair for coats
   std::optional<size_t> sky;  // index into sampled_lights: a visible sky that is not constant
   // The constant radiance behind the shapes, of the scene or of a constant sky. Unused with `sky`.
   Rgb background{0, 0, 0};
@@ -97,9 +96,9 @@ std::shared_ptr<const SceneWithLights> AddVisibleLights(const Scene& scene,
 // Plans everything except shadow rays (PlanShadows, shadow_plan.h, which also sets `primitives`,
 // `camera`, `intersector` and `eye_outside`), their origins (PlanShadowOrigins), far lights, and
 // the radiance that Gouraud meshes reflect (ShadeMeshes). `shown` comes from AddVisibleLights and
-// may be null. `coats` says whether some material has a coat.
+// may be null.
 DirectPlan PlanLights(const Scene& scene, const RenderSettings& settings,
-                      const std::vector<Layer>& layers, const SceneWithLights* shown, bool coats,
+                      const std::vector<Layer>& layers, const SceneWithLights* shown,
                       PreparedScene* prepared, Explanation* why);
 
 // Afterwards decides which lights are located, on spheres, from the hit's normal alone

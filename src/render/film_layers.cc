@@ -47,7 +47,7 @@ bool IsMapped(LayerKind kind) {
 
 LayerValues ValuesShown(const Layer& layer, size_t light_layer, const ShadingMaterial& constants,
                         const ShadedBatch& s) {
-  if (constants.mapped && IsMapped(layer.kind)) return MappedValuesShown(layer, s);
+  if (constants.by_hit.parameters && IsMapped(layer.kind)) return MappedValuesShown(layer, s);
   const Rgb ambient = constants.in_ambient
                           ? RoundToFloat(constants.of_ambient * s.plan.textures.ambient)
                           : Rgb(0, 0, 0);
@@ -97,7 +97,7 @@ void FillRun(const LayerValues& shown, int c, const MaterialRun& run, double* va
 
 // Whether ambient light, emission and albedo are the same at all hits of the run: no maps change
 // them.
-bool HasConstants(const MaterialRun& run) { return !run.shading->mapped; }
+bool HasConstants(const MaterialRun& run) { return !run.shading->by_hit.parameters; }
 
 // Finds the spans of a run in a tile of `pixels` pixels. No span crosses the end of a row of `row`
 // pixels.

@@ -170,8 +170,8 @@ FramePlan MakePlan(const Scene& given, const RenderSettings& settings, PreparedS
   const std::shared_ptr<const PreparedMaterials> materials =
       MaterialsOf(plan, !IsBlack(ambient), settings.threads, prepared);
   const std::vector<bool>& used = UsedMaterials(plan, *materials, prepared);
-  plan.direct = PlanLights(scene, settings, plan.film.layers, plan.with_lights.get(),
-                           Has(materials->any, MaterialTrait::kCoated), prepared, why);
+  plan.direct =
+      PlanLights(scene, settings, plan.film.layers, plan.with_lights.get(), prepared, why);
   stop_if_cancelled();
   plan.hits = PlanHits(scene, settings, plan.window, plan.camera, sampler, prepared, why);
   stop_if_cancelled();

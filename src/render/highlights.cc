@@ -98,7 +98,10 @@ std::vector<HighlightLight> FindSuns(const DirectPlan& direct) {
 double HalfVectorWidth(const SurfacePlan& surfaces, const AdaptivePlan& adaptive,
                        uint32_t material) {
   const ShadingMaterial& prepared = surfaces.materials[material];
-  if (HasDeltaLobe(prepared) || (prepared.coat && HasDeltaLobe(*prepared.coat))) return 0;
+  if (HasDeltaLobe(prepared) || std::any_of(prepared.coats.begin(), prepared.coats.end(),
+                                            [](const auto& coat) { return HasDeltaLobe(*coat); })) {
+    return 0;
+  }
   const auto* phong = std::get_if<PhongFamilyModel>(&prepared.model);
   const bool mirrored = phong != nullptr && phong->model != PhongModel::kBlinnPhong;
   return adaptive.lobe_widths[material] * (mirrored ? 0.5 : 1);

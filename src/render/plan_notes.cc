@@ -73,7 +73,7 @@ void NoteMirrors(const NotedMaterials& of, std::vector<std::string>* notes) {
       [&](size_t i) { return LobeRoughness(materials[i]); }, notes);
   NoteMirrors(
       of, "coat_roughness", MaterialTrait::kCoatMirror,
-      [&](size_t i) { return LobeRoughness(*CoatOf(materials[i])); }, notes);
+      [&](size_t i) { return LobeRoughness(CoatsOf(materials[i]).front()); }, notes);
 }
 
 void NoteGain(const NotedMaterials& of, std::vector<std::string>* notes) {

@@ -23,17 +23,20 @@ MaterialTraits TraitsOf(const Material& material, const ShadingMaterial& prepare
   const auto add = [&](bool has, MaterialTrait trait) {
     if (has) traits |= static_cast<MaterialTraits>(trait);
   };
-  const ShadingMaterial* const coat = prepared.coat.get();
+  const auto any_coat = [&](const auto& has) {
+    return std::any_of(prepared.coats.begin(), prepared.coats.end(),
+                       [&](const auto& coat) { return has(*coat); });
+  };
   add(std::holds_alternative<SplitMaterial>(material.model), MaterialTrait::kSplit);
   add(material.emits_in_front_only, MaterialTrait::kEmitsInFrontOnly);
   add(!IsBlack(material.emission), MaterialTrait::kEmits);
-  add(coat != nullptr, MaterialTrait::kCoated);
-  add(prepared.textured != nullptr || (coat != nullptr && coat->textured != nullptr),
+  add(!prepared.coats.empty(), MaterialTrait::kCoated);
+  add(prepared.scene_material != nullptr ||
+          any_coat([](const ShadingMaterial& coat) { return coat.scene_material != nullptr; }),
       MaterialTrait::kTextured);
-  add(HasDoubleTerms(prepared) || (coat != nullptr && HasDoubleTerms(*coat)),
-      MaterialTrait::kDoubleTerms);
+  add(HasDoubleTerms(prepared) || any_coat(HasDoubleTerms), MaterialTrait::kDoubleTerms);
   add(HasDeltaLobe(prepared), MaterialTrait::kMirror);
-  add(coat != nullptr && HasDeltaLobe(*coat), MaterialTrait::kCoatMirror);
+  add(any_coat(HasDeltaLobe), MaterialTrait::kCoatMirror);
   add(std::holds_alternative<UserModel>(prepared.model), MaterialTrait::kUserModel);
   add(BurleyGain(prepared) > 1, MaterialTrait::kBurleyGain);
   if (phong_gain >= kPrintedGain) {
@@ -51,19 +54,6 @@ void Prepare(const Scene& scene, bool in_ambient, size_t i, PreparedMaterials* t
   to->traits[i] = TraitsOf(scene.materials[i], to->all[i], to->phong_gains[i]);
 }
 
-void PlaceCoat(size_t i, PreparedMaterials* to) {
-  const std::shared_ptr<const ShadingMaterial> coat = to->all[i].coat;
-  to->coats[i] = {};
-  if (!coat) return;
-  MaterialId& slot = to->coat_slots[i];
-  if (!slot.valid()) {
-    slot = {static_cast<uint32_t>(to->all.size())};
-    to->all.emplace_back();
-  }
-  to->all[slot.index] = *coat;
-  to->coats[i] = slot;
-}
-
 void CollectTraits(PreparedMaterials* materials) {
   materials->any = 0;
   for (const MaterialTraits traits : materials->traits) materials->any |= traits;
@@ -78,8 +68,6 @@ void PrepareMaterials(const Scene& scene, bool in_ambient, int threads,
   materials->black = {static_cast<uint32_t>(count)};
   materials->all[count] = {};
   materials->all[count].model = MatteModel{.diffuse = Rgb(0, 0, 0)};
-  materials->coats.assign(count, {});
-  materials->coat_slots.assign(count, {});
   materials->traits.resize(count);
   materials->phong_gains.resize(count);
   constexpr size_t kPiece = 256;
@@ -88,16 +76,12 @@ void PrepareMaterials(const Scene& scene, bool in_ambient, int threads,
     const size_t end = std::min(count, (piece + 1) * kPiece);
     for (size_t i = piece * kPiece; i < end; ++i) Prepare(scene, in_ambient, i, materials);
   });
-  for (size_t i = 0; i < count; ++i) PlaceCoat(i, materials);
   CollectTraits(materials);
 }
 
 void PrepareMaterials(const Scene& scene, bool in_ambient, std::span<const uint32_t> changed,
                       PreparedMaterials* materials) {
-  for (const uint32_t i : changed) {
-    Prepare(scene, in_ambient, i, materials);
-    PlaceCoat(i, materials);
-  }
+  for (const uint32_t i : changed) Prepare(scene, in_ambient, i, materials);
   CollectTraits(materials);
 }
 

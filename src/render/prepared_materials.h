@@ -18,8 +18,8 @@ enum class MaterialTrait : uint32_t {
   kEmitsInFrontOnly = 1 << 1,
   kEmits = 1 << 2,
   kCoated = 1 << 3,
-  kTextured = 1 << 4,     // ShadingMaterial::textured, its own or its coat's
-  kDoubleTerms = 1 << 5,  // HasDoubleTerms, itself or its coat
+  kTextured = 1 << 4,     // ShadingMaterial::scene_material, its own or a coat's
+  kDoubleTerms = 1 << 5,  // HasDoubleTerms, itself or a coat
   kMirror = 1 << 6,
   kCoatMirror = 1 << 7,
   kUserModel = 1 << 8,
@@ -43,10 +43,8 @@ inline bool Has(MaterialTraits traits, MaterialTrait trait) {
 MaterialTraits ShadowingTrait(const Material& material);
 
 struct PreparedMaterials {
-  std::vector<ShadingMaterial> all;    // one per material of the scene, `black`, and coats
+  std::vector<ShadingMaterial> all;    // one per material of the scene, then `black`
   MaterialId black;                    // for the backs of materials that emit in front only
-  std::vector<MaterialId> coats;       // by material of the scene; invalid if it has none
-  std::vector<MaterialId> coat_slots;  // the entry in `all` of a coat that the material has or had
   std::vector<MaterialTraits> traits;  // by material of the scene
   MaterialTraits any = 0;              // traits of any material
   std::vector<double> phong_gains;     // PhongGain, by material of the scene

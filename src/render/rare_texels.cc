@@ -88,7 +88,7 @@ struct MapFrame {
 };
 
 // The frame at a point of a primitive, given how the point and (u, v) change along the film; the
-// same as that of hits (shading/turn_kernel.cc).
+// same as that of hits (shading/normal_map_kernel.cc).
 MapFrame FrameAt(const FramePlan& plan, uint32_t primitive, TextureId texture, const Vec3d& point,
                  const Vec3d& to_view, const Vec3d (&point_by)[2], const Vec2d (&uv_by)[2]) {
   const TextureScene& textures = plan.surfaces.textures;

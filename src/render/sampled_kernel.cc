@@ -19,42 +19,25 @@ using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
 using DD = hn::ScalableTag<double>;
 
-size_t IlluminateAlongT(const LightDirections& directions, const Surface& surface, size_t count,
+size_t IlluminateAlongT(const LightDirections& directions, const Soa3<float>* normal, size_t count,
                         LightBatch* light) {
   const D d;
   const V zero = hn::Zero(d);
   size_t not_finite = 0;
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
     const Vec3V<V> l = LoadSoa(d, directions.to_light, i);
-    const V n_dot_l = Dot(LoadSoa(d, surface.normal, i), l);
-    const auto finite = hn::IsFinite(n_dot_l);  // if and only if the direction is
+    // Finite if and only if the direction is.
+    const V height = normal != nullptr ? Dot(LoadSoa(d, *normal, i), l) : Dot(l, l);
+    const auto finite = hn::IsFinite(height);
     if (!hn::AllTrue(d, finite)) {
       not_finite += hn::CountTrue(d, hn::AndNot(finite, hn::FirstN(d, count - i)));
     }
-    const auto faces = hn::And(hn::Gt(n_dot_l, zero), finite);
+    const auto faces = hn::And(hn::Gt(height, zero), finite);
     const auto shines = hn::And(hn::Gt(hn::LoadU(d, directions.distance.data() + i), zero), faces);
     StoreSoa(d, l, i, &light->to_light);
     hn::StoreU(hn::IfThenElseZero(shines, hn::Set(d, 1.0f)), d, light->irradiance.data() + i);
   }
   return not_finite;
-}
-
-void ComputeDiffusePdfT(const DiffuseStrategies& strategies, const LightDirections& directions,
-                        const Surface& surface, const uint8_t* closed_form, size_t count,
-                        float* pdf) {
-  const D d;
-  const V by_pi = hn::Set(d, static_cast<float>(M_1_PI));
-  for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-    V sum = hn::Zero(d);
-    if (strategies.light) sum = hn::LoadU(d, directions.pdf.data() + i);
-    if (strategies.cosine) {
-      const V n_dot_l = Dot(LoadSoa(d, surface.normal, i), LoadSoa(d, directions.to_light, i));
-      sum = hn::Add(sum, hn::Mul(n_dot_l, by_pi));
-    }
-    hn::StoreU(sum, d, pdf + i);
-  }
-  if (closed_form == nullptr) return;
-  for (size_t i = 0; i < count; ++i) pdf[i] = closed_form[i] != 0 ? 0 : pdf[i];
 }
 
 HWY_INLINE void StorePromoted(hn::Vec<hn::Rebind<float, DD>> v, double* to) {
@@ -79,6 +62,15 @@ void AimShadowRaysT(const LightDirections& directions, const float* irradiance, 
     aim(l.z, one, &rays->direction.z);
     const auto end = hn::IfThenElseZero(lit, hn::LoadU(d, directions.distance.data() + i));
     StorePromoted(end, rays->t_max.data() + i);
+  }
+}
+
+void AddPdfsT(const float* a, const float* b, size_t count, float* sum) {
+  const D d;
+  const auto at = [&](const float* pdf, size_t i)
+                      HWY_ATTR { return pdf != nullptr ? hn::LoadU(d, pdf + i) : hn::Zero(d); };
+  for (size_t i = 0; i < count; i += hn::Lanes(d)) {
+    hn::StoreU(hn::Add(at(a, i), at(b, i)), d, sum + i);
   }
 }
 
@@ -123,26 +115,23 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace nacre {
 HWY_EXPORT(IlluminateAlongT);
-HWY_EXPORT(ComputeDiffusePdfT);
 HWY_EXPORT(AimShadowRaysT);
+HWY_EXPORT(AddPdfsT);
 HWY_EXPORT(ComputeWeightsT);
 HWY_EXPORT(AddWeightedT);
 
-size_t IlluminateAlong(const LightDirections& directions, const Surface& surface, size_t count,
+size_t IlluminateAlong(const LightDirections& directions, const Soa3<float>* normal, size_t count,
                        LightBatch* light) {
-  return HWY_DYNAMIC_DISPATCH(IlluminateAlongT)(directions, surface, count, light);
-}
-
-void ComputeDiffusePdf(const DiffuseStrategies& strategies, const LightDirections& directions,
-                       const Surface& surface, const uint8_t* closed_form, size_t count,
-                       float* pdf) {
-  HWY_DYNAMIC_DISPATCH(ComputeDiffusePdfT)
-  (strategies, directions, surface, closed_form, count, pdf);
+  return HWY_DYNAMIC_DISPATCH(IlluminateAlongT)(directions, normal, count, light);
 }
 
 void AimShadowRays(const LightDirections& directions, const float* irradiance, size_t count,
                    ShadowRayBatch* rays) {
   HWY_DYNAMIC_DISPATCH(AimShadowRaysT)(directions, irradiance, count, rays);
+}
+
+void AddPdfs(const float* a, const float* b, size_t count, float* sum) {
+  HWY_DYNAMIC_DISPATCH(AddPdfsT)(a, b, count, sum);
 }
 
 void ComputeWeights(const float* irradiance, const float* pdf, size_t count, float* weight) {

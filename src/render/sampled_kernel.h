@@ -11,25 +11,19 @@
 namespace nacre {
 
 // Sets `light` to a light of irradiance 1 from the sampled directions, and 0 where the direction
-// misses the light or the hit faces away from it. Returns how many directions are not finite: they
+// misses the light or the hit faces away from it: where it is below the plane of `normal`, unless
+// that is null. Returns how many directions are not finite: they
 // have irradiance 0, and no shadow ray follows them.
-size_t IlluminateAlong(const LightDirections& directions, const Surface& surface, size_t count,
+size_t IlluminateAlong(const LightDirections& directions, const Soa3<float>* normal, size_t count,
                        LightBatch* light);
-
-// The strategies that sample diffuse reflection: SampleLight, SampleCosine, or both.
-struct DiffuseStrategies {
-  bool light, cosine;
-};
-// The sum of the pdfs of these strategies along the directions. 0 at hits with closed_form[i] != 0,
-// whose diffuse reflection is computed in closed form; `closed_form` may be null.
-void ComputeDiffusePdf(const DiffuseStrategies& strategies, const LightDirections& directions,
-                       const Surface& surface, const uint8_t* closed_form, size_t count,
-                       float* pdf);
 
 // Sets the directions and ends of shadow rays. Rays of lit hits end at the light; the others are
 // inactive.
 void AimShadowRays(const LightDirections& directions, const float* irradiance, size_t count,
                    ShadowRayBatch* rays);
+
+// The sum of two pdfs, each of which may be null.
+void AddPdfs(const float* a, const float* b, size_t count, float* sum);
 
 // weight = 1 / pdf; 0 where the irradiance or the pdf is 0.
 void ComputeWeights(const float* irradiance, const float* pdf, size_t count, float* weight);

@@ -5,10 +5,8 @@
 #include <cmath>
 #include <optional>
 
-#include "render/mapped_horizon.h"
 #include "render/sampled_kernel.h"
 #include "render/sampled_shadows.h"
-#include "shading/lobe_sample.h"
 
 namespace nacre {
 namespace {
@@ -26,23 +24,22 @@ struct LitBatch {
   LightBatch& light() const { return batch.room.light; }
   ReflectedRadiance& single() const { return batch.room.single; }
   std::span<const MaterialRun> runs() const { return LitRuns(batch.surfaces); }
-  LobeRange RangeOf(const MaterialRun& run) const {
-    return {hits(), surface(), run.begin, run.end, batch.surfaces.textures.get()};
-  }
+  BsdfHits BsdfOf(const MaterialRun& run) const { return BsdfHitsOf(batch.surfaces, run); }
+  BsdfRoom* bsdf_room() const { return &batch.room.bsdf; }
 };
 
-// The components of the reflected light that directions are sampled for.
-struct Components {
-  bool diffuse, specular;
-};
-
-// The strategies that are combined by multiple importance sampling (the balance heuristic): the pdf
-// of a component's directions is the sum of theirs.
+// The sampling strategies that are combined by multiple importance sampling (the balance
+// heuristic): the pdf of a component's directions is the sum of theirs. The components are sampled
+// apart (SampleLobes of one kind), not by one direction for both: where diffuse reflection has a
+// closed form, or light samples alone serve it as well, no directions are spent on it.
 struct SamplingStrategies {
   bool light;  // SampleLight
-  // SampleCosine or SampleUnderLayers, for the diffuse component. SampleLobe is always used, for
-  // the specular component.
-  bool cosine;
+  bool bsdf;   // SampleLobes
+};
+
+// What directions are sampled for, by component.
+struct Components {
+  bool diffuse, specular;
 };
 
 // A point of a flat light, relative to the camera, and its unit normal.
@@ -91,13 +88,17 @@ void HideLightInPlane(const LitBatch& lit) {
   }
 }
 
-// Sets light() to a light of irradiance 1 from the sampled directions. Directions of lobes and
-// mirrors are above the horizon except for rounding errors, which must not hide a lobe that is
-// narrower than these: they are not tested again.
+// Sets light() to a light of irradiance 1 from the sampled directions. Directions of glossy lobes
+// and mirrors are above the horizon except for rounding errors, which must not hide a lobe that is
+// narrower than these: in normal-mapped batches they are not tested against the horizon.
 void Illuminate(const LitBatch& lit, bool may_be_below_horizon) {
+  const Surface& surface = lit.surface();
+  const Soa3<float>* const horizon = !surface.normal_mapped ? &surface.normal
+                                     : may_be_below_horizon ? &surface.interpolated_normal
+                                                            : nullptr;
   lit.batch.stats.directions_not_finite +=
-      IlluminateAlong(lit.room.directions, lit.surface(), lit.count(), &lit.light());
-  if (may_be_below_horizon) HideLightsBelowHorizon(lit.batch);
+      IlluminateAlong(lit.room.directions, horizon, lit.count(), &lit.light());
+  HideUnreflectedLight(lit.batch);
   HideLightInPlane(lit);
 }
 
@@ -109,87 +110,77 @@ void ApplyShadows(const LitBatch& lit) {
   lit.batch.clock.Charge(Stage::kShadow);
 }
 
-// Computes room.unit: the reflection of light() if the light has colour 1.
-void ShadeUnitLight(const LitBatch& lit) {
-  static const ShadingLight kUnit = [] {
-    ShadingLight light;
-    light.form = LightForm::kGiven;
-    light.color = Rgb(1, 1, 1);
-    return light;
-  }();
-  const LitHits hits{lit.hits(),   lit.surface(), kUnit,
-                     &lit.light(), true,          lit.batch.surfaces.textures.get()};
+// Computes room.unit, the reflection of light() if the light has colour 1, and pdfs.
+void EvaluateUnitLight(const LitBatch& lit, const LobePdfs& pdfs) {
+  static const ShadingLight kUnit{.form = LightForm::kGiven, .color = Rgb(1, 1, 1)};
   for (const MaterialRun& run : lit.runs()) {
-    ShadeRun(*run.shading, hits, run.begin, run.end, &lit.batch.room.shade, &lit.room.unit);
-    AddMirroredLobe(lit.batch, run, kUnit, &lit.room.unit);
+    EvaluateBsdf(lit.BsdfOf(run), kUnit, &lit.light(), true, lit.bsdf_room(), &lit.room.unit, pdfs);
   }
 }
 
-// Adds part * room.weight * the light's radiance to the sum and to the component that it is.
-void AddWeightedRadiance(const LitBatch& lit, const Soa3<float>& part, Soa3<float>* component) {
+// Adds part * room.weight * the light's colour to the sum and to the component that it is; also
+// times `by_color`, the radiance along room.directions or the irradiance, if the light IsColored.
+void AddWeightedRadiance(const LitBatch& lit, const Soa3<float>& part, const Soa3<float>& by_color,
+                         Soa3<float>* component) {
   const SampledLight& light = lit.planned.light;
-  const Soa3<float>* radiance = IsColored(light) ? &lit.room.directions.radiance : nullptr;
+  const Soa3<float>* const factor = IsColored(light) ? &by_color : nullptr;
   const auto add_to = [&](Soa3<float>* to) {
-    AddWeighted(part, lit.room.weight.data(), radiance, light.color, lit.count(), to);
+    AddWeighted(part, lit.room.weight.data(), factor, light.color, lit.count(), to);
   };
   add_to(&lit.single().sum);
   if (lit.batch.plan.components) add_to(component);
 }
 
-// Sets room.weight to 1 / room.pdf.
-void WeightByPdf(const LitBatch& lit) {
-  ComputeWeights(lit.light().irradiance.data(), lit.room.pdf.data(), lit.count(),
-                 lit.room.weight.data());
-}
-
-void WeightDiffuse(const LitBatch& lit, const SamplingStrategies& strategies) {
-  const uint8_t* closed_form = lit.planned.closed_form ? lit.room.closed_form.data() : nullptr;
-  ComputeDiffusePdf({strategies.light, strategies.cosine}, lit.room.directions, lit.surface(),
-                    closed_form, lit.count(), lit.room.pdf.data());
+// Sets room.weight to 1 over the sum of the strategies' pdfs for lobes of one kind. It is 0 at hits
+// without such lobes: a batch is sampled if any of its hits has one, and a pixel must not depend on
+// the other pixels of its tile.
+void WeightByPdf(const LitBatch& lit, const SamplingStrategies& strategies, LobeKind kind) {
+  const float* const by_light = strategies.light ? lit.room.directions.pdf.data() : nullptr;
+  const bool diffuse = kind == LobeKind::kDiffuse;
+  const float* const of_kind = diffuse ? lit.room.diffuse_pdf.data() : lit.room.glossy_pdf.data();
+  const float* const by_bsdf = strategies.bsdf ? of_kind : nullptr;
+  float* const pdf = lit.room.pdf.data();
+  AddPdfs(by_light, by_bsdf, lit.count(), pdf);
   for (const MaterialRun& run : lit.runs()) {
-    if (!strategies.cosine || run.shading->layers.empty()) continue;
-    UnderLayersPdf(*run.shading, lit.RangeOf(run), lit.room.directions.to_light,
-                   strategies.light ? lit.room.directions.pdf.data() : nullptr,
-                   lit.room.pdf.data());
+    if (HasLobes(*run.shading, kind)) continue;
+    std::fill(pdf + run.begin, pdf + run.end, 0.0f);
   }
-  WeightByPdf(lit);
-}
-
-void WeightSpecular(const LitBatch& lit, const SamplingStrategies& strategies) {
-  const LightDirections& directions = lit.room.directions;
-  for (const MaterialRun& run : lit.runs()) {
-    LobePdf(*run.shading, lit.RangeOf(run), lit.light(), &lit.batch.room.shade,
-            lit.room.pdf.data());
-    AddMirroredLobePdf(lit.batch, run, lit.room.pdf.data());
-  }
-  if (strategies.light) {
-    for (size_t i = 0; i < lit.count(); ++i) lit.room.pdf[i] += directions.pdf[i];
-  }
-  // A batch is sampled if any of its hits has a lobe. Hits without one must still get nothing:
-  // otherwise a pixel would depend on the other pixels of its tile.
-  for (const MaterialRun& run : lit.runs()) {
-    if (HasSampledLobe(*run.shading)) continue;
-    std::fill(lit.room.pdf.data() + run.begin, lit.room.pdf.data() + run.end, 0.0f);
-  }
-  WeightByPdf(lit);
+  ComputeWeights(lit.light().irradiance.data(), pdf, lit.count(), lit.room.weight.data());
 }
 
 // Adds the light reflected along the directions, which were sampled by one of the strategies and
 // passed to Illuminate.
-void AddSampledLight(const LitBatch& lit, const SamplingStrategies& strategies,
-                     const Components& components) {
+void AddSampledLight(const LitBatch& lit, const SamplingStrategies& of_diffuse,
+                     const SamplingStrategies& of_specular, const Components& components) {
+  const Soa3<float>& radiance = lit.room.directions.radiance;
+  LobePdfs pdfs;
+  if (components.diffuse && of_diffuse.bsdf) pdfs.diffuse = lit.room.diffuse_pdf.data();
+  if (components.specular && of_specular.bsdf) pdfs.glossy = lit.room.glossy_pdf.data();
   ApplyShadows(lit);
-  ShadeUnitLight(lit);
+  EvaluateUnitLight(lit, pdfs);
   if (components.diffuse) {
-    WeightDiffuse(lit, strategies);
-    AddWeightedRadiance(lit, lit.room.unit.diffuse, &lit.single().diffuse);
+    WeightByPdf(lit, of_diffuse, LobeKind::kDiffuse);
+    if (lit.planned.closed_form) {
+      for (size_t i = 0; i < lit.count(); ++i) {
+        if (lit.room.closed_form[i] != 0) lit.room.weight[i] = 0;
+      }
+    }
+    AddWeightedRadiance(lit, lit.room.unit.diffuse, radiance, &lit.single().diffuse);
   }
   if (components.specular) {
-    WeightSpecular(lit, strategies);
-    AddWeightedRadiance(lit, lit.room.unit.specular, &lit.single().specular);
+    WeightByPdf(lit, of_specular, LobeKind::kGlossy);
+    AddWeightedRadiance(lit, lit.room.unit.specular, radiance, &lit.single().specular);
   }
   lit.batch.stats.shades += lit.count();
   lit.batch.clock.Charge(Stage::kShade);
+}
+
+// The strategies for diffuse reflection. Under an area light the light's samples alone are as good.
+SamplingStrategies DiffuseStrategies(const SampledLight& light) {
+  return {HasSampler(light), IsSky(light)};
+}
+SamplingStrategies SpecularStrategies(const SampledLight& light) {
+  return {HasSampler(light), true};
 }
 
 // Finds the hits whose diffuse reflection has a closed form: those from which the whole light is
@@ -211,7 +202,7 @@ size_t FindClosedForm(const LitBatch& lit) {
 // Adds the diffuse reflection of these hits: the irradiance, as if all light came along the normal.
 void AddClosedForm(const LitBatch& lit) {
   const SampledLight& light = lit.planned.light;
-  Soa3<float>& irradiance = lit.room.directions.radiance;
+  Soa3<float>& irradiance = lit.room.irradiance;
   LightIrradiance(light, lit.hits(), lit.surface(), &irradiance);
   const Soa3<float>& n = lit.surface().normal;
   LightBatch& batch = lit.light();
@@ -223,93 +214,89 @@ void AddClosedForm(const LitBatch& lit) {
     lit.room.weight[i] = IsColored(light) ? 1 : irradiance.x[i];
   }
   HideLightInPlane(lit);
-  ShadeUnitLight(lit);
-  AddWeightedRadiance(lit, lit.room.unit.diffuse, &lit.single().diffuse);
+  EvaluateUnitLight(lit, {});
+  AddWeightedRadiance(lit, lit.room.unit.diffuse, irradiance, &lit.single().diffuse);
   lit.batch.clock.Charge(Stage::kLight);
 }
 
 // Draws a pair of random numbers for each hit.
 void DrawPoints(const LitBatch& lit, size_t pair) {
-  SamplePair(lit.batch.plan.pairs, lit.batch.first_pair + lit.planned.first_pair + pair,
-             lit.numbers, lit.hits().ray.data(), lit.count(), &lit.room.points);
+  SamplePair(lit.batch.plan.pairs, lit.planned.first_pair + pair, lit.numbers,
+             lit.hits().ray.data(), lit.count(), &lit.room.points);
 }
 
 void AddLightSamples(const LitBatch& lit, const Components& components) {
+  const SampledLight& light = lit.planned.light;
   DrawPoints(lit, 0);
-  SampleLight(lit.planned.light, lit.hits(), lit.room.points, &lit.room.directions);
+  SampleLight(light, lit.hits(), lit.room.points, &lit.room.directions);
   Illuminate(lit, true);
-  AddSampledLight(lit, {true, IsSky(lit.planned.light)}, components);
+  AddSampledLight(lit, DiffuseStrategies(light), SpecularStrategies(light), components);
 }
 
-void AddCosineSamples(const LitBatch& lit) {
-  DrawPoints(lit, 1);
-  SampleCosine(lit.surface(), lit.count(), lit.room.points.u.data(), lit.room.points.v.data(),
-               &lit.room.directions.to_light);
+// The normals of all hits: hits without a lobe to sample get these as directions, and a weight of
+// 0.
+void SetDirectionsToNormals(const LitBatch& lit) {
+  CopySoa(lit.surface().normal, lit.count(), &lit.room.directions.to_light);
+}
+
+void AddBsdfSamples(const LitBatch& lit, LobeKind kind) {
+  const SampledLight& light = lit.planned.light;
+  const bool diffuse = kind == LobeKind::kDiffuse;
+  DrawPoints(lit, diffuse ? 1 : 2);
+  SetDirectionsToNormals(lit);
   for (const MaterialRun& run : lit.runs()) {
-    if (run.shading->layers.empty()) continue;
-    SampleUnderLayers(*run.shading, lit.RangeOf(run), lit.room.points.u.data(),
-                      lit.room.points.v.data(), &lit.room.directions.to_light);
+    SampleLobes(lit.BsdfOf(run), kind, lit.room.points.u.data(), lit.room.points.v.data(),
+                lit.bsdf_room(), &lit.room.directions.to_light);
+  }
+  FindLight(light, lit.hits(), &lit.room.directions);
+  Illuminate(lit, diffuse);
+  AddSampledLight(lit, DiffuseStrategies(light), SpecularStrategies(light), {diffuse, !diffuse});
+}
+
+// Adds the light that the perfect mirrors at one level of stacks reflect, which comes from one
+// direction.
+void AddMirrorReflection(const LitBatch& lit, size_t level) {
+  const auto runs = lit.runs();
+  if (std::none_of(runs.begin(), runs.end(),
+                   [&](const MaterialRun& run) { return AnyMirror(lit.BsdfOf(run), level); })) {
+    return;
+  }
+  Soa3<float>& reflectance = lit.room.unit.specular;
+  ClearSoa(lit.count(), &reflectance);
+  SetDirectionsToNormals(lit);
+  for (const MaterialRun& run : runs) {
+    SampleMirror(lit.BsdfOf(run), level, &lit.room.directions.to_light, &reflectance);
   }
   FindLight(lit.planned.light, lit.hits(), &lit.room.directions);
-  Illuminate(lit, true);
-  AddSampledLight(lit, {HasSampler(lit.planned.light), true}, {true, false});
-}
-
-void AddLobeSamples(const LitBatch& lit) {
-  DrawPoints(lit, 2);
-  // Hits without a lobe get their normals as directions, and a weight of 0.
-  Soa3<float>& to_light = lit.room.directions.to_light;
-  const Soa3<float>& n = lit.surface().normal;
-  std::copy_n(n.x.data(), lit.count(), to_light.x.data());
-  std::copy_n(n.y.data(), lit.count(), to_light.y.data());
-  std::copy_n(n.z.data(), lit.count(), to_light.z.data());
-  for (const MaterialRun& run : lit.runs()) {
-    SampleLobe(*run.shading, lit.RangeOf(run), lit.room.points.u.data(), lit.room.points.v.data(),
-               &lit.batch.room.shade, &to_light);
-    RaiseLobeSamples(lit.batch, run, &to_light);
-  }
-  FindLight(lit.planned.light, lit.hits(), &lit.room.directions);
-  Illuminate(lit, false);
-  AddSampledLight(lit, {HasSampler(lit.planned.light), false}, {false, true});
-}
-
-// Adds the light that perfect mirrors reflect, which comes from one direction.
-void AddMirrorReflection(const LitBatch& lit) {
-  MirrorDirections({lit.hits(), lit.surface(), 0, lit.count()}, &lit.room.directions.to_light);
-  FindLight(lit.planned.light, lit.hits(), &lit.room.directions);
-  ClearRadiance(lit.count(), &lit.room.unit);
   Illuminate(lit, false);
   AlignedArray<float>& irradiance = lit.light().irradiance;
-  for (const MaterialRun& run : lit.runs()) {
-    const LobeRange range = lit.RangeOf(run);
-    for (size_t i = run.begin; i < run.end; ++i) {
-      if (!IsMirror(*run.shading, range, i)) irradiance[i] = 0;
-    }
-    if (AnyMirror(*run.shading, range)) {
-      MirrorReflectance(*run.shading, range, &lit.room.unit.specular);
-    }
+  for (size_t i = 0; i < lit.count(); ++i) {
+    const bool reflects = (reflectance.x[i] > 0) | (reflectance.y[i] > 0) | (reflectance.z[i] > 0);
+    if (!reflects) irradiance[i] = 0;
   }
   ApplyShadows(lit);
   std::copy_n(irradiance.data(), lit.count(), lit.room.weight.data());
-  AddWeightedRadiance(lit, lit.room.unit.specular, &lit.single().specular);
+  AddWeightedRadiance(lit, reflectance, lit.room.directions.radiance, &lit.single().specular);
   lit.batch.clock.Charge(Stage::kShade);
 }
 
 void ShadeBySampledLight(const LitBatch& lit) {
-  bool mirrors = false, lobes = false;
-  for (const MaterialRun& run : lit.runs()) {
-    mirrors = mirrors || AnyMirror(*run.shading, lit.RangeOf(run));
-    lobes = lobes || HasSampledLobe(*run.shading);
-  }
+  const bool lobes = std::any_of(lit.runs().begin(), lit.runs().end(), [](const MaterialRun& run) {
+    return HasLobes(*run.shading, LobeKind::kGlossy);
+  });
   const size_t in_closed_form = FindClosedForm(lit);
   const bool sampled_diffuse = in_closed_form < lit.count();
   if (in_closed_form > 0) AddClosedForm(lit);
   if (HasSampler(lit.planned.light) && (lobes || sampled_diffuse)) {
     AddLightSamples(lit, {sampled_diffuse, lobes});
   }
-  if (IsSky(lit.planned.light) && sampled_diffuse) AddCosineSamples(lit);
-  if (lobes) AddLobeSamples(lit);
-  if (mirrors) AddMirrorReflection(lit);
+  if (IsSky(lit.planned.light) && sampled_diffuse) AddBsdfSamples(lit, LobeKind::kDiffuse);
+  if (lobes) AddBsdfSamples(lit, LobeKind::kGlossy);
+  size_t levels = 1;
+  for (const MaterialRun& run : lit.runs()) {
+    levels = std::max(levels, 1 + run.shading->coats.size());
+  }
+  for (size_t level = 0; level < levels; ++level) AddMirrorReflection(lit, level);
 }
 
 }  // namespace

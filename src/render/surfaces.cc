@@ -179,46 +179,56 @@ void SortHits(const SurfacePlan& plan, const double* film_x, CameraHits* hits, S
   to->hits.count = count;
 }
 
-// For each lit hit whose material has a coat, adds a hit on the coat at the same position. Its
-// shading normal is the one before normal maps, so this must precede their look-up.
-void FindCoats(const SurfacePlan& plan, Surfaces* s) {
-  if (s->coats) s->coats->surfaces.hits.count = 0;
-  if (!plan.coated) return;
-  size_t count = 0;
-  for (const MaterialRun& run : LitRuns(*s)) {
-    if (!run.shading->coat) continue;
-    if (!s->coats) s->coats = std::make_unique<CoatedHits>();
-    std::vector<MaterialRun>& runs = s->coats->surfaces.runs;
-    if (count == 0) runs.clear();
-    const MaterialId coat = plan.prepared->coats[run.material.index];
-    const size_t begin = count;
-    for (size_t i = run.begin; i < run.end; ++i) {
-      s->coats->below[count++] = static_cast<uint32_t>(i);
-    }
-    runs.push_back({coat, &plan.materials[coat.index], begin, count, false});
-  }
-  if (count == 0) return;
-  Surfaces& to = s->coats->surfaces;
-  const AlignedArray<uint32_t>& below = s->coats->below;
-  const size_t padded = RoundUp(count, kBatchPadding);
-  for (size_t i = count; i < padded; ++i) s->coats->below[i] = below[count - 1];
-  PermuteHits({&s->hits, &s->surface}, {true, true}, padded, below, &to);
-  to.hits.count = count;
+// Makes the hits of the lit runs' coats. A coat's shading normal is the one before the normal maps
+// of what is below it, so this must precede their look-up. Returns the most coats of any run.
+size_t CopyCoats(const SurfacePlan& plan, Surfaces* s) {
+  if (!plan.coated) return 0;
+  size_t most = 0;
+  for (const MaterialRun& run : LitRuns(*s)) most = std::max(most, run.shading->coats.size());
+  if (s->coats.size() < most) s->coats.resize(most);
+  for (size_t k = 0; k < most; ++k) CopyToCoat(s->hits, s->surface, &s->coats[k]);
+  return most;
 }
 
-// Looks up the maps of the runs' materials.
-void LookUpMaps(const SurfacePlan& plan, Surfaces* s) {
-  s->surface.turned = false;
+// Looks up the maps of a run's material or of one of its coats.
+void LookUpMaps(const SurfacePlan& plan, const ShadingMaterial& material, const MaterialRun& run,
+                HitBatch* hits, Surface* surface, std::unique_ptr<HitParameters>* textures) {
+  if (material.scene_material == nullptr) return;
+  if (!*textures) *textures = std::make_unique<HitParameters>();
+  TextureHits({plan.textures, material, run.begin, run.end}, hits, surface, textures->get());
+}
+
+bool MapsNormals(const ShadingMaterial& material) {
+  return material.by_hit.normal ||
+         std::any_of(material.coats.begin(), material.coats.end(),
+                     [](const auto& coat) { return coat->by_hit.normal; });
+}
+
+// Looks up the maps of the runs' materials and of their coats, `coats` of which are in use.
+void LookUpMaps(const SurfacePlan& plan, size_t coats, Surfaces* s) {
+  s->surface.normal_mapped =
+      plan.textured && std::any_of(s->runs.begin(), s->runs.end(), [](const MaterialRun& run) {
+        return MapsNormals(*run.shading);
+      });
+  if (s->surface.normal_mapped) {
+    CopySoa(s->surface.normal, s->hits.count, &s->surface.interpolated_normal);
+  }
+  for (size_t k = 0; k < coats; ++k) {
+    Surface& coat = s->coats[k].surface;
+    coat.normal_mapped = s->surface.normal_mapped;
+    if (coat.normal_mapped) {
+      CopySoa(s->surface.normal, s->hits.count, &coat.interpolated_normal);
+    }
+  }
   if (!plan.textured) return;
   for (const MaterialRun& run : s->runs) {
-    s->surface.turned = s->surface.turned || run.shading->turned;
+    LookUpMaps(plan, *run.shading, run, &s->hits, &s->surface, &s->textures);
   }
-  if (s->surface.turned) CopySoa(s->surface.normal, s->hits.count, &s->surface.unturned);
-  for (const MaterialRun& run : s->runs) {
-    if (run.shading->textured == nullptr) continue;
-    if (!s->textures) s->textures = std::make_unique<HitTextures>();
-    TextureHits({plan.textures, *run.shading, run.begin, run.end}, &s->hits, &s->surface,
-                s->textures.get());
+  for (const MaterialRun& run : LitRuns(*s)) {
+    for (size_t k = 0; k < run.shading->coats.size(); ++k) {
+      CoatHits& coat = s->coats[k];
+      LookUpMaps(plan, *run.shading->coats[k], run, &coat.hits, &coat.surface, &coat.textures);
+    }
   }
 }
 
@@ -279,9 +289,9 @@ SurfacePlan PlanSurfaces(const Scene& scene, const RenderSettings& settings,
   plan.coated = Has(plan.prepared->any, MaterialTrait::kCoated);
   plan.splits = Has(plan.prepared->any, MaterialTrait::kSplit);
   plan.emits_in_front_only = Has(plan.prepared->any, MaterialTrait::kEmitsInFrontOnly);
-  why->items.push_back({"coats", plan.coated,
-                        plan.coated ? "hits on materials with one are shaded once more, as the coat"
-                                    : "no material has any"});
+  why->items.push_back(
+      {"coats", plan.coated,
+       plan.coated ? "over some materials, each with a lobe of its own" : "no material has any"});
   plan.interpolates = std::any_of(scene.meshes.begin(), scene.meshes.end(), InterpolatesRadiance);
   PlanTextures(scene, settings, camera, used, tables, &plan, why);
   plan.textures.ambient = ambient;
@@ -308,46 +318,20 @@ void ResolveSurfaces(const SurfacePlan& plan, const double* film_x, CameraHits* 
 
 namespace {
 
-// to[j] *= by[i].
-void AttenuateBy(const Soa3<float>& by, size_t i, size_t j, Soa3<float>* to) {
-  to->x[j] *= by.x[i];
-  to->y[j] *= by.y[i];
-  to->z[j] *= by.z[i];
-}
-
-// to[j] = left[i] to[j] + (1 - left[i]) radiance: attenuates the ambient light of hit j, and adds
-// what the coat reflects, its albedo times the radiance.
-void CoverAmbient(const Soa3<float>& left, size_t i, size_t j, const Rgb& radiance,
-                  Soa3<float>* to) {
-  const auto cover = [&](const AlignedArray<float>& by, double of, AlignedArray<float>* channel) {
-    (*channel)[j] = static_cast<float>(by[i] * double{(*channel)[j]} + (1 - double{by[i]}) * of);
-  };
-  cover(left.x, radiance.x, &to->x);
-  cover(left.y, radiance.y, &to->y);
-  cover(left.z, radiance.z, &to->z);
-}
-
-// Attenuates emission and reflected ambient light of hits below coats, which the radiance of lights
-// does not include, and adds the ambient light that the coats reflect.
-void CoverByCoats(const SurfacePlan& plan, Surfaces* s) {
-  if (!AnyCoat(*s)) return;
-  const CoatedHits& coats = *s->coats;
-  for (const MaterialRun& run : LitRuns(*s)) {
-    if (!run.shading->coat || !run.shading->mapped) continue;
-    for (size_t i = 0; i < coats.surfaces.hits.count; ++i) {
-      const size_t below = coats.below[i];
-      if (below < run.begin || below >= run.end) continue;
-      CoverAmbient(coats.surfaces.surface.base, i, below, plan.textures.ambient,
-                   &s->textures->ambient);
-      AttenuateBy(coats.surfaces.surface.base, i, below, &s->textures->emission);
+// Attenuates the emission and the reflected ambient light of a hit below a coat, which the radiance
+// of lights does not include, by the coat's transmittance, and adds the ambient light that the coat
+// reflects: its albedo times the radiance.
+void CoverByCoat(const Rgb& ambient, const CoatHits& coat, const MaterialRun& run,
+                 HitParameters* below) {
+  for (int c = 0; c < 3; ++c) {
+    const AlignedArray<float>& left = ChannelOf(coat.surface.transmittance, c);
+    AlignedArray<float>& reflected = ChannelOf(below->ambient, c);
+    AlignedArray<float>& emission = ChannelOf(below->emission, c);
+    for (size_t i = run.begin; i < run.end; ++i) {
+      reflected[i] =
+          static_cast<float>(left[i] * double{reflected[i]} + (1 - double{left[i]}) * ambient[c]);
+      emission[i] *= left[i];
     }
-  }
-}
-
-void PrepareRuns(const SurfacePlan& plan, Surfaces* s) {
-  LookUpMaps(plan, s);
-  for (const MaterialRun& run : LitRuns(*s)) {
-    PrepareRun(*run.shading, run.begin, run.end, &s->surface, s->textures.get());
   }
 }
 
@@ -359,14 +343,14 @@ void PrepareSurfaces(const SurfacePlan& plan, Surfaces* surfaces) {
       s.runs.begin(), s.runs.end(), [](const MaterialRun& run) { return !run.interpolated; });
   s.lit_runs = static_cast<size_t>(interpolated - s.runs.begin());
   s.lit = s.lit_runs == 0 ? 0 : s.runs[s.lit_runs - 1].end;
-  FindCoats(plan, &s);
-  PrepareRuns(plan, &s);
-  if (!AnyCoat(s)) return;
-  Surfaces& coats = s.coats->surfaces;
-  coats.lit_runs = coats.runs.size();
-  coats.lit = coats.hits.count;
-  PrepareRuns(plan, &coats);
-  CoverByCoats(plan, &s);
+  LookUpMaps(plan, CopyCoats(plan, &s), &s);
+  for (const MaterialRun& run : LitRuns(s)) {
+    PrepareBsdf(*run.shading, run.begin, run.end, s.textures.get(), &s.surface, s.coats);
+    if (!run.shading->by_hit.parameters) continue;
+    for (size_t k = 0; k < run.shading->coats.size(); ++k) {
+      CoverByCoat(plan.textures.ambient, s.coats[k], run, s.textures.get());
+    }
+  }
 }
 
 }  // namespace nacre

@@ -14,7 +14,7 @@
 #include "render/prepared_materials.h"
 #include "render/settings.h"
 #include "scene/primitives.h"
-#include "shading/shade.h"
+#include "shading/bsdf.h"
 #include "shading/textures.h"
 
 namespace nacre {
@@ -28,7 +28,7 @@ struct SurfacePlan {
   bool splits = false;                         // some material depends on the film position
   bool emits_in_front_only = false;            // some material does
   bool interpolates = false;  // some mesh interpolates radiance, not normals (mesh_radiance.h)
-  bool textured = false;      // some shape's material has ShadingMaterial::textured
+  bool textured = false;      // some shape's material has ShadingMaterial::scene_material
   TextureScene textures;      // empty unless `textured`, except for `ambient`
 };
 
@@ -58,8 +58,6 @@ struct MaterialRun {
   bool interpolated;  // their radiance comes from DirectPlan::mesh_radiance
 };
 
-struct CoatedHits;
-
 struct Surfaces {
   HitBatch hits;
   Surface surface;
@@ -67,26 +65,19 @@ struct Surfaces {
   size_t lit_runs = 0;            // number of runs that are shaded by lights, not interpolated
   size_t lit = 0;                 // number of hits in these runs
   // The values that maps give the hits. Made for the first material with maps.
-  std::unique_ptr<HitTextures> textures;
-  // The coats over some of the hits. Made for the first hit with a coat.
-  std::unique_ptr<CoatedHits> coats;
+  std::unique_ptr<HitParameters> textures;
+  std::vector<CoatHits> coats;  // as many as any material of a hit so far had
 };
-
-// Hits on clear coats. Each has the position of the hit below it, and a shading normal, maps and a
-// lobe of its own. The integrator shades them like other hits.
-struct CoatedHits {
-  Surfaces surfaces;  // Surface::base is the transmittance of the coat, per channel
-  AlignedArray<uint32_t> below{kBatchCapacity};  // by hit on a coat: the index of the hit below
-};
-
-// Whether any hit has a coat.
-inline bool AnyCoat(const Surfaces& surfaces) {
-  return surfaces.coats && surfaces.coats->surfaces.hits.count > 0;
-}
 
 // The runs that are shaded by lights.
 inline std::span<const MaterialRun> LitRuns(const Surfaces& surfaces) {
   return {surfaces.runs.data(), surfaces.lit_runs};
+}
+
+// The hits of a run, as the BSDF of its material sees them.
+inline BsdfHits BsdfHitsOf(const Surfaces& surfaces, const MaterialRun& run) {
+  return {*run.shading, surfaces.hits,           surfaces.surface, run.begin,
+          run.end,      surfaces.textures.get(), surfaces.coats};
 }
 
 // Hits [begin, end) of a batch that is not sorted yet belong to one run.

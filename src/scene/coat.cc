@@ -23,9 +23,9 @@ double GrazingReflectance(double ior, double f0) {
 
 }  // namespace
 
-std::optional<Material> CoatOf(const Material& material) {
+std::vector<Material> CoatsOf(const Material& material) {
   const auto* below = std::get_if<MetallicRoughnessMaterial>(&material.model);
-  if (below == nullptr || below->coat == 0 || below->coat_ior == 1) return std::nullopt;
+  if (below == nullptr || below->coat == 0 || below->coat_ior == 1) return {};
   MetallicRoughnessMaterial model;
   model.base_color = Rgb(0, 0, 0);
   const double f0 = FresnelF0(below->coat_ior, 0.0);
@@ -43,7 +43,7 @@ std::optional<Material> CoatOf(const Material& material) {
   coat.name = material.name;
   coat.model = model;
   coat.normal_map = below->coat_normal_map;
-  return coat;
+  return {coat};
 }
 
 }  // namespace nacre

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene/coat.h: the clear coat of a material as a material of its own.
+// scene/coat.h: the clear coats of a material as materials of their own.
 #pragma once
 
-#include <optional>
+#include <vector>
 
 #include "scene/material.h"
 
 namespace nacre {
 
-// Returns the clear coat of `material`: metallic_roughness with a black base and a dielectric
-// highlight, whose weight `specular` is the strength of the coat. Hits are shaded a second time
-// with it, with the coat's own roughness and normal, and the material below gets the share of the
-// light that the coat's albedo leaves. Returns nullopt if the material has no coat.
-std::optional<Material> CoatOf(const Material& material);
+// A material has at most this many coats.
+inline constexpr size_t kMostCoats = 4;
+
+// Returns the clear coats of `material` from the bottom up: metallic_roughness with a black base
+// and a dielectric highlight, whose weight `specular` is the strength of the coat, and with the
+// coat's own roughness and normal map. What lies below a coat gets the share of the light that the
+// coat's albedo leaves. Only metallic_roughness has a coat today, and one at most.
+std::vector<Material> CoatsOf(const Material& material);
 
 }  // namespace nacre

@@ -114,9 +114,9 @@ struct MetallicRoughnessMaterial {
   TextureId metallic_roughness_map{};  // as in glTF: green multiplies roughness, blue metallic
   TextureId specular_map{};            // multiplies specular
   TextureId specular_color_map{};      // multiplies dielectric_f0
-  // The strength, roughness and index of refraction of a clear coat over all of the above (CoatOf).
-  // As glTF's KHR_materials_clearcoat, except that the layers below get what the coat's albedo
-  // leaves.
+  // The strength, roughness and index of refraction of a clear coat over all of the above
+  // (CoatsOf). As glTF's KHR_materials_clearcoat, except that the layers below get what the coat's
+  // albedo leaves.
   double coat = 0;                 // in [0, 1]
   double coat_roughness = 0;       // in [0, 1]
   double coat_ior = 1.5;           // in [1, 10]

@@ -1,11 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_io/read_keys.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 namespace nacre {
 
-std::string HintOf(KeyForm form, const Range& range, std::string_view meaning) {
+std::string HintOf(KeyForm form, const Range& range, std::span<const std::string_view> options,
+                   std::string_view meaning) {
   std::string hint;
   switch (form) {
+    case KeyForm::kChoice:
+      return fmt::format("one of: {}", fmt::join(options, ", "));
+    case KeyForm::kBoolean:
+      hint = "true or false";
+      break;
+    case KeyForm::kWhole:
+      hint = "a whole number " + Describe(range);
+      break;
     case KeyForm::kPoint:
       hint = "[x, y, z]";
       break;
@@ -14,7 +26,7 @@ std::string HintOf(KeyForm form, const Range& range, std::string_view meaning) {
     case KeyForm::kColor:
       hint = "[r, g, b] or grey";
       break;
-    default:
+    case KeyForm::kNumber:
       hint = range == limits::kLength ? "a length greater than 0" : "a number " + Describe(range);
   }
   return meaning.empty() ? hint : hint + ": " + std::string(meaning);

@@ -23,7 +23,8 @@ inline std::string_view InnerName(std::string_view name) {
 }
 
 // Describes what to write for a missing key: "[x, y, z]".
-std::string HintOf(KeyForm form, const Range& range, std::string_view meaning);
+std::string HintOf(KeyForm form, const Range& range, std::span<const std::string_view> options,
+                   std::string_view meaning);
 
 // Reads one value; nullopt if it is missing or invalid.
 std::optional<Vec3d> ReadKeyValue(JsonObject* object, std::string_view name, KeyForm form,
@@ -33,7 +34,7 @@ template <class Owner>
 void ReadKey(const SceneKey<Owner>& key, JsonObject* object, Owner* owner) {
   const std::string_view name = InnerName(key.name);
   if (key.use == KeyUse::kRequired) {
-    object->Require(name, HintOf(key.form, key.range, key.meaning));
+    object->Require(name, HintOf(key.form, key.range, key.options, key.meaning));
   }
   if (const auto value = ReadKeyValue(object, name, key.form, key.range, key.options)) {
     key.set(*owner, *value);

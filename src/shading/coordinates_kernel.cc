@@ -41,7 +41,7 @@ HWY_INLINE Vec3V<V> NextPixel(const Vec3V<V>& step, const Vec3V<V>& along, const
           hn::NegMulAdd(along.z, back, step.z)};
 }
 
-void FindSteps(const TexturedRun& run, const HitBatch& hits, HitTextures* t) {
+void FindSteps(const TexturedRun& run, const HitBatch& hits, HitParameters* t) {
   const D d;
   const CameraFrame& camera = run.scene.camera;
   const bool perspective = camera.projection == Projection::kPerspective;
@@ -62,7 +62,7 @@ void FindSteps(const TexturedRun& run, const HitBatch& hits, HitTextures* t) {
 
 // Sets t->point at hits on meshes, in the units of the mapping. FindPoints has set it on spheres.
 void PlaceMeshPoints(const TexturedRun& run, const PreparedTexture& texture, const HitBatch& hits,
-                     HitTextures* t) {
+                     HitParameters* t) {
   const auto sphere_count = static_cast<uint32_t>(run.scene.scene->spheres.size());
   for (size_t i = run.begin; i < run.end; ++i) {
     if (hits.primitive[i] < sphere_count) continue;
@@ -73,7 +73,7 @@ void PlaceMeshPoints(const TexturedRun& run, const PreparedTexture& texture, con
   }
 }
 
-void MapRun(const TexturedRun& run, const PreparedTexture& texture, HitTextures* t) {
+void MapRun(const TexturedRun& run, const PreparedTexture& texture, HitParameters* t) {
   const D d;
   const Vec3V<V> fx = SetVec3(d, texture.frame[0]), fy = SetVec3(d, texture.frame[1]);
   const Vec3V<V> fz = SetVec3(d, texture.frame[2]);
@@ -95,7 +95,7 @@ void MapRun(const TexturedRun& run, const PreparedTexture& texture, HitTextures*
 // Makes v point up, applies the texture's own transform, and computes footprints. `upside_down`
 // selects the hits whose v points down.
 HWY_INLINE void TransformHit(const PreparedTexture& texture, hn::Mask<D> upside_down, size_t i,
-                             HitTextures* t) {
+                             HitParameters* t) {
   const D d;
   const F f;
   const V one = hn::Set(d, 1.0);
@@ -122,7 +122,7 @@ HWY_INLINE void TransformHit(const PreparedTexture& texture, hn::Mask<D> upside_
 }
 
 void MakeCoordinatesT(const TexturedRun& run, const PreparedTexture& texture, const HitBatch& hits,
-                      HitTextures* t) {
+                      HitParameters* t) {
   const D d;
   const bool own = texture.mapping == MappingKind::kUv;
   FindSteps(run, hits, t);
@@ -154,7 +154,7 @@ namespace nacre {
 HWY_EXPORT(MakeCoordinatesT);
 
 void MakeCoordinates(const TexturedRun& run, const PreparedTexture& texture, const HitBatch& hits,
-                     HitTextures* textures) {
+                     HitParameters* textures) {
   HWY_DYNAMIC_DISPATCH(MakeCoordinatesT)(run, texture, hits, textures);
 }
 }  // namespace nacre

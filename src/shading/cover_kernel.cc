@@ -10,8 +10,8 @@
 
 #include "base/geometry-inl.h"
 #include "brdf/sheen-inl.h"
-#include "shading/hit_parameters.h"
 #include "shading/kernels.h"
+#include "shading/models_at_hit.h"
 #include "shading/soa-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -31,13 +31,13 @@ struct LayerReflectionV {
 };
 
 // Parameters of hits i...: the material's, or, where there are maps, those of each hit.
-HWY_INLINE V NumberOfHits(double of_material, const HitTextures* maps, MappedNumber number,
+HWY_INLINE V NumberOfHits(double of_material, const HitParameters* maps, MappedNumber number,
                           size_t i) {
   const D d;
   if (maps == nullptr) return hn::Set(d, of_material);
   return hn::LoadU(d, NumbersOf(*maps, number) + i);
 }
-HWY_INLINE Vec3V<V> ColorOfHits(const Rgb& of_material, const HitTextures* maps,
+HWY_INLINE Vec3V<V> ColorOfHits(const Rgb& of_material, const HitParameters* maps,
                                 MappedNumber number, size_t i) {
   const D d;
   if (maps == nullptr) return SetVec3(d, of_material);
@@ -53,7 +53,7 @@ class LayerOnHits;
 template <>
 class LayerOnHits<SheenModel> {
  public:
-  LayerOnHits(const SheenModel& sheen, const HitTextures* maps) : sheen_(sheen), maps_(maps) {}
+  LayerOnHits(const SheenModel& sheen, const HitParameters* maps) : sheen_(sheen), maps_(maps) {}
 
   HWY_INLINE LayerReflectionV At(size_t i, const AnglesV<V>& a) const {
     const D d;
@@ -73,7 +73,7 @@ class LayerOnHits<SheenModel> {
 
  private:
   const SheenModel& sheen_;
-  const HitTextures* maps_;
+  const HitParameters* maps_;
 };
 
 // --- Code that all kinds of layers share.
@@ -105,12 +105,15 @@ HWY_INLINE V Left(V light, V share) {
 }
 
 template <class Model>
-void Cover(const Model& model, const HitTextures* maps, const ShadeRange& range) {
+void Cover(const Model& model, const HitParameters* maps, const ShadeRange& range) {
   const D d;
   const HalfFloatTag df;
   const Rgb& light = range.light.color;
   const LayerOnHits<Model> layer(model, maps);
   auto& [sum, diffuse, specular] = *range.radiance;
+  constexpr bool kIsDiffuse = Model::kKind == LobeKind::kDiffuse;
+  Soa3<float>& own = kIsDiffuse ? diffuse : specular;  // the component that the layer adds to
+  Soa3<float>& other = kIsDiffuse ? specular : diffuse;
   for (size_t i = range.begin; i < range.end; i += hn::Lanes(d)) {
     const auto mask = hn::FirstN(df, range.end - i);
     const AnglesV<V> angles = AnglesAt(range.surface, *range.on_hits, i);
@@ -127,16 +130,16 @@ void Cover(const Model& model, const HitTextures* maps, const ShadeRange& range)
     cover(sum.y, of_layer.y);
     cover(sum.z, of_layer.z);
     if (!range.components) continue;
-    cover(diffuse.x, of_layer.x);
-    cover(diffuse.y, of_layer.y);
-    cover(diffuse.z, of_layer.z);
-    cover(specular.x, hn::Zero(d));
-    cover(specular.y, hn::Zero(d));
-    cover(specular.z, hn::Zero(d));
+    cover(own.x, of_layer.x);
+    cover(own.y, of_layer.y);
+    cover(own.z, of_layer.z);
+    cover(other.x, hn::Zero(d));
+    cover(other.y, hn::Zero(d));
+    cover(other.z, hn::Zero(d));
   }
 }
 
-void CoverByLayerT(const LayerModel& layer, const HitTextures* maps, const ShadeRange& range) {
+void CoverByLayerT(const LayerModel& layer, const HitParameters* maps, const ShadeRange& range) {
   std::visit([&](const auto& model) { Cover(model, maps, range); }, layer);
 }
 
@@ -149,7 +152,7 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(CoverByLayerT);
 
-void CoverByLayer(const LayerModel& layer, const HitTextures* textures, const ShadeRange& range) {
+void CoverByLayer(const LayerModel& layer, const HitParameters* textures, const ShadeRange& range) {
   HWY_DYNAMIC_DISPATCH(CoverByLayerT)(layer, textures, range);
 }
 }  // namespace nacre

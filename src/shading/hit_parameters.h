@@ -1,96 +1,96 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/hit_parameters.h: applies derive.h to hits with parameters of their own, which are in
-// HitTextures::numbers.
+// shading/hit_parameters.h: the results of texture look-ups at the hits of a batch, and the
+// material parameters and constants that follow from them.
 #pragma once
 
-#include <variant>
+#include <array>
+#include <bit>
+#include <cstddef>
 
-#include "scene/material.h"
-#include "shading/derive.h"
-#include "shading/hit_textures.h"
-#include "shading/material.h"
+#include "brdf/albedo.h"
+#include "hit/batch.h"
+#include "scene/material_parameters.h"
+#include "shading/constants.h"
 
 namespace nacre {
 
-inline const double* NumbersOf(const HitTextures& t, MappedNumber number, int c = 0) {
+// The data of the hits of one batch that lie on materials with maps. It is large, so there is one
+// per worker, and only if the plan has such materials.
+struct HitParameters {
+  // The point that is mapped to (u, v): on spheres the unit outward direction, on meshes the
+  // position relative to the mapping's centre, over its size.
+  Soa3<double> point;
+  AlignedArray<double> inverse_size{kBatchCapacity};  // 1 / (sphere's radius or mapping's size)
+  Soa3<double> geometric;            // unit normal of the sphere or triangle, on the ray's side
+  Soa3<double> interpolated_normal;  // Surface::interpolated_normal in double
+  AlignedArray<double> side{kBatchCapacity};  // -1 where seen from behind or inside, else 1
+  Soa3<double> dp_dx, dp_dy;                  // change of the position from one pixel to the next
+  bool any_mesh = false;                      // whether any of the hits is on a mesh
+
+  // (u, v), their gradients in world space, and their change from pixel to pixel.
+  AlignedArray<double> u{kBatchCapacity}, v{kBatchCapacity};
+  Soa3<double> gradient_u, gradient_v;
+  AlignedArray<float> du_dx{kBatchCapacity}, dv_dx{kBatchCapacity};
+  AlignedArray<float> du_dy{kBatchCapacity}, dv_dy{kBatchCapacity};
+
+  // The frame of a normal map where it is interpolated between a mesh's corners, on the ray's side
+  // and not normalised, as MikkTSpace defines it. `normal_length` is the length of the interpolated
+  // normal, or 0 where the frame comes from the gradients. Filled for the normal map only.
+  Soa3<double> tangent, bitangent;
+  AlignedArray<double> normal_length{kBatchCapacity};
+
+  Soa3<float> texels;  // the result of the last look-up
+
+  // The material's parameters at each hit, by MappedNumber: the material's own times the maps'.
+  // Parameters that are not colours are in x. All that follows is derived from them (derive.h).
+  std::array<Soa3<double>, kMappedNumbers> numbers;
+  // one_average, schlick_average and dielectric_average are AlbedoAverages of each hit's lobe, for
+  // Kulla and Conty's compensation. phong_scale is DerivePhongScale, for the Phong family.
+  AlignedArray<double> one_average{kBatchCapacity}, schlick_average{kBatchCapacity};
+  AlignedArray<double> dielectric_average{kBatchCapacity}, phong_scale{kBatchCapacity};
+  AlignedArray<double> sharp_alpha{kBatchCapacity};  // LobeWidth::sharp_alpha
+  Soa3<float> albedo, ambient, emission;             // for the output layers of these names
+
+  // Pools of columns, with one entry per hit: column k of hit i is at [k * kStride + i].
+  static constexpr size_t kStride = kBatchCapacity + 3 * kBatchPadding;  // not a power of two
+  // The coefficients of albedo fits: the four numbers of AlbedoShape, then two polynomials.
+  static constexpr size_t kFitEntries = 4 + 2 * kAlbedoTerms;
+  AlignedArray<float> fit{kFitEntries * kStride};
+  // The constants of models, and their products with one light. Hits of all models share these
+  // pools, because each hit has one model only.
+  AlignedArray<float> constants{ColumnsOf<MicrofacetConstants<float*>>() * kStride};
+  AlignedArray<float> products{ColumnsOf<MicrofacetLight<float*>>() * kStride};
+  // The hits, and the light's colour, that the products were last made for; products_end is 0 if
+  // there are none. The same products are used again when a lobe is shaded along mirrored
+  // directions, and with the unit light of several sampling strategies.
+  size_t products_begin = 0, products_end = 0;
+  Rgb products_color{0, 0, 0};
+
+  // The number of columns of a struct of pointers to columns.
+  template <class Columns>
+  static constexpr size_t ColumnsOf() {
+    return sizeof(Columns) / sizeof(float*);
+  }
+};
+
+// The numbers of a parameter at the hits, channel c.
+inline const double* NumbersOf(const HitParameters& t, MappedNumber number, int c = 0) {
   return ChannelOf(t.numbers[static_cast<size_t>(number)], c).data();
 }
 
-inline Rgb ColorOfHit(const HitTextures& t, MappedNumber number, size_t i) {
+inline Rgb ColorOfHit(const HitParameters& t, MappedNumber number, size_t i) {
   return {NumbersOf(t, number, 0)[i], NumbersOf(t, number, 1)[i], NumbersOf(t, number, 2)[i]};
 }
 
-// A layer of a material with maps, with the parameters of hit i.
-inline SheenModel ModelAtHit(const SheenModel& sheen, const HitTextures& textures, size_t i) {
-  return {ColorOfHit(textures, MappedNumber::kSheenColor, i),
-          MakeCharlie(NumbersOf(textures, MappedNumber::kSheenRoughness)[i]), sheen.scaling};
-}
-inline LayerModel LayerAtHit(const LayerModel& layer, const HitTextures& textures, size_t i) {
-  return std::visit([&](const auto& model) -> LayerModel { return ModelAtHit(model, textures, i); },
-                    layer);
-}
-
-// MetallicRoughnessHits, ConductorHits and DielectricHits give one channel of a microfacet material
-// at hit i: Colors(i), and Averages(colors) of these.
-struct MetallicRoughnessHits {
-  MetallicRoughnessHits(const MetallicRoughnessMaterial& material, const MicrofacetModel& model,
-                        const HitTextures& t, int c)
-      : base_color(NumbersOf(t, MappedNumber::kColor, c)),
-        metallic(NumbersOf(t, MappedNumber::kMetallic)),
-        dielectric_f0(NumbersOf(t, MappedNumber::kSpecularColor, c)),
-        specular(NumbersOf(t, MappedNumber::kSpecular)),
-        tint(model.fresnel == FresnelForm::kF82 ? material.f82_tint[c] : 1) {}
-
-  NACRE_DERIVE MicrofacetColors Colors(size_t i) const {
-    return DeriveMetallicRoughness(base_color[i], metallic[i], dielectric_f0[i], specular[i], tint);
+// Pointers to the columns of `Columns`, a struct of nothing but float*, one after the other in a
+// pool. Only mapped_kernel.cc writes to them, through a pool that is not const; kernels only read.
+template <class Columns>
+Columns ColumnsIn(const AlignedArray<float>& pool) {
+  std::array<float*, HitParameters::ColumnsOf<Columns>()> columns;
+  for (size_t k = 0; k < columns.size(); ++k) {
+    columns[k] = const_cast<float*>(pool.data()) + k * HitParameters::kStride;
   }
-  NACRE_DERIVE CurveAverages Averages(const MicrofacetColors& at) const {
-    return DeriveAverages(at);
-  }
-
-  const double *base_color, *metallic, *dielectric_f0, *specular;
-  double tint;
-};
-
-struct ConductorHits {
-  ConductorHits(const ConductorMaterial&, const MicrofacetModel& model, const HitTextures&, int c)
-      : f0(model.metal_f0[c]), slope(model.f82_slope[c]), average(model.metal_f_average[c]) {}
-
-  NACRE_DERIVE MicrofacetColors Colors(size_t) const { return DeriveConductor(f0, slope); }
-  NACRE_DERIVE CurveAverages Averages(const MicrofacetColors&) const { return {0, average}; }
-
-  double f0, slope, average;
-};
-
-struct DielectricHits {
-  DielectricHits(const DielectricMaterial&, const MicrofacetModel& model, const HitTextures& t,
-                 int c)
-      : base_color(NumbersOf(t, MappedNumber::kColor, c)),
-        f0(model.dielectric_f0[c]),
-        average(model.dielectric_f_average[c]) {}
-
-  NACRE_DERIVE MicrofacetColors Colors(size_t i) const {
-    return DeriveDielectric(base_color[i], f0);
-  }
-  NACRE_DERIVE CurveAverages Averages(const MicrofacetColors&) const { return {average, 0}; }
-
-  const double* base_color;
-  double f0, average;
-};
-
-// Calls use(hits) with one of these for channel c of the material, which must have a
-// MicrofacetModel.
-template <class Use>
-void VisitChannel(const ShadingMaterial& material, const HitTextures& t, int c, const Use& use) {
-  const auto& model = std::get<MicrofacetModel>(material.model);
-  const Material& of = *material.textured;
-  if (const auto* metallic = std::get_if<MetallicRoughnessMaterial>(&of.model)) {
-    use(MetallicRoughnessHits(*metallic, model, t, c));
-  } else if (const auto* conductor = std::get_if<ConductorMaterial>(&of.model)) {
-    use(ConductorHits(*conductor, model, t, c));
-  } else {
-    use(DielectricHits(std::get<DielectricMaterial>(of.model), model, t, c));
-  }
+  return std::bit_cast<Columns>(columns);
 }
 
 }  // namespace nacre

@@ -11,7 +11,7 @@
 
 namespace nacre {
 
-struct HitTextures;
+struct HitParameters;
 
 // MatteUniforms, PhongUniforms and MicrofacetUniforms are the input of a kernel besides the hits.
 template <class Number>
@@ -36,7 +36,7 @@ struct MicrofacetUniforms : MicrofacetConstants<Number> {
   float eta[3] = {}, k[3] = {};
   // SharpLobeTerms::distribution, or null if no lobe of the range is sharp.
   const float* sharp_distribution = nullptr;
-  // HitTextures::fit if hits have a roughness each: entry k of hit i is at [k * fit_stride + i].
+  // HitParameters::fit if hits have a roughness each: entry k of hit i is at [k * fit_stride + i].
   // Null if all hits have the model's fit.
   const float* fit = nullptr;
   size_t fit_stride = 0;
@@ -86,7 +86,7 @@ void SpreadBase(DiffuseForm form, const float* roughness, const ShadeRange& rang
 // Adds a layer over the model and the layers below it: range.radiance holds what those reflect, and
 // becomes what all reflect (cover_kernel.cc). `textures` is null unless hits have parameters of
 // their own.
-void CoverByLayer(const LayerModel& layer, const HitTextures* textures, const ShadeRange& range);
+void CoverByLayer(const LayerModel& layer, const HitParameters* textures, const ShadeRange& range);
 
 // Each kernel has an overload for constants that all hits share, and one for constants of each hit.
 void ShadeMatte(const MatteUniforms<float>& uniforms, const ShadeRange& range);

@@ -2,6 +2,9 @@
 #include "shading/layer.h"
 
 #include <algorithm>
+#include <limits>
+
+#include "shading/hit_parameters.h"
 
 namespace nacre {
 namespace {
@@ -29,6 +32,24 @@ Vec3d SampleOf(const SheenModel& sheen, const Vec3d& normal, double u0, double u
 double PdfOf(const SheenModel& sheen, double n_dot_l) {
   return CharliePdf(n_dot_l, sheen.charlie.roughness);
 }
+
+SheenModel ModelAtHit(const SheenModel& sheen, const HitParameters& textures, size_t i) {
+  return {ColorOfHit(textures, MappedNumber::kSheenColor, i),
+          MakeCharlie(NumbersOf(textures, MappedNumber::kSheenRoughness)[i]), sheen.scaling};
+}
+
+std::vector<std::pair<std::string_view, double>> NamedTermsOf(const SheenModel& sheen,
+                                                              const Angles<double>& a) {
+  const Charlie<double>& charlie = sheen.charlie;
+  return {{"roughness", charlie.roughness},
+          {"D", CharlieDistribution(a, charlie.alpha)},
+          {"V", CharlieVisibility(a.n_dot_l, a.n_dot_v, CharlieCosineLambda(charlie, a.n_dot_l),
+                                  CharlieCosineLambda(charlie, a.n_dot_v))},
+          {"albedo_l", CharlieAlbedo(charlie, a.n_dot_l)},
+          {"albedo_v", CharlieAlbedo(charlie, a.n_dot_v)}};
+}
+
+double WidthOf(const SheenModel&) { return std::numeric_limits<double>::infinity(); }
 
 bool ShowsSheen(const MetallicRoughnessMaterial& material) {
   return !IsBlack(material.sheen_color) &&
@@ -63,6 +84,20 @@ LayerReflection EvaluateLayer(const LayerModel& layer, const Angles<double>& ang
 
 LayerReflection LayerAlbedo(const LayerModel& layer, double n_dot_v) {
   return std::visit([&](const auto& model) { return AlbedoOf(model, n_dot_v); }, layer);
+}
+
+LayerModel LayerAtHit(const LayerModel& layer, const HitParameters& textures, size_t i) {
+  return std::visit([&](const auto& model) -> LayerModel { return ModelAtHit(model, textures, i); },
+                    layer);
+}
+
+std::vector<std::pair<std::string_view, double>> LayerTerms(const LayerModel& layer,
+                                                            const Angles<double>& angles) {
+  return std::visit([&](const auto& model) { return NamedTermsOf(model, angles); }, layer);
+}
+
+double LayerLobeWidth(const LayerModel& layer) {
+  return std::visit([](const auto& model) { return WidthOf(model); }, layer);
 }
 
 Vec3d SampleLayer(const LayerModel& layer, const Vec3d& normal, double u0, double u1) {

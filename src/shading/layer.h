@@ -1,22 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 // shading/layer.h: layers over a model, such as the fuzz of cloth. A layer reflects some of the
 // light itself, and scales down what the model and the layers below it reflect. SIMD twin:
-// cover_kernel.cc. Clear coats are not layers but surfaces of their own (scene/coat.h).
+// cover_kernel.cc. A clear coat lies over the layers and has a shading normal of its own (bsdf.h).
 #pragma once
 
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "brdf/angles.h"
 #include "brdf/sheen.h"
 #include "scene/material.h"
+#include "shading/reflection.h"
 
 namespace nacre {
 
-// The fuzz of cloth (brdf/sheen.h).
+// The fuzz of cloth (brdf/sheen.h). Its lobe is as wide as diffuse reflection and belongs to the
+// same component, as in Blender's passes.
 struct SheenModel {
   static constexpr std::string_view kName = "sheen";
+  static constexpr LobeKind kKind = LobeKind::kDiffuse;
   Rgb color{0, 0, 0};
   Charlie<double> charlie;
   SheenScaling scaling = SheenScaling::kReciprocal;
@@ -24,9 +28,24 @@ struct SheenModel {
 
 using LayerModel = std::variant<SheenModel>;
 
+// A material has at most this many layers.
+inline constexpr size_t kMostLayers = 4;
+
+inline std::string_view NameOf(const LayerModel& layer) {
+  return std::visit([](const auto& model) { return model.kName; }, layer);
+}
+inline LobeKind KindOf(const LayerModel& layer) {
+  return std::visit([](const auto& model) { return model.kKind; }, layer);
+}
+
 // The layers of a material, with the factors of its maps as parameters, bottom to top. Layers that
 // reflect nothing, whatever the maps, are left out.
 std::vector<LayerModel> MakeLayers(const Material& material);
+
+struct HitParameters;
+
+// A layer of a material with maps, with the parameters of hit i.
+LayerModel LayerAtHit(const LayerModel& layer, const HitParameters& textures, size_t i);
 
 // Removes the layers from a material and returns their names.
 std::vector<std::string_view> RemoveLayers(Material* material);
@@ -42,6 +61,14 @@ LayerReflection EvaluateLayer(const LayerModel& layer, const Angles<double>& ang
 // arrives and leaves at the same angle, as by a mirror. The factor is used for ambient light, too,
 // so that a white surface reflects all of it.
 LayerReflection LayerAlbedo(const LayerModel& layer, double n_dot_v);
+
+// The angle at which the layer's lobe has fallen to about half its peak, in radians; infinite for a
+// layer that reflects diffusely.
+double LayerLobeWidth(const LayerModel& layer);
+
+// The terms of the layer's lobe by name, for explaining a pixel.
+std::vector<std::pair<std::string_view, double>> LayerTerms(const LayerModel& layer,
+                                                            const Angles<double>& angles);
 
 // Samples a direction to light for the layer's own reflection, with u0 and u1 in [0, 1). LayerPdf
 // is the pdf of a direction at n.l, per solid angle.

@@ -58,7 +58,7 @@ ShadingLight PrepareLight(const Light& light, const Vec3d& camera_position);
 
 // Fills `from_spheres` if the light is a point light that is at least kFarRadii radii away from the
 // centre of each sphere; else returns false. All shaded hits must lie on these spheres, with their
-// normals on the outside. Normals are taken before normal mapping (Surface::unturned).
+// normals on the outside. Normals are taken before normal mapping (Surface::interpolated_normal).
 //
 // The error of the offset l = a - r n is then 3 u |l| at most, u = 2^-24, where an offset that is
 // computed in double and rounded has an error of u |l|: |a| <= 4/3 |l| and r <= |l| / 3, so

@@ -39,7 +39,8 @@ template <class At>
 HWY_INLINE void ForEachPacket(const HitBatch& hits, const Surface& surface, LightBatch* result,
                               const At& at) {
   const FloatTag d;
-  const Soa3<float>& n = surface.normal;
+  // Normal-mapped hits get light from above the unmapped surface.
+  const Soa3<float>& n = surface.normal_mapped ? surface.interpolated_normal : surface.normal;
   Soa3<float>& l = result->to_light;
   for (size_t i = 0; i < hits.count; i += hn::Lanes(d)) {
     const LightV light = at(i);
@@ -59,7 +60,7 @@ template <LightForm kForm>
 void EvaluatePositional(const ShadingLight& light, const HitBatch& hits, const Surface& surface,
                         LightBatch* result) {
   const FloatTag d;
-  const Soa3<float>& n = surface.turned ? surface.unturned : surface.normal;
+  const Soa3<float>& n = surface.normal_mapped ? surface.interpolated_normal : surface.normal;
   VisitOffsets(d, light, hits, [&](const auto& offset) HWY_ATTR {
     ForEachPacket(hits, surface, result, [&](size_t i) HWY_ATTR {
       LightV at = PositionalAt<kForm>(d, light, offset(d, i, LoadSoa(d, n, i)));

@@ -4,10 +4,10 @@
 #include <variant>
 
 #include "base/overloaded.h"
-#include "shading/hit_parameters.h"
 #include "shading/lobe_sample.h"
 #include "shading/mapped.h"
-#include "shading/scalar_material.h"
+#include "shading/models_at_hit.h"
+#include "shading/scalar_bsdf.h"
 #include "shading/user_model.h"
 
 #ifndef NACRE_SHADING_LOBE_KERNEL_ONCE_
@@ -64,13 +64,24 @@ HWY_INLINE void ForEachPacket(size_t begin, size_t end, Soa3<float>* to, const A
   }
 }
 
-void SampleCosineT(const Surface& surface, size_t count, const float* u, const float* v,
-                   Soa3<float>* to_light) {
+void SampleCosinesT(const Surface& surface, size_t begin, size_t end, const float* u,
+                    const float* v, Soa3<float>* to_light) {
   const D d;
-  ForEachPacket(0, count, to_light, [&](size_t i) HWY_ATTR {
+  ForEachPacket(begin, end, to_light, [&](size_t i) HWY_ATTR {
     return SampleCosine(d, LoadSoa(D(), surface.normal, i), hn::LoadU(d, u + i),
                         hn::LoadU(d, v + i));
   });
+}
+
+// The product is not fused, so that every target gives the same bits.
+void CosinePdfsT(const Surface& surface, size_t begin, size_t end, const Soa3<float>& to_light,
+                 float* pdf) {
+  const D d;
+  const V by_pi = hn::Set(d, static_cast<float>(M_1_PI));
+  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
+    const V n_dot_l = Dot(LoadSoa(d, surface.normal, i), LoadSoa(d, to_light, i));
+    hn::BlendedStore(hn::Mul(n_dot_l, by_pi), hn::FirstN(d, end - i), d, pdf + i);
+  }
 }
 
 HWY_INLINE V NumberAt(float number, size_t) { return hn::Set(D(), number); }
@@ -125,7 +136,7 @@ class KullaContyShares {
     const float* const entry = lobe_.fit + i;
     const V offset = hn::LoadU(d, entry);
     if (form_ == AlbedoForm::kLossLinear) return hn::Div(offset, hn::Set(d, 6.0f));
-    const V k = hn::LoadU(d, entry + 2 * HitTextures::kStride);
+    const V k = hn::LoadU(d, entry + 2 * HitParameters::kStride);
     const V width =
         form_ == AlbedoForm::kMasked ? hn::Add(k, k) : hn::Div(offset, hn::Set(d, 3.0f));
     return hn::Mul(width, width);
@@ -272,7 +283,8 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace nacre {
-HWY_EXPORT(SampleCosineT);
+HWY_EXPORT(SampleCosinesT);
+HWY_EXPORT(CosinePdfsT);
 HWY_EXPORT(SampleGgxT);
 HWY_EXPORT(SampleGgxMapsT);
 HWY_EXPORT(SamplePhongT);
@@ -297,23 +309,23 @@ const ShadingLight& GivenLight() {
 }
 
 // The textures of the range if its hits have constants each; else null.
-const HitTextures* MapsOf(const ShadingMaterial& material, const LobeRange& range) {
-  return material.mapped_model ? range.textures : nullptr;
+const HitParameters* MapsOf(const ShadingMaterial& material, const LobeRange& range) {
+  return material.by_hit.model ? range.textures : nullptr;
 }
 
-PhongExponent ExponentOf(const PhongFamilyModel& phong, const HitTextures* maps) {
+PhongExponent ExponentOf(const PhongFamilyModel& phong, const HitParameters* maps) {
   return {static_cast<float>(phong.shininess),
           maps != nullptr ? ColumnsIn<PhongConstants<float*>>(maps->constants).shininess : nullptr};
 }
 
 GgxLobe<float> LobeOf(const MicrofacetModel& model) { return {model, model.constants, nullptr}; }
-GgxLobe<float*> LobeOf(const MicrofacetModel& model, const HitTextures& maps, bool widths) {
+GgxLobe<float*> LobeOf(const MicrofacetModel& model, const HitParameters& maps, bool widths) {
   return {model, ColumnsIn<MicrofacetConstants<float*>>(maps.constants),
           widths ? maps.fit.data() : nullptr};
 }
 
 // Sets the model's Fresnel curve and shadowing to those of hit i.
-void TakeHit(const ShadingMaterial& material, const HitTextures& t, size_t i,
+void TakeHit(const ShadingMaterial& material, const HitParameters& t, size_t i,
              MicrofacetModel* model) {
   for (int c = 0; c < 3; ++c) {
     VisitChannel(material, t, c, [&](const auto& channel) {
@@ -328,30 +340,6 @@ void TakeHit(const ShadingMaterial& material, const HitTextures& t, size_t i,
   model->schlick_k = SchlickK<double>(model->shadowing, NumbersOf(t, MappedNumber::kWidth)[i]);
 }
 
-// The factor by which the layers over hit i attenuate a mirror's reflection.
-double LeftByLayers(const ShadingMaterial& material, const LobeRange& range, size_t i,
-                    double n_dot_v) {
-  const HitTextures* const maps = MapsOf(material, range);
-  double left = 1;
-  for (const LayerModel& layer : material.layers) {
-    left *= LayerAlbedo(maps != nullptr ? LayerAtHit(layer, *maps, i) : layer, n_dot_v).below;
-  }
-  return left;
-}
-
-// The reflectance of a perfect mirror at this n.v. Its shadowing loses nothing, except with
-// kSchlickDirect, whose k is 1/8 at roughness 0 (Karis 2013); of that loss, Turquin's compensation
-// returns the fraction given by the reflectance at normal incidence. Kulla and Conty's compensation
-// is a lobe of its own.
-Rgb MirrorAt(const MicrofacetModel& model, double cosine) {
-  const Rgb fresnel = FresnelOf(model, cosine, 1 - cosine);
-  if (model.shadowing != Shadowing::kSchlickDirect) return fresnel;
-  const double g1 = cosine / (cosine * (1 - model.schlick_k) + model.schlick_k);
-  const double single = g1 * g1;
-  if (model.compensation != Compensation::kTurquin) return fresnel * single;
-  return fresnel * single + TurquinTerm(model, cosine, 1 - cosine) * (1 - single);
-}
-
 }  // namespace
 
 bool HasSampledLobe(const ShadingMaterial& material) {
@@ -362,25 +350,14 @@ bool HasSampledLobe(const ShadingMaterial& material) {
                     material.model);
 }
 
-bool DiffuseIsFlat(const ShadingMaterial& material) {
-  if (material.turned) return false;  // the unmapped surface's horizon cuts off light
-  if (!material.layers.empty()) return false;
-  if (const auto* matte = std::get_if<MatteModel>(&material.model)) {
-    return matte->form == DiffuseForm::kLambert;
-  }
-  // A user model with a sampler has no diffuse component.
-  if (std::holds_alternative<UserModel>(material.model)) return HasSampledLobe(material);
-  const auto* model = std::get_if<MicrofacetModel>(&material.model);
-  if (model == nullptr) return true;
-  if (model->base_form != DiffuseForm::kLambert) return false;
-  return model->coupling == DiffuseCoupling::kNone ||
-         (model->coupling == DiffuseCoupling::kAlbedoScaled &&
-          model->compensation != Compensation::kKullaConty);
+void SampleCosines(const Surface& surface, size_t begin, size_t end, const float* u, const float* v,
+                   Soa3<float>* to_light) {
+  HWY_DYNAMIC_DISPATCH(SampleCosinesT)(surface, begin, end, u, v, to_light);
 }
 
-void SampleCosine(const Surface& surface, size_t count, const float* u, const float* v,
-                  Soa3<float>* to_light) {
-  HWY_DYNAMIC_DISPATCH(SampleCosineT)(surface, count, u, v, to_light);
+void CosinePdfs(const Surface& surface, size_t begin, size_t end, const Soa3<float>& to_light,
+                float* pdf) {
+  HWY_DYNAMIC_DISPATCH(CosinePdfsT)(surface, begin, end, to_light, pdf);
 }
 
 void SampleLobe(const ShadingMaterial& material, const LobeRange& range, const float* u,
@@ -389,7 +366,7 @@ void SampleLobe(const ShadingMaterial& material, const LobeRange& range, const f
   if (const auto* user = std::get_if<UserModel>(&material.model)) {
     return SampleUser(*user, range, u, v, scratch, to_light);
   }
-  const HitTextures* const maps = MapsOf(material, range);
+  const HitParameters* const maps = MapsOf(material, range);
   if (const auto* phong = std::get_if<PhongFamilyModel>(&material.model)) {
     return HWY_DYNAMIC_DISPATCH(SamplePhongT)(phong->model, ExponentOf(*phong, maps), range, u, v,
                                               to_light);
@@ -399,7 +376,7 @@ void SampleLobe(const ShadingMaterial& material, const LobeRange& range, const f
     return HWY_DYNAMIC_DISPATCH(SampleGgxT)(LobeOf(model), range, u, v, to_light);
   }
   HWY_DYNAMIC_DISPATCH(SampleGgxMapsT)
-  (LobeOf(model, *maps, material.mapped_width), range, u, v, to_light);
+  (LobeOf(model, *maps, material.by_hit.width), range, u, v, to_light);
 }
 
 void LobePdf(const ShadingMaterial& material, const LobeRange& hits, const LightBatch& light,
@@ -413,7 +390,7 @@ void LobePdf(const ShadingMaterial& material, const LobeRange& hits, const Light
   }
   const ShadeRange range{hits.hits,  hits.surface, GivenLight(), &light,
                          hits.begin, hits.end,     nullptr,      false};
-  const HitTextures* const maps = MapsOf(material, hits);
+  const HitParameters* const maps = MapsOf(material, hits);
   if (const auto* phong = std::get_if<PhongFamilyModel>(&material.model)) {
     return HWY_DYNAMIC_DISPATCH(PhongPdfT)(phong->model, ExponentOf(*phong, maps), hits, light,
                                            FormSharpTerms(*phong, range, maps, &scratch->sharp),
@@ -426,17 +403,17 @@ void LobePdf(const ShadingMaterial& material, const LobeRange& hits, const Light
     return HWY_DYNAMIC_DISPATCH(GgxPdfT)(LobeOf(model), hits, light, distribution, pdf);
   }
   HWY_DYNAMIC_DISPATCH(GgxPdfMapsT)
-  (LobeOf(model, *maps, material.mapped_width), hits, light, distribution, pdf);
+  (LobeOf(model, *maps, material.by_hit.width), hits, light, distribution, pdf);
 }
 
 bool IsMirror(const ShadingMaterial& material, const LobeRange& range, size_t hit) {
   const auto* model = std::get_if<MicrofacetModel>(&material.model);
-  if (model == nullptr || !material.mapped_model) return HasDeltaLobe(material);
+  if (model == nullptr || !material.by_hit.model) return HasDeltaLobe(material);
   return IsDeltaLobe(AlphaFromRoughness(NumbersOf(*range.textures, MappedNumber::kWidth)[hit]));
 }
 
 bool AnyMirror(const ShadingMaterial& material, const LobeRange& range) {
-  if (!material.mapped_model) return HasDeltaLobe(material);
+  if (!material.by_hit.model) return HasDeltaLobe(material);
   for (size_t i = range.begin; i < range.end; ++i) {
     if (IsMirror(material, range, i)) return true;
   }
@@ -447,20 +424,17 @@ void MirrorDirections(const LobeRange& range, Soa3<float>* to_light) {
   HWY_DYNAMIC_DISPATCH(MirrorDirectionsT)(range, to_light);
 }
 
-void MirrorReflectance(const ShadingMaterial& material, const LobeRange& range,
-                       Soa3<float>* reflectance) {
+void MirrorReflectances(const ShadingMaterial& material, const LobeRange& range,
+                        Soa3<float>* reflectance) {
   auto at_hit = std::get<MicrofacetModel>(material.model);
   const Soa3<float>& n = range.surface.normal;
   const Soa3<float>& v = range.surface.to_view;
   for (size_t i = range.begin; i < range.end; ++i) {
     const double n_dot_v =
         double{n.x[i]} * v.x[i] + double{n.y[i]} * v.y[i] + double{n.z[i]} * v.z[i];
-    if (material.mapped_model) TakeHit(material, *range.textures, i, &at_hit);
+    if (material.by_hit.model) TakeHit(material, *range.textures, i, &at_hit);
     const double cosine = std::clamp(n_dot_v, 0.0, 1.0);
-    const Rgb mirrored = MirrorAt(at_hit, cosine) * LeftByLayers(material, range, i, cosine);
-    reflectance->x[i] = static_cast<float>(mirrored.x);
-    reflectance->y[i] = static_cast<float>(mirrored.y);
-    reflectance->z[i] = static_cast<float>(mirrored.z);
+    SetVector(MirrorReflectance(at_hit, cosine), i, reflectance);
   }
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scene/material.h"
-#include "shading/scalar_material.h"
+#include "shading/scalar_bsdf.h"
 
 namespace nacre {
 

@@ -3,26 +3,26 @@
 // are too sharp for float.
 #pragma once
 
-#include "shading/hit_textures.h"
+#include "shading/hit_parameters.h"
 #include "shading/kernels.h"
 #include "shading/material.h"
 
 namespace nacre {
 
-// Fills HitTextures::products with the MatteLight, PhongLight or MicrofacetLight of hits
+// Fills HitParameters::products with the MatteLight, PhongLight or MicrofacetLight of hits
 // [begin, end), computed in double and rounded once, as for materials without maps.
 struct MappedProducts {
   const ShadingMaterial& material;
   Rgb color;
   size_t begin, end;
 };
-void MakeProducts(const MappedProducts& products, HitTextures* textures);
+void MakeProducts(const MappedProducts& products, HitParameters* textures);
 
 // Computes SharpLobeTerms under the light of a range in `terms`, and returns it, or null if no hit
 // has a sharp lobe. `maps` is null unless hits have a lobe width each.
 const SharpLobeTerms* FormSharpTerms(const PhongFamilyModel& model, const ShadeRange& range,
-                                     const HitTextures* maps, SharpLobeTerms* terms);
+                                     const HitParameters* maps, SharpLobeTerms* terms);
 const SharpLobeTerms* FormSharpTerms(const MicrofacetModel& model, const ShadeRange& range,
-                                     const HitTextures* maps, SharpLobeTerms* terms);
+                                     const HitParameters* maps, SharpLobeTerms* terms);
 
 }  // namespace nacre

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <variant>
 
-#include "shading/hit_parameters.h"
 #include "shading/mapped.h"
+#include "shading/models_at_hit.h"
 #include "shading/texture_kernels.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -37,9 +37,9 @@ struct Hits {
   }
 };
 
-void StartNumbersT(const TexturedRun& run, HitTextures* t) {
+void StartNumbersT(const TexturedRun& run, HitParameters* t) {
   const Hits hits{run.begin, run.end};
-  const Material& material = *run.material.textured;
+  const Material& material = *run.material.scene_material;
   for (const MaterialMap& map : ModelOf(material)->maps) {
     for (const MapTarget& target : TargetsOf(map)) {
       const Rgb factor = target.factor(material);
@@ -51,7 +51,7 @@ void StartNumbersT(const TexturedRun& run, HitTextures* t) {
   }
 }
 
-void MultiplyNumberT(const TexturedRun& run, const MapTarget& target, HitTextures* t) {
+void MultiplyNumberT(const TexturedRun& run, const MapTarget& target, HitParameters* t) {
   const double most = target.most;
   for (int c = 0; c < (target.is_color ? 3 : 1); ++c) {
     const float* HWY_RESTRICT const texels =
@@ -67,7 +67,7 @@ void MultiplyNumberT(const TexturedRun& run, const MapTarget& target, HitTexture
 // Stores the albedo and ambient output layers of hits with parameters of their own. shown_of(c, i)
 // is channel c of hit i.
 template <class ShownOf>
-void PutShown(const TexturedRun& run, const ShownOf& shown_of, HitTextures* t) {
+void PutShown(const TexturedRun& run, const ShownOf& shown_of, HitParameters* t) {
   const Hits hits{run.begin, run.end};
   for (int c = 0; c < 3; ++c) {
     float *const albedo = ChannelOf(t->albedo, c).data(), *const ambient =
@@ -81,7 +81,7 @@ void PutShown(const TexturedRun& run, const ShownOf& shown_of, HitTextures* t) {
   }
 }
 
-void PutShown(const TexturedRun& run, HitTextures* t) {
+void PutShown(const TexturedRun& run, HitParameters* t) {
   const Hits hits{run.begin, run.end};
   const double* color[3];
   for (int c = 0; c < 3; ++c) {
@@ -89,7 +89,7 @@ void PutShown(const TexturedRun& run, HitTextures* t) {
     hits.Fill(ChannelOf(t->emission, c).data(), [&](size_t i) { return emission[i]; });
     color[c] = NumbersOf(*t, MappedNumber::kColor, c);
   }
-  const Material& material = *run.material.textured;
+  const Material& material = *run.material.scene_material;
   if (const auto* phong = std::get_if<PhongMaterial>(&material.model)) {
     const Rgb kd = phong->kd, ka = phong->ka;
     PutShown(
@@ -114,7 +114,7 @@ void PutShown(const TexturedRun& run, HitTextures* t) {
 // Stores the constants of a rough diffuse surface; roughness(i) is that of hit i.
 template <class Roughness>
 void PutMatte(const TexturedRun& run, DiffuseForm form, const Roughness& roughness,
-              const MatteConstants<float*>& to, HitTextures* t) {
+              const MatteConstants<float*>& to, HitParameters* t) {
   if (form == DiffuseForm::kLambert) return;
   const Hits hits{run.begin, run.end};
   hits.Fill(to.roughness, roughness);
@@ -125,19 +125,19 @@ void PutMatte(const TexturedRun& run, DiffuseForm form, const Roughness& roughne
   }
 }
 
-void Finish(const TexturedRun& run, const MatteModel& model, HitTextures* t) {
+void Finish(const TexturedRun& run, const MatteModel& model, HitParameters* t) {
   const auto to = ColumnsIn<MatteConstants<float*>>(t->constants);
   PutMatte(
       run, model.form, [&](size_t) { return model.roughness; }, to, t);
 }
 
-void Finish(const TexturedRun& run, const PhongFamilyModel&, HitTextures* t) {
+void Finish(const TexturedRun& run, const PhongFamilyModel&, HitParameters* t) {
   const Hits hits{run.begin, run.end};
-  const auto& phong = std::get<PhongMaterial>(run.material.textured->model);
+  const auto& phong = std::get<PhongMaterial>(run.material.scene_material->model);
   const double* const exponents = NumbersOf(*t, MappedNumber::kWidth);
   const auto to = ColumnsIn<PhongConstants<float*>>(t->constants);
   hits.Fill(to.shininess, [&](size_t i) { return exponents[i]; });
-  if (run.material.mapped_width) {
+  if (run.material.by_hit.width) {
     hits.Fill(t->phong_scale.data(),
               [&](size_t i) { return DerivePhongScale(phong, exponents[i]); });
   } else {
@@ -146,11 +146,11 @@ void Finish(const TexturedRun& run, const PhongFamilyModel&, HitTextures* t) {
   }
 }
 
-void PutFit(const AlbedoFit& fit, const AlbedoPolynomial& second, size_t i, HitTextures* t) {
+void PutFit(const AlbedoFit& fit, const AlbedoPolynomial& second, size_t i, HitParameters* t) {
   float* to = t->fit.data() + i;
   const auto put = [&](float value) {
     *to = value;
-    to += HitTextures::kStride;
+    to += HitParameters::kStride;
   };
   put(fit.shape.offset);
   put(fit.shape.scale);
@@ -163,21 +163,21 @@ void PutFit(const AlbedoFit& fit, const AlbedoPolynomial& second, size_t i, HitT
 // Stores the albedos of the hits' lobes: the fits of hits with a roughness each, whose second curve
 // is Schlick's or that of a dielectric's index; and, for Kulla and Conty's compensation, the
 // averages. Hits with the same roughness as the hit before reuse its fit.
-void PutAlbedos(const TexturedRun& run, const MicrofacetModel& model, HitTextures* t) {
+void PutAlbedos(const TexturedRun& run, const MicrofacetModel& model, HitParameters* t) {
   const bool kulla_conty = model.compensation == Compensation::kKullaConty;
-  if (!run.material.mapped_width && !kulla_conty) return;
+  if (!run.material.by_hit.width && !kulla_conty) return;
   const double* const roughness = NumbersOf(*t, MappedNumber::kWidth);
   AlbedoFit fit = model.albedo.lobe;
   DielectricCurve curve{model.albedo.fresnel, model.albedo.average};
   double last = -1;
   for (size_t i = run.begin; i < run.end; ++i) {
-    if (run.material.mapped_width && roughness[i] != last) {
+    if (run.material.by_hit.width && roughness[i] != last) {
       last = roughness[i];
       fit = kulla_conty ? MakeAlbedoFit(model.shadowing, last)
                         : BlendAlbedoCurves(model.shadowing, last);
       if (model.curves) curve = BlendDielectricCurves(*model.curves, last);
     }
-    if (run.material.mapped_width) PutFit(fit, model.curves ? curve.fresnel : fit.schlick, i, t);
+    if (run.material.by_hit.width) PutFit(fit, model.curves ? curve.fresnel : fit.schlick, i, t);
     t->one_average[i] = fit.e_average;
     t->schlick_average[i] = fit.schlick_average;
     t->dielectric_average[i] = curve.average;
@@ -187,7 +187,7 @@ void PutAlbedos(const TexturedRun& run, const MicrofacetModel& model, HitTexture
 // DeriveKullaConty of a channel at hit i.
 template <class Channel>
 struct KullaContyAt {
-  KullaContyAt(const MicrofacetModel& model, const Channel& hits, const HitTextures& t)
+  KullaContyAt(const MicrofacetModel& model, const Channel& hits, const HitParameters& t)
       : form(model),
         channel(hits),
         one(t.one_average.data()),
@@ -204,7 +204,7 @@ struct KullaContyAt {
 };
 
 void PutWidths(const TexturedRun& run, Shadowing shadowing, const MicrofacetConstants<float*>& to,
-               HitTextures* t) {
+               HitParameters* t) {
   const double* const roughness = NumbersOf(*t, MappedNumber::kWidth);
   double* const sharp = t->sharp_alpha.data();
   Hits{run.begin, run.end}.Each([&](size_t i) {
@@ -215,9 +215,9 @@ void PutWidths(const TexturedRun& run, Shadowing shadowing, const MicrofacetCons
 }
 
 void PutBase(const TexturedRun& run, const MicrofacetModel& model,
-             const MicrofacetConstants<float*>& to, HitTextures* t) {
+             const MicrofacetConstants<float*>& to, HitParameters* t) {
   if (model.base_form == DiffuseForm::kLambert) return;
-  const Material& material = *run.material.textured;
+  const Material& material = *run.material.scene_material;
   std::optional<double> own;  // empty: the base has the lobe's roughness
   if (const auto* metallic = std::get_if<MetallicRoughnessMaterial>(&material.model)) {
     own = metallic->diffuse_roughness;
@@ -234,7 +234,7 @@ void PutBase(const TexturedRun& run, const MicrofacetModel& model,
   }
 }
 
-void Finish(const TexturedRun& run, const MicrofacetModel& model, HitTextures* t) {
+void Finish(const TexturedRun& run, const MicrofacetModel& model, HitParameters* t) {
   const Hits hits{run.begin, run.end};
   const auto to = ColumnsIn<MicrofacetConstants<float*>>(t->constants);
   const bool kulla_conty = model.compensation == Compensation::kKullaConty;
@@ -258,16 +258,16 @@ void Finish(const TexturedRun& run, const MicrofacetModel& model, HitTextures* t
   PutBase(run, model, to, t);
 }
 
-void Finish(const TexturedRun&, const std::monostate&, HitTextures*) {}
-void Finish(const TexturedRun&, const UserModel&, HitTextures*) {}
+void Finish(const TexturedRun&, const std::monostate&, HitParameters*) {}
+void Finish(const TexturedRun&, const UserModel&, HitParameters*) {}
 
-void FinishNumbersT(const TexturedRun& run, HitTextures* t) {
+void FinishNumbersT(const TexturedRun& run, HitParameters* t) {
   PutShown(run, t);
-  if (!run.material.mapped_model) return;
+  if (!run.material.by_hit.model) return;
   std::visit([&](const auto& model) { Finish(run, model, t); }, run.material.model);
 }
 
-void Multiply(const MappedProducts& products, const MatteModel&, int c, HitTextures* t) {
+void Multiply(const MappedProducts& products, const MatteModel&, int c, HitParameters* t) {
   const double light = products.color[c];
   const double* const color = NumbersOf(*t, MappedNumber::kColor, c);
   const auto to = ColumnsIn<MatteLight<float*>>(t->products);
@@ -275,8 +275,8 @@ void Multiply(const MappedProducts& products, const MatteModel&, int c, HitTextu
       to.diffuse[c], [&](size_t i) { return DeriveDiffuse(color[i]) * light; });
 }
 
-void Multiply(const MappedProducts& products, const PhongFamilyModel&, int c, HitTextures* t) {
-  const auto& phong = std::get<PhongMaterial>(products.material.textured->model);
+void Multiply(const MappedProducts& products, const PhongFamilyModel&, int c, HitParameters* t) {
+  const auto& phong = std::get<PhongMaterial>(products.material.scene_material->model);
   const PhongConvention convention = phong.convention;
   const double light = products.color[c], kd = phong.kd[c];
   const double* const color = NumbersOf(*t, MappedNumber::kColor, c);
@@ -292,7 +292,7 @@ void Multiply(const MappedProducts& products, const PhongFamilyModel&, int c, Hi
 
 template <class Channel, class Diffuse>
 void Multiply(const MappedProducts& products, const MicrofacetModel& model, int c,
-              const Channel& channel, const Diffuse& diffuse, HitTextures* t) {
+              const Channel& channel, const Diffuse& diffuse, HitParameters* t) {
   const Hits hits{products.begin, products.end};
   const MicrofacetForm form = model;
   const double light = products.color[c];
@@ -315,7 +315,8 @@ void Multiply(const MappedProducts& products, const MicrofacetModel& model, int 
   });
 }
 
-void Multiply(const MappedProducts& products, const MicrofacetModel& model, int c, HitTextures* t) {
+void Multiply(const MappedProducts& products, const MicrofacetModel& model, int c,
+              HitParameters* t) {
   VisitChannel(products.material, *t, c, [&](const auto& channel) {
     if (model.compensation != Compensation::kKullaConty) {
       return Multiply(
@@ -331,10 +332,10 @@ void Multiply(const MappedProducts& products, const MicrofacetModel& model, int 
   });
 }
 
-void Multiply(const MappedProducts&, const std::monostate&, int, HitTextures*) {}
-void Multiply(const MappedProducts&, const UserModel&, int, HitTextures*) {}
+void Multiply(const MappedProducts&, const std::monostate&, int, HitParameters*) {}
+void Multiply(const MappedProducts&, const UserModel&, int, HitParameters*) {}
 
-void MakeProductsT(const MappedProducts& products, HitTextures* t) {
+void MakeProductsT(const MappedProducts& products, HitParameters* t) {
   for (int c = 0; c < 3; ++c) {
     std::visit([&](const auto& model) { Multiply(products, model, c, t); },
                products.material.model);
@@ -353,21 +354,21 @@ HWY_EXPORT(MultiplyNumberT);
 HWY_EXPORT(FinishNumbersT);
 HWY_EXPORT(MakeProductsT);
 
-void StartNumbers(const TexturedRun& run, HitTextures* textures) {
+void StartNumbers(const TexturedRun& run, HitParameters* textures) {
   HWY_DYNAMIC_DISPATCH(StartNumbersT)(run, textures);
 }
 
-void MultiplyNumber(const TexturedRun& run, const MapTarget& target, HitTextures* textures) {
+void MultiplyNumber(const TexturedRun& run, const MapTarget& target, HitParameters* textures) {
   HWY_DYNAMIC_DISPATCH(MultiplyNumberT)(run, target, textures);
 }
 
-void FinishNumbers(const TexturedRun& run, HitTextures* textures) {
+void FinishNumbers(const TexturedRun& run, HitParameters* textures) {
   textures->products_end = 0;  // the products were made of other parameters
   HWY_DYNAMIC_DISPATCH(FinishNumbersT)(run, textures);
 }
 
-void MakeProducts(const MappedProducts& products, HitTextures* textures) {
-  HitTextures& t = *textures;
+void MakeProducts(const MappedProducts& products, HitParameters* textures) {
+  HitParameters& t = *textures;
   const bool are_there = t.products_begin == products.begin && t.products_end == products.end &&
                          t.products_color == products.color;
   if (are_there) return;

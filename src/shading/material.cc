@@ -194,20 +194,21 @@ MicrofacetModel MakeModel(const DielectricMaterial& material) {
 }
 
 void FindMaps(const Material& material, ShadingMaterial* prepared) {
-  prepared->mapped = material.vertex_colors != VertexColors::kNone;
-  prepared->mapped_model = material.vertex_colors == VertexColors::kBase;
+  prepared->by_hit.parameters = material.vertex_colors != VertexColors::kNone;
+  prepared->by_hit.model = material.vertex_colors == VertexColors::kBase;
   if (const MaterialModel* const model = ModelOf(material)) {
     for (const MaterialMap& map : model->maps) {
       if (!map.get(material).valid()) continue;
       for (const MapTarget& target : TargetsOf(map)) {
-        prepared->mapped = true;
-        if (target.number != MappedNumber::kEmission) prepared->mapped_model = true;
-        if (target.number == MappedNumber::kWidth) prepared->mapped_width = true;
+        prepared->by_hit.parameters = true;
+        if (target.number != MappedNumber::kEmission) prepared->by_hit.model = true;
+        if (target.number == MappedNumber::kWidth) prepared->by_hit.width = true;
       }
     }
   }
-  prepared->turned = material.normal_map.texture.valid() || material.bump_map.texture.valid();
-  if (prepared->mapped || prepared->turned) prepared->textured = &material;
+  prepared->by_hit.normal =
+      material.normal_map.texture.valid() || material.bump_map.texture.valid();
+  if (prepared->by_hit.parameters || prepared->by_hit.normal) prepared->scene_material = &material;
 }
 
 // A black base, such as a metal's, reflects nothing, so how it is coupled to the lobe does not
@@ -215,7 +216,7 @@ void FindMaps(const Material& material, ShadingMaterial* prepared) {
 // kept, because the curve's value is at hand and the kernels of most materials use it.
 void SkipBlackBase(ShadingMaterial* prepared) {
   auto* const model = std::get_if<MicrofacetModel>(&prepared->model);
-  if (model == nullptr || prepared->mapped || model->diffuse != Rgb(0)) return;
+  if (model == nullptr || prepared->by_hit.parameters || model->diffuse != Rgb(0)) return;
   if (model->coupling == DiffuseCoupling::kAlbedoScaled) model->coupling = DiffuseCoupling::kNone;
   model->base_form = DiffuseForm::kLambert;
 }
@@ -282,10 +283,8 @@ void FinishModel(ShadingMaterial* prepared) {
                          microfacet->coupling == DiffuseCoupling::kAlbedoScaled;
 }
 
-std::shared_ptr<const ShadingMaterial> PrepareCoat(const Material& material) {
-  const std::optional<Material> coat = CoatOf(material);
-  if (!coat) return nullptr;
-  const auto own = std::make_shared<const Material>(*coat);
+std::shared_ptr<const ShadingMaterial> PrepareCoat(const Material& coat) {
+  const auto own = std::make_shared<const Material>(coat);
   // SkipBlackBase is not called: the coat's base is black, but 1 - the coat's albedo is needed as
   // the coat's transmittance.
   ShadingMaterial prepared = PrepareUncoated(*own);
@@ -301,27 +300,29 @@ ShadingMaterial PrepareMaterial(const Material& material, bool in_ambient) {
   prepared.in_ambient = in_ambient;
   SkipBlackBase(&prepared);
   FinishModel(&prepared);
-  prepared.coat = PrepareCoat(material);
+  for (const Material& coat : CoatsOf(material)) prepared.coats.push_back(PrepareCoat(coat));
   // The ambient light that coats and layers reflect, and the emission that coats transmit, depend
   // on the view direction of the hit.
-  const bool covered = prepared.coat || !prepared.layers.empty();
-  if ((covered && in_ambient) || (prepared.coat && !IsBlack(prepared.emission))) {
-    prepared.mapped = true;
-    prepared.textured = &material;
+  const bool coated = !prepared.coats.empty();
+  if (((coated || !prepared.layers.empty()) && in_ambient) ||
+      (coated && !IsBlack(prepared.emission))) {
+    prepared.by_hit.parameters = true;
+    prepared.scene_material = &material;
   }
   return prepared;
 }
 
 void DropMaps(ShadingMaterial* material) {
-  material->textured = nullptr;
-  material->mapped = material->mapped_model = material->mapped_width = material->turned = false;
-  if (!material->coat) return;
-  ShadingMaterial coat = *material->coat;
-  DropMaps(&coat);
-  material->coat = std::make_shared<const ShadingMaterial>(std::move(coat));
+  material->scene_material = nullptr;
+  material->by_hit = {};
+  for (std::shared_ptr<const ShadingMaterial>& coat : material->coats) {
+    auto without_maps = std::make_shared<ShadingMaterial>(*coat);
+    DropMaps(without_maps.get());
+    coat = std::move(without_maps);
+  }
 }
 
-Rgb LeftByCoat(const ShadingMaterial& coat, double n_dot_v) {
+Rgb TransmittedByCoat(const ShadingMaterial& coat, double n_dot_v) {
   const auto& model = std::get<MicrofacetModel>(coat.model);
   return MakeRgb([&](int c) { return std::max(1 - CoverAlbedo(model, n_dot_v, c), 0.0); });
 }
@@ -346,7 +347,7 @@ double CoverAlbedo(const MicrofacetModel& model, double n_dot_v, int channel) {
 }
 
 bool HasDoubleTerms(const ShadingMaterial& material) {
-  if (material.textured != nullptr) return true;  // mappings need the exact normal, too
+  if (material.scene_material != nullptr) return true;  // mappings need the exact normal, too
   return std::visit(
       Overloaded{[](const PhongFamilyModel& phong) { return phong.double_terms; },
                  [](const MicrofacetModel& microfacet) { return microfacet.double_terms; },

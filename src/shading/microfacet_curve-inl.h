@@ -78,7 +78,7 @@ HWY_INLINE RgbV ReflectedBy(FloatTag d, const Curve& curve, size_t i,
 }
 
 // F0 F times the light, where dielectric and metal of a mix each have their own F0: Turquin's
-// compensation adds this times 1 / E - 1 (TurquinTerm of scalar_material.h).
+// compensation adds this times 1 / E - 1 (TurquinTerm of scalar_bsdf.h).
 template <class Number>
 HWY_INLINE RgbV TurquinTerm(FloatTag d, const SchlickCurveV& curve, size_t i,
                             const MicrofacetUniforms<Number>&,

@@ -156,7 +156,7 @@ struct Microfacet {
                            RgbV* base) const {
     const bool scaled = model.coupling == DiffuseCoupling::kAlbedoScaled;
     const Surface& surface = *view.surface;
-    if (scaled) *base = MulRgb(*base, LoadRgb(d, surface.base, i));
+    if (scaled) *base = MulRgb(*base, LoadRgb(d, surface.transmittance, i));
     if (model.compensation != Compensation::kKullaConty) return;
     const FloatV multiple = hn::LoadU(d, surface.multiple.data() + i);
     const FloatV largest = hn::Set(d, std::numeric_limits<float>::max());

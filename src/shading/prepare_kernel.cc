@@ -118,13 +118,15 @@ HWY_INLINE void FillAlbedos(const Numbers& numbers, size_t begin, size_t end, Al
   }
 }
 
-// kScaled is true for DiffuseCoupling::kAlbedoScaled; other couplings do not read Surface::base.
+// kScaled is true for DiffuseCoupling::kAlbedoScaled; other couplings do not read
+// Surface::transmittance.
 template <bool kScaled, class Numbers>
 HWY_INLINE void PrepareBlock(const MicrofacetModel& model, const Numbers& numbers, size_t begin,
                              size_t end, const AlbedoBlock& block, Surface* surface) {
   const FloatTag d;
   float* const HWY_RESTRICT multiples = surface->multiple.data();
-  float* const base[3] = {surface->base.x.data(), surface->base.y.data(), surface->base.z.data()};
+  float* const base[3] = {surface->transmittance.x.data(), surface->transmittance.y.data(),
+                          surface->transmittance.z.data()};
   const Compensation compensation = model.compensation;
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
     const AlbedoV albedo = block.Albedo(d, i - begin);

@@ -7,9 +7,9 @@
 
 #include "base/overloaded.h"
 #include "shading/derive.h"
-#include "shading/hit_parameters.h"
 #include "shading/kernels.h"
 #include "shading/mapped.h"
+#include "shading/models_at_hit.h"
 #include "shading/user_model.h"
 
 namespace nacre {
@@ -57,8 +57,8 @@ MicrofacetLight<float> MakeLight(const MicrofacetModel& model, const Rgb& color)
 
 // The maps of a run of hits.
 struct RunMaps {
-  const HitTextures* textures = nullptr;  // null unless hits have constants of their own
-  bool widths = false;                    // ShadingMaterial::mapped_width
+  const HitParameters* textures = nullptr;  // null unless hits have constants of their own
+  bool widths = false;                      // ShadingMaterial::by_hit.width
 };
 
 // ShadeByModel runs the kernel of a model. `constants`, and `light`, their products with the light,
@@ -102,7 +102,7 @@ void ShadeByModel(const MicrofacetModel& model, const MicrofacetConstants<Number
   const SharpLobeTerms* const sharp = FormSharpTerms(model, range, maps.textures, &scratch->sharp);
   if (sharp != nullptr) uniforms.sharp_distribution = sharp->distribution.data();
   if (maps.widths) uniforms.fit = maps.textures->fit.data();
-  uniforms.fit_stride = HitTextures::kStride;
+  uniforms.fit_stride = HitParameters::kStride;
   if (model.base_form != DiffuseForm::kLambert) {
     SpreadBase(model.base_form, constants.base.roughness, range, &scratch->base);
     uniforms.spread = &scratch->base;
@@ -132,17 +132,17 @@ void Shade(const Model& model, const ShadeRange& range, ShadeScratch* scratch) {
 // Shades hits with constants of their own.
 template <template <class> class Constants, template <class> class Light, class Model>
 void ShadeMapped(const ShadingMaterial& material, const Model& model, const ShadeRange& range,
-                 ShadeScratch* scratch, HitTextures* maps) {
+                 ShadeScratch* scratch, HitParameters* maps) {
   MakeProducts({material, range.light.color, range.begin, range.end}, maps);
   ShadeByModel(model, ColumnsIn<Constants<float*>>(maps->constants),
-               ColumnsIn<Light<float*>>(maps->products), range, {maps, material.mapped_width},
+               ColumnsIn<Light<float*>>(maps->products), range, {maps, material.by_hit.width},
                scratch);
 }
 
 }  // namespace
 
 const SharpLobeTerms* FormSharpTerms(const PhongFamilyModel& model, const ShadeRange& range,
-                                     const HitTextures* maps, SharpLobeTerms* terms) {
+                                     const HitParameters* maps, SharpLobeTerms* terms) {
   if (maps == nullptr) {
     if (!model.double_terms) return nullptr;
     FormSharpPhong(model.model, range, terms);
@@ -156,7 +156,7 @@ const SharpLobeTerms* FormSharpTerms(const PhongFamilyModel& model, const ShadeR
 }
 
 const SharpLobeTerms* FormSharpTerms(const MicrofacetModel& model, const ShadeRange& range,
-                                     const HitTextures* maps, SharpLobeTerms* terms) {
+                                     const HitParameters* maps, SharpLobeTerms* terms) {
   if (maps == nullptr) {
     if (!model.double_terms) return nullptr;
     FormSharpGgx(model.alpha, range, terms);
@@ -170,18 +170,18 @@ const SharpLobeTerms* FormSharpTerms(const MicrofacetModel& model, const ShadeRa
 }
 
 void PrepareRun(const ShadingMaterial& material, size_t begin, size_t end, Surface* surface,
-                const HitTextures* textures) {
+                const HitParameters* textures) {
   const auto* microfacet = std::get_if<MicrofacetModel>(&material.model);
   if (microfacet == nullptr || !microfacet->prepared) return;
-  if (!material.mapped_model) {
+  if (!material.by_hit.model) {
     PrepareMicrofacet(PrepareUniforms<float>{microfacet->constants, *microfacet, nullptr, 0}, begin,
                       end, surface);
     return;
   }
-  const float* const fit = material.mapped_width ? textures->fit.data() : nullptr;
+  const float* const fit = material.by_hit.width ? textures->fit.data() : nullptr;
   PrepareMicrofacet(
       PrepareUniforms<float*>{ColumnsIn<MicrofacetConstants<float*>>(textures->constants),
-                              *microfacet, fit, HitTextures::kStride},
+                              *microfacet, fit, HitParameters::kStride},
       begin, end, surface);
 }
 
@@ -189,8 +189,8 @@ namespace {
 
 // Shades a material without its layers.
 void ShadeModel(const ShadingMaterial& material, const ShadeRange& range, ShadeScratch* scratch,
-                HitTextures* maps) {
-  if (!material.mapped_model) {
+                HitParameters* maps) {
+  if (!material.by_hit.model) {
     std::visit(Overloaded{[](std::monostate) {},
                           [&](const UserModel& model) { ShadeUser(model, range, scratch); },
                           [&](const auto& model) { Shade(model, range, scratch); }},
@@ -213,16 +213,6 @@ void ShadeModel(const ShadingMaterial& material, const ShadeRange& range, ShadeS
       material.model);
 }
 
-// below = below * left + over: the light from below that a coat transmits (`left` is its
-// transmittance), plus the light that it reflects itself.
-void Cover(const Soa3<float>& left, const Soa3<float>& over, size_t count, Soa3<float>* below) {
-  for (size_t i = 0; i < count; ++i) {
-    below->x[i] = below->x[i] * left.x[i] + over.x[i];
-    below->y[i] = below->y[i] * left.y[i] + over.y[i];
-    below->z[i] = below->z[i] * left.z[i] + over.z[i];
-  }
-}
-
 }  // namespace
 
 void ShadeRun(const ShadingMaterial& material, const LitHits& lit, size_t begin, size_t end,
@@ -231,23 +221,8 @@ void ShadeRun(const ShadingMaterial& material, const LitHits& lit, size_t begin,
                          begin,    end,         radiance,  lit.components};
   ShadeModel(material, range, scratch, lit.textures);
   for (const LayerModel& layer : material.layers) {
-    CoverByLayer(layer, material.mapped_model ? lit.textures : nullptr, range);
+    CoverByLayer(layer, material.by_hit.model ? lit.textures : nullptr, range);
   }
-}
-
-void ShadeWithCoat(const ShadingMaterial& material, const HitBatch& hits, const ShadingLight& light,
-                   const LightBatch& on_hits, Surface* surface, ShadeScratch* scratch,
-                   ReflectedRadiance* of_coat, ReflectedRadiance* radiance) {
-  const auto shade = [&](const ShadingMaterial& own, ReflectedRadiance* to) {
-    PrepareRun(own, 0, hits.count, surface);
-    ShadeRun(own, {hits, *surface, light, &on_hits}, 0, hits.count, scratch, to);
-  };
-  shade(material, radiance);
-  if (!material.coat) return;
-  shade(*material.coat, of_coat);
-  Cover(surface->base, of_coat->diffuse, hits.count, &radiance->diffuse);
-  Cover(surface->base, of_coat->specular, hits.count, &radiance->specular);
-  Cover(surface->base, of_coat->sum, hits.count, &radiance->sum);
 }
 
 }  // namespace nacre

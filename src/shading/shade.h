@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/shade.h: from a batch of hits and the scene's lights to radiance towards the viewer.
+// shading/shade.h: evaluates models and their layers, without coats, for batches of hits. bsdf.h
+// evaluates whole materials.
 //
 //   PrepareRun       once per run of hits that share a material: terms that do not need the light
 //   EvaluateLight    direction and irradiance of a light at every hit (unshadowed)
@@ -18,32 +19,26 @@
 
 namespace nacre {
 
-struct HitTextures;
+struct HitParameters;
 
 // The hits of a batch under one light.
 struct LitHits {
   const HitBatch& hits;
   const Surface& surface;
   const ShadingLight& light;
-  const LightBatch* on_hits;        // the light at the hits; may be null if EvaluatedInPlace
-  bool components = true;           // whether diffuse and specular radiance are stored, too
-  HitTextures* textures = nullptr;  // for materials with maps
+  const LightBatch* on_hits;          // the light at the hits; may be null if EvaluatedInPlace
+  bool components = true;             // whether diffuse and specular radiance are stored, too
+  HitParameters* textures = nullptr;  // for materials with maps
 };
 
 // Computes terms that do not depend on the light. Hits [begin, end) must all be of `material`,
 // whose maps must have been looked up (textures.h).
 void PrepareRun(const ShadingMaterial& material, size_t begin, size_t end, Surface* surface,
-                const HitTextures* textures = nullptr);
+                const HitParameters* textures = nullptr);
 
 // Stores in `radiance` what hits [begin, end), all of `material`, reflect of the light. If the
 // material has layers, lit.on_hits must not be null.
 void ShadeRun(const ShadingMaterial& material, const LitHits& lit, size_t begin, size_t end,
               ShadeScratch* scratch, ReflectedRadiance* radiance);
-
-// PrepareRun and ShadeRun for all hits of a batch, which must be on one material without maps,
-// including its coat, if it has one. `of_coat` is a buffer.
-void ShadeWithCoat(const ShadingMaterial& material, const HitBatch& hits, const ShadingLight& light,
-                   const LightBatch& on_hits, Surface* surface, ShadeScratch* scratch,
-                   ReflectedRadiance* of_coat, ReflectedRadiance* radiance);
 
 }  // namespace nacre

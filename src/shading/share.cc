@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shading/share.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/overloaded.h"
@@ -8,7 +9,7 @@
 #include "brdf/multi_scatter.h"
 #include "brdf/phong.h"
 #include "brdf/quadrature.h"
-#include "shading/scalar_material.h"
+#include "shading/scalar_bsdf.h"
 
 namespace nacre {
 namespace {
@@ -187,7 +188,8 @@ Rgb ShareWithLayers(const ShadingMaterial& material, const Rgb& share, ShareOf w
                     double cosine) {
   ShadingMaterial below = material, whole = material;
   below.layers.clear();
-  below.coat = whole.coat = nullptr;
+  below.coats.clear();
+  whole.coats.clear();
   const Vec3d normal(0, 0, 1), fixed = InPlane(cosine, -1);
   const auto integrate = [&](int c, const ShadingMaterial& of, const auto& part) {
     return IntegrateAround(InPlane(cosine, 1), [&](const Vec3d& other) {
@@ -207,22 +209,30 @@ Rgb ShareWithLayers(const ShadingMaterial& material, const Rgb& share, ShareOf w
   return all;
 }
 
-// For kOneLight: the light that the material below a coat reflects, `share` without the coat, and
-// that the coat transmits. The coat attenuates it on the way to the viewer.
+// Whether a perfect mirror is among the lobes.
+bool HasMirror(const ShadingMaterial& material) {
+  return HasDeltaLobe(material) ||
+         std::any_of(material.coats.begin(), material.coats.end(),
+                     [](const auto& coat) { return HasDeltaLobe(*coat); });
+}
+
+// For kOneLight: the light that the material below its topmost coat reflects, whose share is
+// `share`, and that the coat transmits. The coat attenuates it on the way to the viewer.
 Rgb ShareThroughCoat(const ShadingMaterial& material, const Rgb& share, double cosine) {
   ShadingMaterial below = material;
-  below.coat = nullptr;
+  below.coats.pop_back();
+  const ShadingMaterial& coat = *material.coats.back();
   const Vec3d normal(0, 0, 1), fixed = InPlane(cosine, -1);
   const auto integrate = [&](int c, const auto& seen) {
     return IntegrateAround(InPlane(cosine, 1), [&](const Vec3d& other) {
       return seen(Reflect(below, normal, fixed, other), other.z)[c] * other.z / fixed.z;
     });
   };
-  const auto left = [&](double mu) { return LeftByCoat(*material.coat, mu); };
+  const auto left = [&](double mu) { return TransmittedByCoat(coat, mu); };
   Rgb through;
   for (int c = 0; c < 3; ++c) {
     through[c] = integrate(c, [&](const Reflection& r, double mu) { return r.Sum() * left(mu); });
-    if (!HasDeltaLobe(below)) continue;
+    if (!HasMirror(below)) continue;
     const double seen = integrate(c, [](const Reflection& r, double) { return r.Sum(); });
     through[c] += (share[c] - seen) * left(cosine)[c];
   }
@@ -232,14 +242,19 @@ Rgb ShareThroughCoat(const ShadingMaterial& material, const Rgb& share, double c
 }  // namespace
 
 Rgb ReflectedShare(const ShadingMaterial& material, ShareOf what, double cosine) {
-  Rgb share =
-      std::visit(Overloaded{[](const std::monostate&) { return Rgb(0); },
-                            [&](const auto& model) { return ShareOfModel(model, what, cosine); }},
-                 material.model);
-  if (!material.layers.empty()) share = ShareWithLayers(material, share, what, cosine);
-  if (!material.coat) return share;
-  const Rgb of_coat = ReflectedShare(*material.coat, what, cosine);
-  if (what == ShareOf::kFurnace) return share * LeftByCoat(*material.coat, cosine) + of_coat;
+  if (material.coats.empty()) {
+    const Rgb share =
+        std::visit(Overloaded{[](const std::monostate&) { return Rgb(0); },
+                              [&](const auto& model) { return ShareOfModel(model, what, cosine); }},
+                   material.model);
+    return material.layers.empty() ? share : ShareWithLayers(material, share, what, cosine);
+  }
+  ShadingMaterial below = material;
+  below.coats.pop_back();
+  const ShadingMaterial& coat = *material.coats.back();
+  const Rgb share = ReflectedShare(below, what, cosine);
+  const Rgb of_coat = ReflectedShare(coat, what, cosine);
+  if (what == ShareOf::kFurnace) return share * TransmittedByCoat(coat, cosine) + of_coat;
   return ShareThroughCoat(material, share, cosine) + of_coat;
 }
 

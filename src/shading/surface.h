@@ -14,15 +14,15 @@ namespace nacre {
 
 // The hits of a batch, with terms that do not depend on the light.
 struct Surface : HitDirections {
-  // True if some of the hits are normal-mapped or bump-mapped. `unturned` then holds the shading
-  // normals of all hits before that.
-  bool turned = false;
-  Soa3<float> unturned;
+  // True if some of the hits are normal-mapped or bump-mapped. `interpolated_normal` then holds the
+  // shading normals of all hits before that.
+  bool normal_mapped = false;
+  Soa3<float> interpolated_normal;
   // Set by PrepareRun for hits on microfacet materials:
   AlignedArray<float> multiple{kBatchCapacity};  // the weight of multiple scattering
-  // The fraction of light that the diffuse base gets, seen from n.v, if the coupling is
-  // kAlbedoScaled. For a coat, whose base is black, it is the coat's transmittance.
-  Soa3<float> base;
+  // If the coupling is kAlbedoScaled: 1 minus the albedo, at n.v, of the lobe over the base, which
+  // is the fraction of light that the diffuse base gets, and a coat lets through.
+  Soa3<float> transmittance;
 };
 
 // One light at the hits of a batch.

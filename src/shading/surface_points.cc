@@ -45,8 +45,8 @@ Gradients GradientsOf(const Corners& corners) {
 
 }  // namespace
 
-void FindPoints(const TexturedRun& run, const HitBatch& hits, HitTextures* textures) {
-  HitTextures& t = *textures;
+void FindPoints(const TexturedRun& run, const HitBatch& hits, HitParameters* textures) {
+  HitParameters& t = *textures;
   const Scene& scene = *run.scene.scene;
   const auto sphere_count = static_cast<uint32_t>(scene.spheres.size());
   t.any_mesh = false;
@@ -56,7 +56,7 @@ void FindPoints(const TexturedRun& run, const HitBatch& hits, HitTextures* textu
   for (size_t i = run.begin; i < run.end; ++i) {
     const uint32_t primitive = hits.primitive[i];
     const Vec3d normal = VectorAt(hits.normal, i);
-    if (run.material.turned) SetVector(normal, i, &t.unturned);
+    if (run.material.by_hit.normal) SetVector(normal, i, &t.interpolated_normal);
     if (primitive < sphere_count) {
       if (primitive != last) {
         last = primitive;
@@ -80,8 +80,8 @@ void FindPoints(const TexturedRun& run, const HitBatch& hits, HitTextures* textu
 }
 
 void FindMeshCoordinates(const TexturedRun& run, const PreparedTexture& texture,
-                         const HitBatch& hits, HitTextures* textures) {
-  HitTextures& t = *textures;
+                         const HitBatch& hits, HitParameters* textures) {
+  HitParameters& t = *textures;
   const Scene& scene = *run.scene.scene;
   const auto sphere_count = static_cast<uint32_t>(scene.spheres.size());
   for (size_t i = run.begin; i < run.end; ++i) {
@@ -101,10 +101,10 @@ void FindMeshCoordinates(const TexturedRun& run, const PreparedTexture& texture,
 }
 
 bool FindTangents(const TexturedRun& run, const PreparedTexture& texture, const HitBatch& hits,
-                  HitTextures* textures) {
+                  HitParameters* textures) {
   if (run.scene.mesh_tangents.empty()) return false;
   const auto number = static_cast<uint32_t>(&texture - run.scene.textures.data());
-  HitTextures& t = *textures;
+  HitParameters& t = *textures;
   const Scene& scene = *run.scene.scene;
   const auto sphere_count = static_cast<uint32_t>(scene.spheres.size());
   bool any = false;
@@ -141,7 +141,7 @@ bool FindTangents(const TexturedRun& run, const PreparedTexture& texture, const 
   return any;
 }
 
-void FindVertexColors(const TexturedRun& run, const HitBatch& hits, HitTextures* textures) {
+void FindVertexColors(const TexturedRun& run, const HitBatch& hits, HitParameters* textures) {
   Soa3<float>& to = textures->texels;
   const Scene& scene = *run.scene.scene;
   const auto sphere_count = static_cast<uint32_t>(scene.spheres.size());

@@ -7,7 +7,7 @@
 
 #include "scene/mesh.h"
 #include "scene/texture_mapping.h"
-#include "shading/hit_parameters.h"
+#include "shading/models_at_hit.h"
 #include "shading/texture_kernels.h"
 
 namespace nacre {
@@ -87,14 +87,14 @@ constexpr size_t kNone = static_cast<size_t>(-1);
 
 class RunTexturer {
  public:
-  RunTexturer(const TexturedRun& run, HitBatch* hits, Surface* surface, HitTextures* textures)
+  RunTexturer(const TexturedRun& run, HitBatch* hits, Surface* surface, HitParameters* textures)
       : run_(run), hits_(hits), surface_(surface), t_(textures) {}
 
   void Texture() {
     FindPoints(run_, *hits_, t_);
-    const Material& material = *run_.material.textured;
-    if (material.normal_map.texture.valid()) TurnByNormalMap(material.normal_map);
-    if (material.bump_map.texture.valid()) TurnByBumpMap(material.bump_map);
+    const Material& material = *run_.material.scene_material;
+    if (material.normal_map.texture.valid()) ApplyNormalMap(material.normal_map);
+    if (material.bump_map.texture.valid()) ApplyBumpMap(material.bump_map);
     const MaterialModel& model = *ModelOf(material);
     StartNumbers(run_, t_);
     if (material.vertex_colors == VertexColors::kBase) {
@@ -147,20 +147,20 @@ class RunTexturer {
     }
   }
 
-  void TurnByNormalMap(const NormalMap& map) {
+  void ApplyNormalMap(const NormalMap& map) {
     LookUp(map.texture);
     const bool literal = map.convention == NormalMap::Convention::kLiteral;
     const float middle = literal ? 0.5f : run_.scene.textures[map.texture.index].middle;
     const bool frames = FindTangents(run_, run_.scene.textures[map.texture.index], *hits_, t_);
-    TurnNormals(run_, middle, static_cast<float>(map.scale), frames, *t_, hits_, surface_);
+    MapNormals(run_, middle, static_cast<float>(map.scale), frames, *t_, hits_, surface_);
   }
 
-  void TurnByBumpMap(const BumpMap& map) {
+  void ApplyBumpMap(const BumpMap& map) {
     const PreparedTexture& texture = FindCoordinates(map.texture);
     const size_t i = run_.begin;
     SampleSlopes(*texture.image, texture.sampling, Points(), t_->texels.x.data() + i,
                  t_->texels.y.data() + i);
-    TurnNormalsBySlopes(run_, map.distance, *t_, hits_, surface_);
+    MapNormalsBySlopes(run_, map.distance, *t_, hits_, surface_);
   }
 
   // Each layer reflects its albedo of ambient light, and attenuates what is reflected below it.
@@ -172,7 +172,7 @@ class RunTexturer {
         const double n_dot_v =
             double{n.x[i]} * v.x[i] + double{n.y[i]} * v.y[i] + double{n.z[i]} * v.z[i];
         const LayerReflection albedo =
-            LayerAlbedo(material.mapped_model ? LayerAtHit(layer, *t_, i) : layer,
+            LayerAlbedo(material.by_hit.model ? LayerAtHit(layer, *t_, i) : layer,
                         std::clamp(n_dot_v, 0.0, 1.0));
         for (int c = 0; c < 3; ++c) {
           float& ambient = ChannelOf(t_->ambient, c)[i];
@@ -186,7 +186,7 @@ class RunTexturer {
   const TexturedRun& run_;
   HitBatch* hits_;
   Surface* surface_;
-  HitTextures* t_;
+  HitParameters* t_;
   size_t made_ = kNone;
 };
 
@@ -230,7 +230,8 @@ TextureScene PrepareTextures(const Scene& scene, const CameraFrame& camera, doub
   return prepared;
 }
 
-void TextureHits(const TexturedRun& run, HitBatch* hits, Surface* surface, HitTextures* textures) {
+void TextureHits(const TexturedRun& run, HitBatch* hits, Surface* surface,
+                 HitParameters* textures) {
   RunTexturer(run, hits, surface, textures).Texture();
 }
 

@@ -3,10 +3,12 @@
 // batch.
 #pragma once
 
+#include <span>
+
 #include "hit/batch.h"
 #include "hit/camera_frame.h"
 #include "scene/scene.h"
-#include "shading/hit_textures.h"
+#include "shading/hit_parameters.h"
 #include "shading/kept_tables.h"
 #include "shading/surface.h"
 #include "shading/texture_scene.h"
@@ -21,14 +23,14 @@ TextureScene PrepareTextures(const Scene& scene, const CameraFrame& camera, doub
 // Looks up the maps of a run of hits, which are all on one material with maps: replaces the shading
 // normals of `hits` and `surface` by those of normal and bump maps, and stores all other results in
 // `textures`. `hits` must have exact directions.
-void TextureHits(const TexturedRun& run, HitBatch* hits, Surface* surface, HitTextures* textures);
+void TextureHits(const TexturedRun& run, HitBatch* hits, Surface* surface, HitParameters* textures);
 
-// The following take the unmapped surface, whose normal is Surface::unturned, as the horizon of
-// normal-mapped hits (render/mapped_horizon.h).
+// The following take the unmapped surface, whose normal is Surface::interpolated_normal, as the
+// horizon of normal-mapped hits (bsdf.cc).
 
-// Sets the irradiance at hits [begin, end) to 0 where the light is below the horizon, even if the
-// normal-mapped normal faces the light.
-void HideBelowHorizon(const Surface& surface, size_t begin, size_t end, LightBatch* light);
+// Sets the irradiance at hits [begin, end) to 0 where none of the surfaces faces the light.
+void HideFacingAway(std::span<const Surface* const> surfaces, size_t begin, size_t end,
+                    LightBatch* light);
 
 // Mirrors the hits' directions that lie below the horizon in the unmapped surface, so that none
 // does, up to rounding. Directions behind the normal-mapped normal are left as they are.

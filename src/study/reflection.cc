@@ -4,7 +4,7 @@
 #include <cmath>
 #include <memory>
 
-#include "shading/shade.h"
+#include "shading/bsdf.h"
 
 namespace nacre {
 
@@ -15,8 +15,9 @@ Reflection ReflectByKernel(const ShadingMaterial& material, const Vec3d& normal,
     HitBatch hits;
     Surface surface;
     LightBatch light;
-    ShadeScratch scratch;
-    ReflectedRadiance of_coat, radiance;
+    std::vector<CoatHits> coats;
+    BsdfRoom room;
+    ReflectedRadiance radiance;
   };
   const auto batches = std::make_unique<Batches>();
   HitBatch& hits = batches->hits;
@@ -34,8 +35,8 @@ Reflection ReflectByKernel(const ShadingMaterial& material, const Vec3d& normal,
   const ShadingLight prepared = PrepareLight(light, Vec3d(0));
   PrepareSurface(hits, &batches->surface);
   EvaluateLight(prepared, hits, batches->surface, &batches->light);
-  ShadeWithCoat(material, hits, prepared, batches->light, &batches->surface, &batches->scratch,
-                &batches->of_coat, &batches->radiance);
+  EvaluateBatch(material, hits, prepared, batches->light, &batches->surface, &batches->coats,
+                &batches->room, &batches->radiance);
   const auto get = [](const Soa3<float>& soa) { return Rgb(soa.x[0], soa.y[0], soa.z[0]); };
   return {get(batches->radiance.diffuse), get(batches->radiance.specular)};
 }

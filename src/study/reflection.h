@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // study/reflection.h: evaluates reflection models for single pairs of directions with the
-// renderer's SIMD kernels. For double precision, see shading/scalar_material.h.
+// renderer's SIMD kernels. For double precision, see shading/scalar_bsdf.h.
 #pragma once
 
-#include "shading/scalar_material.h"
+#include "shading/scalar_bsdf.h"
 
 namespace nacre {
 

@@ -18,7 +18,7 @@
 #include "scene/material_parameters.h"
 #include "scene/shapes.h"
 #include "shading/light.h"
-#include "shading/scalar_material.h"
+#include "shading/scalar_bsdf.h"
 #include "shading/share.h"
 
 namespace nacre {
@@ -51,12 +51,11 @@ struct Point {
   Vec3d position, normal, to_view;
 };
 
-// A prepared material, and the normal of its coat, if it has one, since coats have normal maps of
-// their own.
+// A prepared material, and the normals of its coats, which have normal maps of their own.
 struct ExplainedMaterial {
   ShadingMaterial prepared;
-  ShadingMaterial base;  // without coat and layers
-  Vec3d coat_normal;
+  ShadingMaterial base;  // without coats and layers
+  std::vector<Vec3d> coat_normals;
 };
 
 // The centre of a light with an extent, for which its angles are reported; nullopt for lights all
@@ -127,53 +126,72 @@ Json TermsJson(const ShadingMaterial& material, const Vec3d& normal, const Vec3d
   return terms;
 }
 
-std::string_view NameOf(const LayerModel& layer) {
-  return std::visit([](const auto& model) { return model.kName; }, layer);
+Json LayerTermsJson(const LayerModel& layer, const Angles<double>& angles) {
+  Json terms = Json::object();
+  for (const auto& [name, value] : LayerTerms(layer, angles)) {
+    terms[std::string(name)] = NumberJson(value);
+  }
+  return terms;
 }
 
-// The light that the material reflects of `irradiance` from this direction. If its base is covered
+// The terms of coat k, with the angles to its normal if it has one of its own.
+Json CoatTermsJson(const ShadingMaterial& material, size_t k, const StackNormals& normals,
+                   const Vec3d& to_light, const Vec3d& to_view) {
+  const Vec3d& n = normals.coat(k);
+  Json terms = TermsJson(*material.coats[k], n, to_light, to_view);
+  if (n == normals.model) return terms;
+  const Vec3d u = to_light + to_view;
+  terms["n_dot_l"] = n ^ to_light;
+  terms["n_dot_v"] = n ^ to_view;
+  terms["n_dot_h"] = u.length() > 0 ? (n ^ u) / u.length() : 1;
+  return terms;
+}
+
+// The light that the material reflects of `irradiance` from this direction. If its model is covered
 // by layers or a coat, `json` gets, from bottom to top, what each of these reflects, and the factor
 // by which it attenuates everything below.
 Reflection ReflectedJson(const ExplainedMaterial& material, const Point& point,
                          const Vec3d& to_light, const Rgb& irradiance, Json* json) {
-  const Vec3d& n = point.normal;
+  const ShadingMaterial& prepared = material.prepared;
+  const StackNormals normals(point.normal, material.coat_normals);
   const Vec3d& v = point.to_view;
-  Reflection sum = Reflect(material.base, n, to_light, v);
-  const bool covered = !material.prepared.layers.empty() || material.prepared.coat;
-  if (!covered || !((n ^ to_light) > 0) || !((n ^ v) > 0)) {
-    return {sum.diffuse * irradiance, sum.specular * irradiance};
-  }
-  Json covers = Json::array();
-  const auto cover = [&](std::string_view name, Json terms, const Reflection& own,
-                         const Rgb& below) {
-    covers.push_back({{"name", std::string(name)},
-                      {"terms", std::move(terms)},
-                      {"diffuse", TripleJson(own.diffuse * irradiance)},
-                      {"specular", TripleJson(own.specular * irradiance)},
-                      {"below", TripleJson(below)}});
-    sum = {sum.diffuse * below + own.diffuse, sum.specular * below + own.specular};
+  const Reflection sum = Reflect(prepared, normals, to_light, v);
+  const Reflection reflected = {sum.diffuse * irradiance, sum.specular * irradiance};
+  if (prepared.layers.empty() && prepared.coats.empty()) return reflected;
+  const std::vector<StackLevel> levels = ReflectByLevel(prepared, normals, to_light, v);
+  if (levels.empty()) return reflected;
+  // The normals of model and coats may differ: then some of them may face the light alone.
+  const auto find = [&](std::string_view name, size_t index) {
+    const auto found = std::find_if(levels.begin(), levels.end(), [&](const StackLevel& level) {
+      return level.name == name && level.index == index;
+    });
+    return found != levels.end() ? *found : StackLevel{name, index, {}, Rgb(1)};
   };
-  (*json)["base"] = {{"diffuse", TripleJson(sum.diffuse * irradiance)},
-                     {"specular", TripleJson(sum.specular * irradiance)}};
-  const Angles<double> angles = ComputeAngles(n, to_light, v);
-  for (const LayerModel& layer : material.prepared.layers) {
-    const LayerReflection own = EvaluateLayer(layer, angles);
-    cover(NameOf(layer), Json::object(), {own.lobe, Rgb(0, 0, 0)},
-          Rgb(own.below, own.below, own.below));
+  const auto own_json = [&](const StackLevel& level) -> Json {
+    return {{"diffuse", TripleJson(level.own.diffuse * irradiance)},
+            {"specular", TripleJson(level.own.specular * irradiance)}};
+  };
+  (*json)["base"] = own_json(find("model", 0));
+  Json covers = Json::array();
+  const auto cover = [&](std::string_view name, size_t index, Json terms) {
+    const StackLevel level = find(name, index);
+    Json own = own_json(level);
+    own["name"] = std::string(name);
+    own["below"] = TripleJson(level.below);
+    own["terms"] = std::move(terms);
+    covers.push_back(std::move(own));
+  };
+  const Angles<double> angles = ComputeAngles(point.normal, to_light, v);
+  const bool above = angles.n_dot_l > 0 && angles.n_dot_v > 0;
+  for (size_t k = 0; k < prepared.layers.size(); ++k) {
+    const LayerModel& layer = prepared.layers[k];
+    cover(NameOf(layer), k, above ? LayerTermsJson(layer, angles) : Json::object());
   }
-  if (const ShadingMaterial* const coat = material.prepared.coat.get()) {
-    const Vec3d& m = material.coat_normal;
-    Json terms = TermsJson(*coat, m, to_light, v);
-    if (m != n) {  // a normal of its own, whose angles the terms use
-      const Vec3d u = to_light + v;
-      terms["n_dot_l"] = m ^ to_light;
-      terms["n_dot_v"] = m ^ v;
-      terms["n_dot_h"] = u.length() > 0 ? (m ^ u) / u.length() : 1;
-    }
-    cover("coat", std::move(terms), Reflect(*coat, m, to_light, v), LeftByCoat(*coat, m ^ v));
+  for (size_t k = 0; k < prepared.coats.size(); ++k) {
+    cover("coat", k, CoatTermsJson(prepared, k, normals, to_light, v));
   }
   (*json)["covers"] = std::move(covers);
-  return {sum.diffuse * irradiance, sum.specular * irradiance};
+  return reflected;
 }
 
 void AddAngles(const ShadingMaterial& material, const Point& point, const Vec3d& to_light,
@@ -218,9 +236,10 @@ Json LightJson(const Light& light, const ExplainedMaterial& material, const Poin
   json["irradiance"] = TripleJson(arrival->irradiance);
   json["diffuse"] = TripleJson(reflected.diffuse);
   json["specular"] = TripleJson(reflected.specular);
-  json["state"] = !((point.normal ^ l) > 0)                       ? "below the horizon"
-                  : !shows && std::max({sum.x, sum.y, sum.z}) > 0 ? "in shadow"
-                                                                  : "lit";
+  const bool reflects = std::max({sum.x, sum.y, sum.z}) > 0;
+  json["state"] = !((point.normal ^ l) > 0) && !reflects ? "below the horizon"
+                  : !shows && reflects                   ? "in shadow"
+                                                         : "lit";
   return json;
 }
 
@@ -366,11 +385,12 @@ Json ExplainPixel(const Scene& scene, const PixelLayers& layers, const PixelWith
   explained.prepared = PrepareMaterial(material);
   explained.base = explained.prepared;
   explained.base.layers.clear();
-  explained.base.coat.reset();
-  explained.coat_normal = point.normal;
-  const std::optional<Material> coat = CoatOf(own);
-  if (coat && (own.normal_map.texture.valid() || coat->normal_map.texture.valid())) {
-    explained.coat_normal = LayerOf(pixel_with(number - 1, *coat), "N", "XYZ").normalized();
+  explained.base.coats.clear();
+  for (const Material& coat : CoatsOf(own)) {
+    const bool has_own = own.normal_map.texture.valid() || own.bump_map.texture.valid() ||
+                         coat.normal_map.texture.valid();
+    explained.coat_normals.push_back(
+        has_own ? LayerOf(pixel_with(number - 1, coat), "N", "XYZ").normalized() : point.normal);
   }
   for (const Light& light : scene.lights) {
     if (std::holds_alternative<AmbientLight>(light.kind)) continue;

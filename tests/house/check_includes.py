@@ -62,7 +62,7 @@ RENDER_ORDER = """
     outline_coverage sphere_projections
     prepared_scene camera_cost hits_plan tile_shapes samples hits surfaces
     direct_plan highlights texel_maps mesh_glints shadow_plan brightest_object direct_batch
-    shadow_origins mapped_horizon sampled_shadows sampled_lights mesh_radiance direct mesh_shading
+    shadow_origins sampled_shadows sampled_lights mesh_radiance direct mesh_shading
     film hit_positions film_layers
     frame_plan tile_work tile
     cell_state cell_film dust footprint evidence convergence glints probes rare_triangles rare_texels rare_features adaptive

@@ -189,28 +189,6 @@ TEST_CASE("Pictures of many changed items have the bits of new ones", "[prepared
   CheckChanges("many", &live, changes, 400);
 }
 
-TEST_CASE("A coat that comes and goes has one place", "[prepared_scene]") {
-  Scene scene;
-  scene.materials.resize(2);
-  const auto set_coat = [&](size_t i, double coat) {
-    scene.materials[i].model = MetallicRoughnessMaterial{.coat = coat};
-  };
-  set_coat(0, 1);
-  set_coat(1, 0);
-  PreparedMaterials materials;
-  PrepareMaterials(scene, false, 1, &materials);
-  REQUIRE(materials.all.size() == 4);  // two, black and a coat
-  for (const double coat : {0.0, 1.0, 0.0, 1.0}) {
-    for (const uint32_t i : {0u, 1u}) {
-      set_coat(i, coat);
-      PrepareMaterials(scene, false, std::vector<uint32_t>{i}, &materials);
-      CHECK(materials.coats[i].valid() == (coat > 0));
-    }
-  }
-  CHECK(materials.all.size() == 5);
-  CHECK(materials.coats[0] != materials.coats[1]);
-}
-
 TEST_CASE("Holes follow their material", "[prepared_scene]") {
   const char* const leaf = R"({"nacre": 1,
     "camera": {"position": [0, 0, 5], "look_at": [0, 0, 0]},

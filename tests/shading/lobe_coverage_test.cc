@@ -14,7 +14,7 @@
 #include "catch.h"
 #include "scene/material_parameters.h"
 #include "shading/lobe_sample.h"
-#include "shading/scalar_material.h"
+#include "shading/scalar_bsdf.h"
 #include "shading/shade.h"
 #include "targets.h"
 

@@ -15,10 +15,11 @@
 #include "brdf/ggx.h"
 #include "brdf/multi_scatter.h"
 #include "brdf/quadrature.h"
+#include "shading/bsdf.h"
 #include "shading/light_batch.h"
 #include "shading/lobe_sample.h"
 #include "shading/prepare.h"
-#include "shading/scalar_material.h"
+#include "shading/scalar_bsdf.h"
 #include "shading/shade.h"
 #include "targets.h"
 
@@ -365,7 +366,7 @@ TEST_CASE("runs may be prepared in any order") {
     PrepareRun(materials[0], 0, kBorder, &back);
     for (size_t i = 0; i < kCount; ++i) {
       CHECK(back.multiple[i] == forth.multiple[i]);
-      CHECK(back.base.y[i] == forth.base.y[i]);
+      CHECK(back.transmittance.y[i] == forth.transmittance.y[i]);
     }
     CHECK(forth.multiple[kBorder - 1] > 2 * forth.multiple[kBorder]);  // the materials differ
   });

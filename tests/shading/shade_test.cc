@@ -12,7 +12,7 @@
 #include "shading/light_batch.h"
 #include "shading/model_twins.h"
 #include "shading/prepare.h"
-#include "shading/scalar_material.h"
+#include "shading/scalar_bsdf.h"
 #include "targets.h"
 
 namespace nacre {

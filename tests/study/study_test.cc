@@ -87,8 +87,8 @@ TEST_CASE("Kernels compute what the curves show") {
 
 TEST_CASE("Nothing is reflected through the surface") {
   for (const NamedMaterial& named : AllModels()) {
-    CHECK(Reflect(named.material, {0, 0, 1}, DirectionAt(95), DirectionAt(0)).Sum() == Rgb(0));
-    CHECK(Reflect(named.material, {0, 0, 1}, DirectionAt(0), DirectionAt(95)).Sum() == Rgb(0));
+    CHECK(Reflect(named.material, Vec3d(0, 0, 1), DirectionAt(95), DirectionAt(0)).Sum() == Rgb(0));
+    CHECK(Reflect(named.material, Vec3d(0, 0, 1), DirectionAt(0), DirectionAt(95)).Sum() == Rgb(0));
   }
 }
 
@@ -109,9 +109,9 @@ TEST_CASE("Shares are the integrals that they are said to be") {
           const Vec3d other(std::sin(polar) * std::cos(phi), std::sin(polar) * std::sin(phi),
                             std::cos(polar));
           const bool furnace = what == ShareOf::kFurnace;
-          const Rgb value =
-              Reflect(named.material, {0, 0, 1}, furnace ? other : fixed, furnace ? fixed : other)
-                  .Sum();
+          const Rgb value = Reflect(named.material, Vec3d(0, 0, 1), furnace ? other : fixed,
+                                    furnace ? fixed : other)
+                                .Sum();
           sum += value * (std::sin(polar) * (furnace ? 1 : other.z / cosine));
         }
       }

@@ -65,7 +65,8 @@ class Explanation {
     rows.push(row('base, diffuse', l => l.base ? three(l.base.diffuse) : ''), row('base, specular', l => l.base ? three(l.base.specular) : ''));
     covered[0].covers.forEach(({name}, i) => {
       const of = get => l => l.covers ? get(l.covers[i]) : '';
-      for (const [term, label] of [['n_dot_l', 'n·l'], ['n_dot_v', 'n·v'], ['n_dot_h', 'n·h'], ['alpha', 'α'], ['D', 'D'], ['G', 'G'], ['F', 'F']]) {
+      for (const [term, label] of [['n_dot_l', 'n·l'], ['n_dot_v', 'n·v'], ['n_dot_h', 'n·h'], ['alpha', 'α'], ['roughness', 'roughness'], ['D', 'D'], ['G', 'G'], ['V', 'V'],
+                                     ['F', 'F'], ['albedo_l', 'albedo at n·l'], ['albedo_v', 'albedo at n·v']]) {
         if (covered.some(l => term in l.covers[i].terms)) {
           rows.push(row(`${name}: ${label}`, of(({terms}) => term in terms ? Array.isArray(terms[term]) ? three(terms[term]) : show(terms[term], 5) : '')));
         }

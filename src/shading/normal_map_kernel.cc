@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/turn_kernel.cc: applies normal maps and the slopes of bump maps to shading normals.
+// shading/normal_map_kernel.cc: applies normal maps and the slopes of bump maps to shading normals.
 #include "shading/texture_kernels.h"
 #include "shading/textures.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "shading/turn_kernel.cc"
+#define HWY_TARGET_INCLUDE "shading/normal_map_kernel.cc"
 #include "hwy/foreach_target.h"
 
 #include "hwy/highway.h"
@@ -38,13 +38,13 @@ HWY_INLINE hn::Mask<D> IsSound(const Vec3V<V>& v) {
 // Stores a normal-mapped normal in the lanes of `mask`. A normal that points below the surface is
 // first mirrored at it, because the viewer sees the upper side only; then BendNormal bends it to
 // where reflection models can use it.
-HWY_INLINE void StoreNormal(const Vec3V<V>& turned, const Vec3V<V>& unturned, hn::Mask<D> mask,
+HWY_INLINE void StoreNormal(const Vec3V<V>& mapped, const Vec3V<V>& interpolated, hn::Mask<D> mask,
                             size_t i, HitBatch* hits, Surface* surface) {
   const D d;
   const F f;
-  const V below = hn::Min(FusedDot(turned, unturned), hn::Zero(d));
-  const Vec3V<V> upper = Sub(turned, Scale(unturned, hn::Add(below, below)));
-  const Vec3V<V> normal = BendNormal(d, upper, unturned, LoadSoa(d, hits->to_view, i));
+  const V below = hn::Min(FusedDot(mapped, interpolated), hn::Zero(d));
+  const Vec3V<V> upper = Sub(mapped, Scale(interpolated, hn::Add(below, below)));
+  const Vec3V<V> normal = BendNormal(d, upper, interpolated, LoadSoa(d, hits->to_view, i));
   const auto store = [&](V value, AlignedArray<double>* exact, AlignedArray<float>* rounded)
                          HWY_ATTR {
                            double* const to = exact->data() + i;
@@ -66,7 +66,7 @@ struct Frame {
 // (n x du) / det, det = (du x dv).n, which is below 0 where the image is mirrored. The tangent is
 // unit along dP/du, the bitangent n x tangent on dP/dv's side, so that the three are orthonormal;
 // both are reversed where the surface is seen from behind.
-HWY_INLINE Frame FrameOfGradients(const HitTextures& t, size_t i, const Vec3V<V>& n) {
+HWY_INLINE Frame FrameOfGradients(const HitParameters& t, size_t i, const Vec3V<V>& n) {
   const D d;
   const Vec3V<V> du = Across(LoadSoa(d, t.gradient_u, i), n),
                  dv = Across(LoadSoa(d, t.gradient_v, i), n);
@@ -78,7 +78,7 @@ HWY_INLINE Frame FrameOfGradients(const HitTextures& t, size_t i, const Vec3V<V>
 }
 
 // The frame that was interpolated between a mesh's corners, or `otherwise` where there is none.
-HWY_INLINE Frame FrameOfCorners(const HitTextures& t, size_t i, const Frame& otherwise) {
+HWY_INLINE Frame FrameOfCorners(const HitParameters& t, size_t i, const Frame& otherwise) {
   const D d;
   const V length = hn::LoadU(d, t.normal_length.data() + i);
   const auto own = hn::Gt(length, hn::Zero(d));
@@ -87,14 +87,15 @@ HWY_INLINE Frame FrameOfCorners(const HitTextures& t, size_t i, const Frame& oth
           Select(own, Scale(otherwise.normal, length), otherwise.normal)};
 }
 
-void TurnNormalsT(const TexturedRun& run, float middle, float scale, bool frames,
-                  const HitTextures& t, HitBatch* hits, Surface* surface) {
+void MapNormalsT(const TexturedRun& run, float middle, float scale, bool frames,
+                 const HitParameters& t, HitBatch* hits, Surface* surface) {
   const D d;
   const V zero = hn::Zero(d);
   const V middle_v = hn::Set(d, double{middle});
   const V stretch = hn::Set(d, 1 / (1 - double{middle}));
   for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
-    const Vec3V<V> n = LoadSoa(d, hits->normal, i), unturned = LoadSoa(d, t.unturned, i);
+    const Vec3V<V> n = LoadSoa(d, hits->normal, i),
+                   interpolated = LoadSoa(d, t.interpolated_normal, i);
     Frame frame = FrameOfGradients(t, i, n);
     if (frames) frame = FrameOfCorners(t, i, frame);
     const auto component = [&](const AlignedArray<float>& from) HWY_ATTR {
@@ -103,35 +104,36 @@ void TurnNormalsT(const TexturedRun& run, float middle, float scale, bool frames
     const V factor = hn::Set(d, double{scale});
     const V x = hn::Mul(component(t.texels.x), factor), y = hn::Mul(component(t.texels.y), factor);
     const V z = component(t.texels.z);
-    const Vec3V<V> turned = Normalized(
+    const Vec3V<V> mapped = Normalized(
         Add(Add(Scale(frame.tangent, x), Scale(frame.bitangent, y)), Scale(frame.normal, z)));
     // The normal is left bit for bit where the map is level, where its vector has length 0, and
     // where there are no tangents.
     const auto level = hn::And(hn::And(hn::Eq(x, zero), hn::Eq(y, zero)), hn::Gt(z, zero));
-    const auto sound = IsSound(turned);
+    const auto sound = IsSound(mapped);
     const auto mask = hn::And(hn::AndNot(level, sound), hn::FirstN(d, run.end - i));
-    StoreNormal(turned, unturned, mask, i, hits, surface);
+    StoreNormal(mapped, interpolated, mask, i, hits, surface);
   }
 }
 
 // Blinn 1978: the surface P + h n has the normal n - grad h, up to h times the curvature.
-void TurnNormalsBySlopesT(const TexturedRun& run, double distance, const HitTextures& t,
-                          HitBatch* hits, Surface* surface) {
+void MapNormalsBySlopesT(const TexturedRun& run, double distance, const HitParameters& t,
+                         HitBatch* hits, Surface* surface) {
   const D d;
   const V zero = hn::Zero(d);
   for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
-    const Vec3V<V> n = LoadSoa(d, hits->normal, i), unturned = LoadSoa(d, t.unturned, i);
+    const Vec3V<V> n = LoadSoa(d, hits->normal, i),
+                   interpolated = LoadSoa(d, t.interpolated_normal, i);
     // Heights point outwards, from whichever side the surface is seen.
     const V scale = hn::Mul(hn::LoadU(d, t.side.data() + i), hn::Set(d, distance));
     const V slope_u = hn::Mul(PromoteAt(d, t.texels.x, i), scale);
     const V slope_v = hn::Mul(PromoteAt(d, t.texels.y, i), scale);
     const Vec3V<V> gradient = Add(Scale(LoadSoa(d, t.gradient_u, i), slope_u),
                                   Scale(LoadSoa(d, t.gradient_v, i), slope_v));
-    const Vec3V<V> turned = Normalized(Sub(n, Across(gradient, n)));
+    const Vec3V<V> mapped = Normalized(Sub(n, Across(gradient, n)));
     const auto level = hn::And(hn::Eq(slope_u, zero), hn::Eq(slope_v, zero));
-    const auto sound = IsSound(turned);
+    const auto sound = IsSound(mapped);
     const auto mask = hn::And(hn::AndNot(level, sound), hn::FirstN(d, run.end - i));
-    StoreNormal(turned, unturned, mask, i, hits, surface);
+    StoreNormal(mapped, interpolated, mask, i, hits, surface);
   }
 }
 
@@ -141,7 +143,7 @@ void RaiseAboveHorizonT(const Surface& surface, size_t begin, size_t end, Soa3<f
   const FF d;
   const auto zero = hn::Zero(d);
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-    const auto n = LoadSoa(d, surface.unturned, i), l = LoadSoa(d, *to_light, i);
+    const auto n = LoadSoa(d, surface.interpolated_normal, i), l = LoadSoa(d, *to_light, i);
     const auto height = FusedDot(n, l);
     const auto faces = hn::Gt(FusedDot(LoadSoa(d, surface.normal, i), l), zero);
     const auto mask = hn::And(hn::And(faces, hn::Lt(height, zero)), hn::FirstN(d, end - i));
@@ -155,7 +157,7 @@ bool MirrorAtHorizonT(const Surface& surface, size_t begin, size_t end, const Li
   const auto zero = hn::Zero(d);
   bool any = false;
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-    const auto n = LoadSoa(d, surface.unturned, i), l = LoadSoa(d, light.to_light, i);
+    const auto n = LoadSoa(d, surface.interpolated_normal, i), l = LoadSoa(d, light.to_light, i);
     const auto height = FusedDot(n, l);
     const auto below = Sub(l, Scale(n, hn::Add(height, height)));
     const auto unit = Scale(below, hn::Div(hn::Set(d, 1.0f), hn::Sqrt(FusedDot(below, below))));
@@ -172,16 +174,18 @@ bool MirrorAtHorizonT(const Surface& surface, size_t begin, size_t end, const Li
   return any;
 }
 
-void HideBelowHorizonT(const Surface& surface, size_t begin, size_t end, LightBatch* light) {
-  const hn::ScalableTag<float> d;
-  const Soa3<float>& n = surface.unturned;
-  const Soa3<float>& l = light->to_light;
+void HideFacingAwayT(std::span<const Surface* const> surfaces, size_t begin, size_t end,
+                     LightBatch* light) {
+  const FF d;
+  const auto zero = hn::Zero(d);
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-    const auto above = hn::Gt(FusedDot(LoadU3(d, n.x.data() + i, n.y.data() + i, n.z.data() + i),
-                                       LoadU3(d, l.x.data() + i, l.y.data() + i, l.z.data() + i)),
-                              hn::Zero(d));
+    const auto l = LoadSoa(d, light->to_light, i);
+    auto faces = hn::FirstN(d, 0);
+    for (const Surface* const surface : surfaces) {
+      faces = hn::Or(faces, hn::Gt(FusedDot(LoadSoa(d, surface->normal, i), l), zero));
+    }
     float* const irradiance = light->irradiance.data() + i;
-    const auto keep = hn::Or(above, hn::Not(hn::FirstN(d, end - i)));
+    const auto keep = hn::Or(faces, hn::Not(hn::FirstN(d, end - i)));
     hn::StoreU(hn::IfThenElseZero(keep, hn::LoadU(d, irradiance)), d, irradiance);
   }
 }
@@ -193,24 +197,25 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace nacre {
-HWY_EXPORT(TurnNormalsT);
-HWY_EXPORT(TurnNormalsBySlopesT);
-HWY_EXPORT(HideBelowHorizonT);
+HWY_EXPORT(MapNormalsT);
+HWY_EXPORT(MapNormalsBySlopesT);
+HWY_EXPORT(HideFacingAwayT);
 HWY_EXPORT(RaiseAboveHorizonT);
 HWY_EXPORT(MirrorAtHorizonT);
 
-void TurnNormals(const TexturedRun& run, float middle, float scale, bool frames,
-                 const HitTextures& textures, HitBatch* hits, Surface* surface) {
-  HWY_DYNAMIC_DISPATCH(TurnNormalsT)(run, middle, scale, frames, textures, hits, surface);
+void MapNormals(const TexturedRun& run, float middle, float scale, bool frames,
+                const HitParameters& textures, HitBatch* hits, Surface* surface) {
+  HWY_DYNAMIC_DISPATCH(MapNormalsT)(run, middle, scale, frames, textures, hits, surface);
 }
 
-void TurnNormalsBySlopes(const TexturedRun& run, double distance, const HitTextures& textures,
-                         HitBatch* hits, Surface* surface) {
-  HWY_DYNAMIC_DISPATCH(TurnNormalsBySlopesT)(run, distance, textures, hits, surface);
+void MapNormalsBySlopes(const TexturedRun& run, double distance, const HitParameters& textures,
+                        HitBatch* hits, Surface* surface) {
+  HWY_DYNAMIC_DISPATCH(MapNormalsBySlopesT)(run, distance, textures, hits, surface);
 }
 
-void HideBelowHorizon(const Surface& surface, size_t begin, size_t end, LightBatch* light) {
-  HWY_DYNAMIC_DISPATCH(HideBelowHorizonT)(surface, begin, end, light);
+void HideFacingAway(std::span<const Surface* const> surfaces, size_t begin, size_t end,
+                    LightBatch* light) {
+  HWY_DYNAMIC_DISPATCH(HideFacingAwayT)(surfaces, begin, end, light);
 }
 
 void RaiseAboveHorizon(const Surface& surface, size_t begin, size_t end, Soa3<float>* to_light) {

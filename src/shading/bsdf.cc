@@ -1,0 +1,515 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shading/bsdf.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/overloaded.h"
+#include "brdf/lobe_sampling.h"
+#include "shading/lobe_chances.h"
+#include "shading/lobe_sample.h"
+#include "shading/models_at_hit.h"
+#include "shading/shade.h"
+#include "shading/textures.h"
+
+namespace nacre {
+namespace {
+
+// One level of hits: the model and its layers, or the coat.
+struct Level {
+  const ShadingMaterial& material;
+  const HitBatch& hits;
+  const Surface& surface;
+  HitParameters* textures;
+  size_t begin, end;
+
+  LobeRange Range() const { return {hits, surface, begin, end, textures}; }
+};
+
+Level ModelLevel(const BsdfHits& at) {
+  return {at.material, at.hits, at.surface, at.textures, at.begin, at.end};
+}
+
+Level CoatLevel(const BsdfHits& at, size_t k) {
+  const CoatHits& coat = at.coats[k];
+  return {*at.material.coats[k], coat.hits, coat.surface, coat.textures.get(), at.begin, at.end};
+}
+
+// The textures of the level if its hits have parameters of their own; else null.
+const HitParameters* MapsOf(const Level& level) {
+  return level.material.by_hit.model ? level.textures : nullptr;
+}
+
+// Normals of meshes may lean away from the viewer: the cosine then counts as 0.
+double NDotV(const Surface& surface, size_t i) {
+  return std::clamp(VectorAt(surface.normal, i).dot(VectorAt(surface.to_view, i)), 0.0, 1.0);
+}
+
+// --- Normal maps. The hemisphere of a mapped normal extends below the unmapped surface, whose
+// normal is Surface::interpolated_normal and from below which no light comes. The diffuse component
+// loses the light from there. The glossy lobe must not: the part of it that lies below the surface
+// is taken to be reflected by the surface once more. So light from l above the horizon reflects
+// f(l) + f(l'), where l' is l mirrored in the surface. The integral over all l is then that of the
+// whole lobe: a white lobe reflects all light at every roughness, and a narrow one converges to the
+// perfect mirror, which BendNormal (hit/shading_normal.h) keeps above the surface. Schüssler et al.
+// 2017, "Microfacet-based Normal Mapping for Robust Monte Carlo Path Tracing", conserve energy in
+// the same way, by a second reflection at an additional facet.
+
+bool HasMirroredLobe(const ShadingMaterial& material) {
+  return material.by_hit.normal && HasSampledLobe(material);
+}
+
+// Makes room->mirrored->light. Returns false if f(l') is 0 at all hits.
+bool MirrorLight(const Level& level, const LightBatch& light, BsdfRoom* room) {
+  if (!HasMirroredLobe(level.material)) return false;
+  if (!room->mirrored) room->mirrored = std::make_unique<MirroredLobe>();
+  return MirrorAtHorizon(level.surface, level.begin, level.end, light, &room->mirrored->light);
+}
+
+void AddRange(const Soa3<float>& from, size_t begin, size_t end, Soa3<float>* to) {
+  for (size_t i = begin; i < end; ++i) {
+    to->x[i] += from.x[i];
+    to->y[i] += from.y[i];
+    to->z[i] += from.z[i];
+  }
+}
+
+// Adds the term f(l') to the sum and the specular component.
+void AddMirroredLobe(const Level& level, const Rgb& color, const LightBatch& light, BsdfRoom* room,
+                     ReflectedRadiance* radiance) {
+  if (!MirrorLight(level, light, room)) return;
+  MirroredLobe& mirrored = *room->mirrored;
+  const ShadingLight given{.form = LightForm::kGiven, .color = color};
+  ShadeRun(level.material,
+           {level.hits, level.surface, given, &mirrored.light, true, level.textures}, level.begin,
+           level.end, &room->shade, &mirrored.radiance);
+  AddRange(mirrored.radiance.specular, level.begin, level.end, &radiance->sum);
+  AddRange(mirrored.radiance.specular, level.begin, level.end, &radiance->specular);
+}
+
+// What one level reflects, whatever lies over it.
+void EvaluateLevel(const Level& level, const ShadingLight& light, const LightBatch* on_hits,
+                   bool components, BsdfRoom* room, ReflectedRadiance* radiance) {
+  ShadeRun(level.material, {level.hits, level.surface, light, on_hits, components, level.textures},
+           level.begin, level.end, &room->shade, radiance);
+  if (level.material.by_hit.normal) AddMirroredLobe(level, light.color, *on_hits, room, radiance);
+}
+
+// The pdf of the model's glossy lobe. Samples at l' are mirrored to l (RaiseAboveHorizon).
+void ModelLobePdf(const Level& level, const LightBatch& light, BsdfRoom* room, float* pdf) {
+  LobePdf(level.material, level.Range(), light, &room->shade, pdf);
+  if (!MirrorLight(level, light, room)) return;
+  MirroredLobe& mirrored = *room->mirrored;
+  LobePdf(level.material, level.Range(), mirrored.light, &room->shade, mirrored.pdf.data());
+  for (size_t i = level.begin; i < level.end; ++i) {
+    if (mirrored.light.irradiance[i] > 0) pdf[i] += mirrored.pdf[i];
+  }
+}
+
+void SampleModelLobe(const Level& level, const float* u, const float* v, BsdfRoom* room,
+                     Soa3<float>* to_light) {
+  SampleLobe(level.material, level.Range(), u, v, &room->shade, to_light);
+  if (HasMirroredLobe(level.material)) {
+    RaiseAboveHorizon(level.surface, level.begin, level.end, to_light);
+  }
+}
+
+// --- Stacks.
+
+// light * share, but 0 for a share of 0 even if the light has overflowed to infinity.
+float Attenuated(float light, float share) { return share > 0 ? light * share : 0; }
+
+// below = below * transmittance + over.
+void Cover(const Soa3<float>& transmittance, const Soa3<float>& over, size_t begin, size_t end,
+           Soa3<float>* below) {
+  for (size_t i = begin; i < end; ++i) {
+    below->x[i] = Attenuated(below->x[i], transmittance.x[i]) + over.x[i];
+    below->y[i] = Attenuated(below->y[i], transmittance.y[i]) + over.y[i];
+    below->z[i] = Attenuated(below->z[i], transmittance.z[i]) + over.z[i];
+  }
+}
+
+// The layers of one kind at one hit, over the model's lobe of that kind.
+class LayersAtHit {
+ public:
+  LayersAtHit(const BsdfHits& at, LobeKind kind, size_t i)
+      : material_(at.material), kind_(kind), maps_(MapsOf(ModelLevel(at))), i_(i) {
+    const double n_dot_v = NDotV(at.surface, i);
+    // Rounded to float as the maps' albedo is, so that a constant map changes no direction.
+    const double below = kind != LobeKind::kDiffuse
+                             ? AlbedosAt(material_, maps_, at.surface, i, n_dot_v).glossy
+                         : maps_ != nullptr ? LargestChannel(Rgb(VectorAt(maps_->albedo, i)))
+                                            : LargestChannel(Rgb(Vec3f(material_.albedo)));
+    for (size_t k = 0; k < material_.layers.size(); ++k) {
+      if (KindOf(material_.layers[k]) == kind) chance_[k] = LayerChance(Layer(k), n_dot_v, below);
+      reflects_ = reflects_ || chance_[k] > 0;
+    }
+  }
+
+  // Whether any of the layers reflects light.
+  bool Reflects() const { return reflects_; }
+
+  // Calls use(layer, chance) from the top down, where `chance` is the probability of sampling the
+  // layer rather than what is below it, until it returns true. Returns whether it did.
+  template <class Use>
+  bool Visit(const Use& use) const {
+    for (size_t k = material_.layers.size(); k-- > 0;) {
+      if (KindOf(material_.layers[k]) == kind_ && use(Layer(k), chance_[k])) return true;
+    }
+    return false;
+  }
+
+ private:
+  LayerModel Layer(size_t k) const {
+    const LayerModel& layer = material_.layers[k];
+    return maps_ != nullptr ? LayerAtHit(layer, *maps_, i_) : layer;
+  }
+
+  const ShadingMaterial& material_;
+  LobeKind kind_;
+  const HitParameters* maps_;
+  size_t i_;
+  std::array<double, kMostLayers> chance_{};
+  bool reflects_ = false;
+};
+
+bool HasLayers(const ShadingMaterial& material, LobeKind kind) {
+  return std::any_of(material.layers.begin(), material.layers.end(),
+                     [&](const LayerModel& layer) { return KindOf(layer) == kind; });
+}
+
+bool CoatsAreSampled(const ShadingMaterial& material, LobeKind kind) {
+  return kind == LobeKind::kGlossy &&
+         std::any_of(material.coats.begin(), material.coats.end(),
+                     [](const auto& coat) { return HasSampledLobe(*coat); });
+}
+
+// Mixes the pdfs of the layers of a kind with that of the model's lobe, which `pdf` holds.
+void MixLayerPdfs(const BsdfHits& at, LobeKind kind, const LightBatch& light, float* pdf) {
+  for (size_t i = at.begin; i < at.end; ++i) {
+    const LayersAtHit layers(at, kind, i);
+    if (!layers.Reflects()) continue;
+    const double n_dot_l = VectorAt(at.surface.normal, i).dot(VectorAt(light.to_light, i));
+    double sum = 0, left = 1;
+    layers.Visit([&](const LayerModel& layer, double chance) {
+      sum += left * chance * LayerPdf(layer, n_dot_l);
+      left *= 1 - chance;
+      return false;
+    });
+    // n.l / pi rounds differently in double.
+    const double of_model = kind == LobeKind::kDiffuse ? CosinePdf(n_dot_l) : pdf[i];
+    pdf[i] = static_cast<float>(sum + left * of_model);
+  }
+}
+
+void FindDiffusePdf(const BsdfHits& at, const LightBatch& light, float* pdf) {
+  CosinePdfs(at.surface, at.begin, at.end, light.to_light, pdf);
+  if (HasLayers(at.material, LobeKind::kDiffuse)) MixLayerPdfs(at, LobeKind::kDiffuse, light, pdf);
+}
+
+void FindGlossyPdf(const BsdfHits& at, const LightBatch& light, BsdfRoom* room, float* pdf) {
+  ModelLobePdf(ModelLevel(at), light, room, pdf);
+  if (HasLayers(at.material, LobeKind::kGlossy)) MixLayerPdfs(at, LobeKind::kGlossy, light, pdf);
+  if (!CoatsAreSampled(at.material, LobeKind::kGlossy)) return;
+  if (room->coat_pdf.size() == 0) room->coat_pdf = AlignedArray<float>(kBatchCapacity);
+  for (size_t k = 0; k < at.material.coats.size(); ++k) {
+    ModelLobePdf(CoatLevel(at, k), light, room, room->coat_pdf.data());
+    for (size_t i = at.begin; i < at.end; ++i) {
+      const float chance = at.coats[k].chance[i];
+      pdf[i] = chance * room->coat_pdf[i] + (1 - chance) * pdf[i];
+    }
+  }
+}
+
+// Cosine-weighted, in polar coordinates, as layers are sampled, and not by SampleCosine: the
+// direction is then a continuous function of the point, which keeps the strata of Sobol points.
+Vec3d SampleCosineInPolar(const Vec3d& normal, double u, double v) {
+  const double sin = std::sqrt(std::clamp(u, 0.0, 1.0)), phi = 2 * M_PI * v;
+  return BasisAbout(normal).ToWorld(
+      {sin * std::cos(phi), sin * std::sin(phi), std::sqrt(std::max(1 - sin * sin, 0.0))});
+}
+
+// Chooses a lobe of the kind for each hit. Where it is a layer's, or the diffuse base under layers,
+// the direction is sampled at once.
+void ChooseLobes(const BsdfHits& at, LobeKind kind, const float* u, const float* v,
+                 StackRoom* room) {
+  const size_t coats = CoatsAreSampled(at.material, kind) ? at.material.coats.size() : 0;
+  const bool layers = HasLayers(at.material, kind);
+  for (size_t i = at.begin; i < at.end; ++i) {
+    Chooser chooser(u[i]);
+    StackRoom::Lobe lobe = StackRoom::kModelLobe;
+    for (size_t k = coats; k-- > 0 && lobe == StackRoom::kModelLobe;) {
+      if (chooser.Takes(at.coats[k].chance[i])) lobe = StackRoom::kCoatLobe + k;
+    }
+    if (layers && lobe == StackRoom::kModelLobe) {
+      const LayersAtHit at_hit(at, kind, i);
+      const Vec3d normal = VectorAt(at.surface.normal, i);
+      const bool chosen = at_hit.Visit([&](const LayerModel& layer, double chance) {
+        if (!chooser.Takes(chance)) return false;
+        SetVector(SampleLayer(layer, normal, chooser.rest(), v[i]), i, &room->to_light);
+        return true;
+      });
+      const bool diffuse = kind == LobeKind::kDiffuse && at_hit.Reflects();
+      if (!chosen && diffuse) {
+        SetVector(SampleCosineInPolar(normal, chooser.rest(), v[i]), i, &room->to_light);
+      }
+      if (chosen || diffuse) lobe = StackRoom::kSampled;
+    }
+    room->u[i] = std::min(static_cast<float>(chooser.rest()), 1 - 0x1p-24f);
+    room->lobe[i] = lobe;
+  }
+}
+
+// Takes the directions at hits where this lobe was chosen.
+void TakeChosen(const BsdfHits& at, const StackRoom& room, size_t lobe, const Soa3<float>& from,
+                Soa3<float>* to_light) {
+  for (size_t i = at.begin; i < at.end; ++i) {
+    if (room.lobe[i] == lobe) SetVector(VectorAt(from, i), i, to_light);
+  }
+}
+
+// The coats of the material at hit i.
+std::array<CoatInView, kMostCoats> CoatsInView(const BsdfHits& at, size_t i) {
+  std::array<CoatInView, kMostCoats> coats;
+  for (size_t k = 0; k < at.material.coats.size(); ++k) {
+    coats[k] = {Rgb(VectorAt(at.coats[k].surface.transmittance, i)),
+                IsMirror(*at.material.coats[k], CoatLevel(at, k).Range(), i)};
+  }
+  return coats;
+}
+
+// Directions of hits without a sampled lobe at a level are never chosen, but they are finite.
+void SetToNormals(const Surface& surface, size_t begin, size_t end, Soa3<float>* to) {
+  for (size_t i = begin; i < end; ++i) SetVector(VectorAt(surface.normal, i), i, to);
+}
+
+// --- Mirrors.
+
+// The factor by which the layers over hit i attenuate a mirror's reflection.
+double TransmittedByLayers(const BsdfHits& at, size_t i) {
+  const HitParameters* const maps = MapsOf(ModelLevel(at));
+  const double n_dot_v = NDotV(at.surface, i);
+  double left = 1;
+  for (const LayerModel& layer : at.material.layers) {
+    left *= LayerAlbedo(maps != nullptr ? LayerAtHit(layer, *maps, i) : layer, n_dot_v).below;
+  }
+  return left;
+}
+
+}  // namespace
+
+void CopyToCoat(const HitBatch& hits, const Surface& surface, CoatHits* coat) {
+  const size_t padded = RoundUp(hits.count, kBatchPadding);
+  HitBatch& to = coat->hits;
+  to.count = hits.count;
+  to.one_primitive = hits.one_primitive;
+  std::copy_n(hits.ray.data(), padded, to.ray.data());
+  std::copy_n(hits.primitive.data(), padded, to.primitive.data());
+  CopySoa(hits.position, padded, &to.position);
+  CopySoa(hits.normal, padded, &to.normal);
+  CopySoa(hits.to_view, padded, &to.to_view);
+  CopySoa(surface.normal, padded, &coat->surface.normal);
+  CopySoa(surface.to_view, padded, &coat->surface.to_view);
+}
+
+void PrepareBsdf(const ShadingMaterial& material, size_t begin, size_t end,
+                 const HitParameters* textures, Surface* surface, std::span<CoatHits> coats) {
+  PrepareRun(material, begin, end, surface, textures);
+  const size_t count = material.coats.size();
+  if (count == 0) return;
+  for (size_t k = 0; k < count; ++k) {
+    PrepareRun(*material.coats[k], begin, end, &coats[k].surface, coats[k].textures.get());
+  }
+  const BsdfHits at{material, coats[0].hits, *surface, begin, end, nullptr, coats};
+  const HitParameters* const maps = material.by_hit.model ? textures : nullptr;
+  std::array<double, kMostCoats> chances;
+  for (size_t i = begin; i < end; ++i) {
+    const double n_dot_v = NDotV(*surface, i);
+    const double glossy = AlbedosAt(material, maps, *surface, i, n_dot_v).glossy;
+    FindCoatChances({CoatsInView(at, i).data(), count}, glossy, chances);
+    for (size_t k = 0; k < count; ++k) coats[k].chance[i] = static_cast<float>(chances[k]);
+  }
+}
+
+void HideUnreflectedLight(const BsdfHits& at, LightBatch* light) {
+  std::array<const Surface*, 1 + kMostCoats> levels = {&at.surface};
+  const size_t coats = at.material.coats.size();
+  for (size_t k = 0; k < coats; ++k) levels[1 + k] = &at.coats[k].surface;
+  HideFacingAway({levels.data(), 1 + coats}, at.begin, at.end, light);
+}
+
+void EvaluateBsdf(const BsdfHits& at, const ShadingLight& light, const LightBatch* on_hits,
+                  bool components, BsdfRoom* room, ReflectedRadiance* radiance,
+                  const LobePdfs& pdfs) {
+  EvaluateLevel(ModelLevel(at), light, on_hits, components, room, radiance);
+  for (size_t k = 0; k < at.material.coats.size(); ++k) {
+    if (!room->of_coat) room->of_coat = std::make_unique<ReflectedRadiance>();
+    EvaluateLevel(CoatLevel(at, k), light, on_hits, components, room, room->of_coat.get());
+    const Soa3<float>& transmittance = at.coats[k].surface.transmittance;
+    const ReflectedRadiance& over = *room->of_coat;
+    Cover(transmittance, over.sum, at.begin, at.end, &radiance->sum);
+    if (!components) continue;
+    Cover(transmittance, over.diffuse, at.begin, at.end, &radiance->diffuse);
+    Cover(transmittance, over.specular, at.begin, at.end, &radiance->specular);
+  }
+  if (pdfs.diffuse != nullptr) FindDiffusePdf(at, *on_hits, pdfs.diffuse);
+  if (pdfs.glossy != nullptr) FindGlossyPdf(at, *on_hits, room, pdfs.glossy);
+}
+
+bool HasLobes(const ShadingMaterial& material, LobeKind kind) {
+  if (HasLayers(material, kind) || CoatsAreSampled(material, kind)) return true;
+  return kind == LobeKind::kDiffuse || HasSampledLobe(material);
+}
+
+void SampleLobes(const BsdfHits& at, LobeKind kind, const float* u, const float* v, BsdfRoom* room,
+                 Soa3<float>* to_light) {
+  const bool layers = HasLayers(at.material, kind), coats = CoatsAreSampled(at.material, kind);
+  const bool stacked = layers || coats;
+  if (stacked) {
+    if (!room->stack) room->stack = std::make_unique<StackRoom>();
+    ChooseLobes(at, kind, u, v, room->stack.get());
+  }
+  const float* const rest = stacked ? room->stack->u.data() : u;
+  if (kind == LobeKind::kDiffuse) {
+    SampleCosines(at.surface, at.begin, at.end, rest, v, to_light);
+  } else {
+    SampleModelLobe(ModelLevel(at), rest, v, room, to_light);
+  }
+  if (!stacked) return;
+  StackRoom& stack = *room->stack;
+  if (layers) TakeChosen(at, stack, StackRoom::kSampled, stack.to_light, to_light);
+  for (size_t k = 0; coats && k < at.material.coats.size(); ++k) {
+    SampleModelLobe(CoatLevel(at, k), rest, v, room, &stack.to_light);
+    TakeChosen(at, stack, StackRoom::kCoatLobe + k, stack.to_light, to_light);
+  }
+}
+
+bool AnyMirror(const BsdfHits& at, size_t level) {
+  if (level > at.material.coats.size()) return false;
+  const Level of = level == 0 ? ModelLevel(at) : CoatLevel(at, level - 1);
+  return AnyMirror(of.material, of.Range());
+}
+
+bool SampleMirror(const BsdfHits& at, size_t level, Soa3<float>* to_light, Soa3<float>* weight) {
+  if (!AnyMirror(at, level)) return false;
+  const Level of = level == 0 ? ModelLevel(at) : CoatLevel(at, level - 1);
+  MirrorDirections(of.Range(), to_light);
+  MirrorReflectances(of.material, of.Range(), weight);
+  for (size_t i = at.begin; i < at.end; ++i) {
+    Vec3d reflected(0, 0, 0);
+    if (IsMirror(of.material, of.Range(), i)) {
+      reflected = VectorAt(*weight, i);
+      if (level == 0) reflected *= TransmittedByLayers(at, i);
+      for (size_t k = level; k < at.material.coats.size(); ++k) {
+        reflected *= VectorAt(at.coats[k].surface.transmittance, i);
+      }
+    }
+    SetVector(reflected, i, weight);
+  }
+  return true;
+}
+
+namespace {
+
+KindChances KindChancesAt(const BsdfHits& at, size_t i) {
+  const HitParameters* const maps = MapsOf(ModelLevel(at));
+  const double n_dot_v = NDotV(at.surface, i);
+  std::vector<LayerModel> layers;
+  for (const LayerModel& layer : at.material.layers) {
+    layers.push_back(maps != nullptr ? LayerAtHit(layer, *maps, i) : layer);
+  }
+  return ChancesOfKinds(layers, n_dot_v, AlbedosAt(at.material, maps, at.surface, i, n_dot_v),
+                        {CoatsInView(at, i).data(), at.material.coats.size()}, true);
+}
+
+// Samples the directions of one choice and takes them, and the weights of mirrors, where it was
+// chosen.
+void SampleChosen(const BsdfHits& at, size_t code, const float* v, BsdfRoom* room,
+                  SampleRoom* sample, BsdfSamples* samples) {
+  SetToNormals(at.surface, at.begin, at.end, &sample->to_light);
+  if (code < kMirrorChosen) {
+    const LobeKind kind = code == kDiffuseChosen ? LobeKind::kDiffuse : LobeKind::kGlossy;
+    SampleLobes(at, kind, sample->u.data(), v, room, &sample->to_light);
+  } else if (!SampleMirror(at, code - kMirrorChosen, &sample->to_light, &sample->mirrored)) {
+    return;
+  }
+  for (size_t i = at.begin; i < at.end; ++i) {
+    if (sample->chosen[i] != code) continue;
+    SetVector(VectorAt(sample->to_light, i), i, &samples->to_light);
+    if (code >= kMirrorChosen) SetVector(VectorAt(sample->mirrored, i), i, &samples->weight);
+  }
+}
+
+}  // namespace
+
+void SampleBsdf(const BsdfHits& at, const float* u, const float* v, BsdfRoom* room,
+                SampleRoom* sample, BsdfSamples* samples) {
+  for (size_t i = at.begin; i < at.end; ++i) {
+    sample->chances[i] = KindChancesAt(at, i);
+    Chooser chooser(u[i]);
+    sample->chosen[i] = ChooseKind(sample->chances[i], &chooser);
+    sample->u[i] = std::min(static_cast<float>(chooser.rest()), 1 - 0x1p-24f);
+  }
+  const size_t codes = kMirrorChosen + 1 + at.material.coats.size();
+  for (size_t code = 0; code < codes; ++code) {
+    SampleChosen(at, code, v, room, sample, samples);
+  }
+  const Surface& surface = at.surface;
+  for (size_t i = at.begin; i < at.end; ++i) {
+    const Vec3d to_light = VectorAt(samples->to_light, i);
+    SetVector(to_light, i, &sample->light.to_light);
+    const Soa3<float>& horizon = surface.interpolated_normal;
+    const bool above = !surface.normal_mapped || VectorAt(horizon, i).dot(to_light) > 0;
+    sample->light.irradiance[i] = above ? 1.0f : 0.0f;
+  }
+  const ShadingLight unit{.form = LightForm::kGiven, .color = Rgb(1, 1, 1)};
+  EvaluateBsdf(at, unit, &sample->light, true, room, &sample->reflected,
+               {sample->diffuse_pdf.data(), sample->glossy_pdf.data()});
+  for (size_t i = at.begin; i < at.end; ++i) {
+    const KindChances& chances = sample->chances[i];
+    const size_t code = sample->chosen[i];
+    double pdf = 0;
+    Vec3d reflected(0, 0, 0);
+    if (code < kMirrorChosen) {
+      samples->kind[i] = code == kDiffuseChosen ? LobeKind::kDiffuse : LobeKind::kGlossy;
+      pdf = chances.diffuse * std::max(sample->diffuse_pdf[i], 0.0f) +
+            chances.glossy * sample->glossy_pdf[i];
+      reflected = VectorAt(sample->reflected.sum, i);
+    } else {
+      samples->kind[i] = LobeKind::kDelta;
+      pdf = chances.mirror[code - kMirrorChosen];
+      reflected = VectorAt(samples->weight, i);
+    }
+    samples->pdf[i] = static_cast<float>(pdf);
+    SetVector(pdf > 0 ? reflected / pdf : Vec3d(0, 0, 0), i, &samples->weight);
+  }
+}
+
+bool DiffuseIsFlat(const ShadingMaterial& material) {
+  if (material.by_hit.normal) return false;  // the unmapped surface's horizon cuts off light
+  if (!material.layers.empty()) return false;
+  if (const auto* matte = std::get_if<MatteModel>(&material.model)) {
+    return matte->form == DiffuseForm::kLambert;
+  }
+  // A user model with a sampler has no diffuse component.
+  if (std::holds_alternative<UserModel>(material.model)) return HasSampledLobe(material);
+  const auto* model = std::get_if<MicrofacetModel>(&material.model);
+  if (model == nullptr) return true;
+  if (model->base_form != DiffuseForm::kLambert) return false;
+  return model->coupling == DiffuseCoupling::kNone ||
+         (model->coupling == DiffuseCoupling::kAlbedoScaled &&
+          model->compensation != Compensation::kKullaConty);
+}
+
+void EvaluateBatch(const ShadingMaterial& material, const HitBatch& hits, const ShadingLight& light,
+                   const LightBatch& on_hits, Surface* surface, std::vector<CoatHits>* coats,
+                   BsdfRoom* room, ReflectedRadiance* radiance) {
+  if (coats->size() < material.coats.size()) coats->resize(material.coats.size());
+  for (size_t k = 0; k < material.coats.size(); ++k) CopyToCoat(hits, *surface, &(*coats)[k]);
+  PrepareBsdf(material, 0, hits.count, nullptr, surface, *coats);
+  EvaluateBsdf({material, hits, *surface, 0, hits.count, nullptr, *coats}, light, &on_hits, true,
+               room, radiance);
+}
+
+}  // namespace nacre

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shading/lobe_chances.h"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "brdf/fresnel.h"
+#include "shading/lobe_sample.h"
+#include "shading/models_at_hit.h"
+
+namespace nacre {
+namespace {
+
+// The numbers of a microfacet model that the estimates need, in the brightest channel.
+struct GgxNumbers {
+  double diffuse, f0, f90;
+  bool delta;
+  double f_multiple, loss;  // kKullaConty; else 0
+};
+
+// Schlick's curve through F0 and F90 stands for all Fresnel curves.
+ModelAlbedos AlbedosOfGgx(const GgxNumbers& n, double n_dot_v) {
+  const double fresnel = n.f0 + (n.f90 - n.f0) * Power5(1 - n_dot_v);
+  ModelAlbedos albedos;
+  albedos.diffuse = n.diffuse;
+  (n.delta ? albedos.mirror : albedos.glossy) = fresnel * (1 - n.loss);
+  albedos.glossy += n.f_multiple * n.loss;
+  return albedos;
+}
+
+bool HasSecondLobe(const MicrofacetModel& model) {
+  return model.compensation == Compensation::kKullaConty;
+}
+
+ModelAlbedos AlbedosOfModel(const std::monostate&, double) { return {}; }
+
+ModelAlbedos AlbedosOfModel(const MatteModel& matte, double) {
+  return {.diffuse = LargestChannel(matte.diffuse) * M_PI};
+}
+
+ModelAlbedos AlbedosOfModel(const PhongFamilyModel& phong, double) {
+  return {.diffuse = LargestChannel(phong.diffuse) * M_PI,
+          .glossy = LargestChannel(phong.specular) * 2 * M_PI / (phong.shininess + 2)};
+}
+
+// Nothing is known of a user model: it has one lobe.
+ModelAlbedos AlbedosOfModel(const UserModel& user, double) {
+  return user.brdf->sample ? ModelAlbedos{.glossy = 1} : ModelAlbedos{.diffuse = 1};
+}
+
+ModelAlbedos AlbedosOfModel(const MicrofacetModel& model, double n_dot_v) {
+  const bool second = HasSecondLobe(model) && model.multiple > 0;
+  return AlbedosOfGgx({LargestChannel(model.diffuse) * M_PI, LargestChannel(model.f0), model.f90,
+                       model.delta, second ? LargestChannel(model.f_multiple) : 0,
+                       second ? AlbedoLoss(model.albedo.lobe, n_dot_v) : 0},
+                      n_dot_v);
+}
+
+}  // namespace
+
+ModelAlbedos AlbedosOf(const ShadingMaterial& material, double n_dot_v) {
+  return std::visit([&](const auto& model) { return AlbedosOfModel(model, n_dot_v); },
+                    material.model);
+}
+
+ModelAlbedos AlbedosAt(const ShadingMaterial& material, const HitParameters* maps,
+                       const Surface& surface, size_t i, double n_dot_v) {
+  const auto* model = std::get_if<MicrofacetModel>(&material.model);
+  if (maps == nullptr) return AlbedosOf(material, n_dot_v);
+  if (model == nullptr) {
+    ModelAlbedos albedos = AlbedosOf(material, n_dot_v);
+    albedos.diffuse = LargestChannel(Rgb(VectorAt(maps->albedo, i)));
+    return albedos;
+  }
+  const auto constants = ColumnsIn<MicrofacetConstants<float*>>(maps->constants);
+  const auto largest = [i](float* const(&rgb)[3]) {
+    return std::max({rgb[0][i], rgb[1][i], rgb[2][i]});
+  };
+  Rgb diffuse;
+  for (int c = 0; c < 3; ++c) {
+    VisitChannel(material, *maps, c,
+                 [&](const auto& channel) { diffuse[c] = channel.Colors(i).diffuse; });
+  }
+  GgxNumbers numbers{LargestChannel(diffuse) * M_PI,
+                     largest(constants.f0),
+                     constants.f90[i],
+                     constants.not_delta[i] == 0,
+                     0,
+                     0};
+  if (HasSecondLobe(*model) && constants.multiple[i] > 0) {
+    numbers.f_multiple = largest(constants.f_multiple);
+    numbers.loss = std::min(surface.multiple[i] / constants.multiple[i], 1.0f);
+  }
+  return AlbedosOfGgx(numbers, n_dot_v);
+}
+
+double LayerChance(const LayerModel& layer, double n_dot_v, double below_albedo) {
+  const LayerReflection albedo = LayerAlbedo(layer, n_dot_v);
+  return Fraction(LargestChannel(albedo.lobe), albedo.below * below_albedo);
+}
+
+namespace {
+
+double AlbedoOf(const CoatInView& coat) {
+  const Rgb& t = coat.transmittance;
+  return 1 - std::min({t.x, t.y, t.z});
+}
+
+}  // namespace
+
+void FindCoatChances(std::span<const CoatInView> coats, double glossy, std::span<double> chances) {
+  for (size_t k = 0; k < coats.size(); ++k) {
+    const double albedo = coats[k].is_mirror ? 0 : AlbedoOf(coats[k]);
+    glossy *= LargestChannel(coats[k].transmittance);
+    chances[k] = std::clamp(Fraction(albedo, glossy), 0.0, 1.0);
+    glossy += albedo;
+  }
+}
+
+KindChances ChancesOfKinds(const std::vector<LayerModel>& layers, double n_dot_v,
+                           const ModelAlbedos& albedos, std::span<const CoatInView> coats,
+                           bool mirrors) {
+  // From the top down: `left` is what the levels so far let through.
+  double left = 1;
+  KindChances chances{.diffuse = 0};
+  for (size_t k = coats.size(); k-- > 0;) {
+    const double reflected = left * AlbedoOf(coats[k]);
+    if (!coats[k].is_mirror) {
+      chances.glossy += reflected;
+    } else if (mirrors) {
+      chances.mirror[1 + k] = reflected;
+    }
+    left *= LargestChannel(coats[k].transmittance);
+  }
+  for (size_t k = layers.size(); k-- > 0;) {
+    const LayerReflection albedo = LayerAlbedo(layers[k], n_dot_v);
+    (KindOf(layers[k]) == LobeKind::kDiffuse ? chances.diffuse : chances.glossy) +=
+        left * LargestChannel(albedo.lobe);
+    left *= albedo.below;
+  }
+  chances.diffuse += left * albedos.diffuse;
+  chances.glossy += left * albedos.glossy;
+  if (mirrors) chances.mirror[0] = left * albedos.mirror;
+  double sum = chances.diffuse + chances.glossy;
+  for (const double mirror : chances.mirror) sum += mirror;
+  if (!(sum > 0)) return {};
+  chances.diffuse /= sum;
+  chances.glossy /= sum;
+  for (double& mirror : chances.mirror) mirror /= sum;
+  return chances;
+}
+
+size_t ChooseKind(const KindChances& chances, Chooser* chooser) {
+  double left = 1;  // of the probability, for what has not been refused
+  const auto takes = [&](double chance) {
+    const bool taken = chance > 0 && chooser->Takes(std::min(chance / left, 1.0));
+    left -= chance;
+    return taken;
+  };
+  for (size_t level = chances.mirror.size(); level-- > 0;) {
+    if (takes(chances.mirror[level])) return kMirrorChosen + level;
+  }
+  return takes(chances.glossy) ? kGlossyChosen : kDiffuseChosen;
+}
+
+}  // namespace nacre

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// shading/models_at_hit.h: applies derive.h to hits with parameters of their own, which are in
+// HitParameters::numbers.
+#pragma once
+
+#include <variant>
+
+#include "scene/material.h"
+#include "shading/derive.h"
+#include "shading/hit_parameters.h"
+#include "shading/material.h"
+
+namespace nacre {
+
+// MetallicRoughnessHits, ConductorHits and DielectricHits give one channel of a microfacet material
+// at hit i: Colors(i), and Averages(colors) of these.
+struct MetallicRoughnessHits {
+  MetallicRoughnessHits(const MetallicRoughnessMaterial& material, const MicrofacetModel& model,
+                        const HitParameters& t, int c)
+      : base_color(NumbersOf(t, MappedNumber::kColor, c)),
+        metallic(NumbersOf(t, MappedNumber::kMetallic)),
+        dielectric_f0(NumbersOf(t, MappedNumber::kSpecularColor, c)),
+        specular(NumbersOf(t, MappedNumber::kSpecular)),
+        tint(model.fresnel == FresnelForm::kF82 ? material.f82_tint[c] : 1) {}
+
+  NACRE_DERIVE MicrofacetColors Colors(size_t i) const {
+    return DeriveMetallicRoughness(base_color[i], metallic[i], dielectric_f0[i], specular[i], tint);
+  }
+  NACRE_DERIVE CurveAverages Averages(const MicrofacetColors& at) const {
+    return DeriveAverages(at);
+  }
+
+  const double *base_color, *metallic, *dielectric_f0, *specular;
+  double tint;
+};
+
+struct ConductorHits {
+  ConductorHits(const ConductorMaterial&, const MicrofacetModel& model, const HitParameters&, int c)
+      : f0(model.metal_f0[c]), slope(model.f82_slope[c]), average(model.metal_f_average[c]) {}
+
+  NACRE_DERIVE MicrofacetColors Colors(size_t) const { return DeriveConductor(f0, slope); }
+  NACRE_DERIVE CurveAverages Averages(const MicrofacetColors&) const { return {0, average}; }
+
+  double f0, slope, average;
+};
+
+struct DielectricHits {
+  DielectricHits(const DielectricMaterial&, const MicrofacetModel& model, const HitParameters& t,
+                 int c)
+      : base_color(NumbersOf(t, MappedNumber::kColor, c)),
+        f0(model.dielectric_f0[c]),
+        average(model.dielectric_f_average[c]) {}
+
+  NACRE_DERIVE MicrofacetColors Colors(size_t i) const {
+    return DeriveDielectric(base_color[i], f0);
+  }
+  NACRE_DERIVE CurveAverages Averages(const MicrofacetColors&) const { return {average, 0}; }
+
+  const double* base_color;
+  double f0, average;
+};
+
+// Calls use(hits) with one of these for channel c of the material, which must have a
+// MicrofacetModel.
+template <class Use>
+void VisitChannel(const ShadingMaterial& material, const HitParameters& t, int c, const Use& use) {
+  const auto& model = std::get<MicrofacetModel>(material.model);
+  const Material& of = *material.scene_material;
+  if (const auto* metallic = std::get_if<MetallicRoughnessMaterial>(&of.model)) {
+    use(MetallicRoughnessHits(*metallic, model, t, c));
+  } else if (const auto* conductor = std::get_if<ConductorMaterial>(&of.model)) {
+    use(ConductorHits(*conductor, model, t, c));
+  } else {
+    use(DielectricHits(std::get<DielectricMaterial>(of.model), model, t, c));
+  }
+}
+
+}  // namespace nacre
