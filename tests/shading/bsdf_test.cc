@@ -4,7 +4,9 @@
 // kernels agree with the scalar twin.
 #include "shading/bsdf.h"
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <random>
 #include <string>
 #include <vector>
