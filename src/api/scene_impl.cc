@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "scene/fault_list.h"
+#include "scene/limits.h"
 #include "scene/validate.h"
 #include "scene_io/load_scene.h"
 
