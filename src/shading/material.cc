@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/error.h"
 #include "base/overloaded.h"
 #include "brdf/eon.h"
 #include "brdf/fresnel.h"
@@ -301,6 +302,11 @@ ShadingMaterial PrepareMaterial(const Material& material, bool in_ambient) {
   SkipBlackBase(&prepared);
   FinishModel(&prepared);
   for (const Material& coat : CoatsOf(material)) prepared.coats.push_back(PrepareCoat(coat));
+  // The stack's buffers have room for no more (bsdf.cc).
+  if (prepared.coats.size() > kMostCoats || prepared.layers.size() > kMostLayers) {
+    throw Error(ExitCode::kInternal, "material \"" + material.name + "\"",
+                "too many coats or layers");
+  }
   // The ambient light that coats and layers reflect, and the emission that coats transmit, depend
   // on the view direction of the hit.
   const bool coated = !prepared.coats.empty();
