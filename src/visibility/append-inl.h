@@ -12,6 +12,7 @@
 
 #include "base/compact_lanes.h"
 #include "base/prefetch.h"
+#include "hit/batch.h"
 #include "visibility/camera_packet-inl.h"
 #include "visibility/surface-inl.h"
 

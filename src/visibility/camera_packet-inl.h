@@ -9,6 +9,7 @@
 #define NACRE_VISIBILITY_CAMERA_PACKET_INL_H_
 #endif
 
+#include "base/aligned.h"
 #include "base/geometry-inl.h"
 #include "visibility/inverse_length-inl.h"
 #include "visibility/packet-inl.h"
