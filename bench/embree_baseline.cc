@@ -10,7 +10,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "base/parallel.h"
+#include "base/float_mode.h"
 #include "embree_tree.h"
 #include "float_visibility.h"
 #include "render/camera.h"

@@ -8,8 +8,8 @@
 
 #include "hwy/highway.h"
 
-#include "base/geometry-inl.h"
 #include "base/target_ops-inl.h"
+#include "base/vec3-inl.h"
 #include "visibility/packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -14,7 +14,7 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include "base/parallel.h"
+#include "base/float_mode.h"
 #include "base/target.h"
 #include "batch_shader.h"
 #include "brdf/ggx.h"

@@ -20,7 +20,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "base/parallel.h"
+#include "base/float_mode.h"
 #include "base/target.h"
 #include "scalar_baseline.h"
 #include "shading/shade.h"

@@ -10,7 +10,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "base/parallel.h"
+#include "base/float_mode.h"
 #include "base/target.h"
 #include "shading/shade.h"
 #include "shading/textures.h"

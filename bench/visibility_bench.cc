@@ -7,7 +7,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "base/parallel.h"
+#include "base/float_mode.h"
 #include "float_visibility.h"
 #include "render/camera.h"
 #include "render/frame_plan.h"

@@ -38,7 +38,7 @@
 
 #include <spng.h>
 
-#include "base/parallel.h"
+#include "base/float_mode.h"
 #include "base/seconds_since.h"
 #include "base/target.h"
 #include "embree_tree.h"

@@ -322,7 +322,11 @@ struct RenderSettings {
   // Any thread may set it to true, which ends the render by Cancelled within some milliseconds;
   // before the first pixel, once the current tree, bin or table is built. May be null.
   const std::atomic<bool>* cancel = nullptr;
+  Parameters others;  // settings that have no member here, by name: those of NamedSettings()
 };
+
+// The settings that RenderSettings::others may have, and their meanings.
+NACRE_API std::map<std::string, std::string> NamedSettings();
 
 struct RenderStats {
   uint64_t camera_rays = 0, shadow_rays = 0;

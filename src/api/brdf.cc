@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "api/scene_impl.h"
-#include "base/parallel.h"
+#include "base/float_mode.h"
 #include "brdf/fresnel.h"
 #include "brdf/ggx.h"
 #include "shading/bsdf.h"
@@ -40,10 +40,8 @@ ShadingMaterial Prepare(const Scene& scene, const std::string& name) {
     DropMaps(&prepared);
     return prepared;
   }
-  const std::string nearest = NearestName(name, names);
-  throw nacre::Error(
-      ExitCode::kUsage, "Brdf", "unknown material \"" + name + "\"",
-      nearest.empty() ? "Scene::material_names lists them" : "did you mean \"" + nearest + "\"?");
+  throw nacre::Error(ExitCode::kUsage, "Brdf", "unknown material \"" + name + "\"",
+                     NearestHint(name, names, "Scene::material_names lists them"));
 }
 
 // Tolerance for |v|^2 of a unit vector. A vector normalised in float arithmetic is off by up to 9
@@ -207,9 +205,8 @@ Reflection Brdf::Evaluate(const Vec3& normal, const Vec3& to_view, const Vec3& t
 Reflections Brdf::Shade(const Directions& directions) const {
   return AtBorder([&] {
     Reflections result;
-    for (auto* layer : {&result.diffuse, &result.specular}) {
-      for (std::vector<float>& plane : *layer) plane.resize(directions.count);
-    }
+    Resize(directions.count, &result.diffuse);
+    Resize(directions.count, &result.specular);
     if (directions.count == 0) return result;
     CheckUnits(directions, "Shade");
     const FlushDenormals flush;  // as in renders

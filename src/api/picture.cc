@@ -1,16 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
-// api/picture.cc: display pictures in memory.
+// api/picture.cc: what a display shows of an image, as pictures in memory, and images as EXR and
+// PNG files.
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <locale>
+#include <set>
+#include <sstream>
+#include <string>
+#include <system_error>
+#include <vector>
 
-#include "api/shown.h"
+#include "api/border.h"
 #include "base/parallel.h"
+#include "base/path.h"
+#include "base/version.h"
+#include "color/display.h"
 #include "image_io/color_channels.h"
+#include "image_io/exr_checksum.h"
+#include "image_io/exr_writer.h"
 #include "image_io/jpeg_writer.h"
 #include "image_io/png_writer.h"
 
 namespace nacre::v0 {
 namespace {
+
+// The values of a public image that a display shows.
+struct Shown {
+  // Throws Error (kUsage) for settings out of range, and if there is no such layer; `what` names
+  // the function in errors.
+  Shown(const Image& image, const ToneMapSettings& settings, const std::string& what);
+
+  nacre::DisplaySettings display;
+  bool displayed;  // the values are display values already
+  std::array<const float*, 3> rgb;
+
+ private:
+  std::array<std::vector<float>, 3> converted_;  // in Rec. 709, if the image has other primaries
+};
 
 // For values that are display values already.
 void RoundToCodes(const std::array<const float*, 3>& rgb, size_t count, uint8_t* rgb8) {
@@ -42,8 +72,6 @@ Rgb8Picture ToOwn(const Picture& picture) {
   return own;
 }
 
-}  // namespace
-
 Shown::Shown(const Image& image, const ToneMapSettings& settings, const std::string& what) {
   CheckImage(image);
   if (!(std::abs(settings.exposure) <= 60)) {
@@ -68,12 +96,15 @@ Shown::Shown(const Image& image, const ToneMapSettings& settings, const std::str
                 /*clip=*/false);
 }
 
+// Writes the codes of `count` pixels, row by row from pixel `first` on: R, G and B of each.
 void EncodePixels(const Shown& shown, size_t first, size_t count, uint8_t* rgb8) {
   const std::array<const float*, 3> from = {shown.rgb[0] + first, shown.rgb[1] + first,
                                             shown.rgb[2] + first};
   if (shown.displayed) return RoundToCodes(from, count, rgb8);
   EncodeDisplay(shown.display, from[0], from[1], from[2], count, rgb8);
 }
+
+}  // namespace
 
 Picture ToneMap(const Image& image, const ToneMapSettings& settings) {
   return AtBorder([&] {
@@ -109,6 +140,115 @@ std::vector<uint8_t> EncodeJpeg(const Picture& picture, int quality) {
                          "a side has at most 65500 pixels");
     }
     return nacre::EncodeJpeg(ToOwn(picture), quality);
+  });
+}
+
+// ---- Files --------------------------------------------------------------------------------------
+
+namespace {
+
+nacre::PixelType ToFile(SampleType type, bool half_floats) {
+  switch (type) {
+    case SampleType::kHalf:
+      return half_floats ? nacre::PixelType::kHalf : nacre::PixelType::kFloat;
+    case SampleType::kFloat:
+      return nacre::PixelType::kFloat;
+    case SampleType::kUint:
+      return nacre::PixelType::kUint;
+  }
+  return nacre::PixelType::kFloat;
+}
+
+// Parses sixteen numbers, as the reader prints a matrix; nullopt for any other text.
+std::optional<Imath::M44f> ParseMatrix(const std::string& text) {
+  std::istringstream numbers(text);
+  numbers.imbue(std::locale::classic());
+  Imath::M44f matrix;
+  for (int i = 0; i < 16; ++i) {
+    if (!(numbers >> matrix[i / 4][i % 4])) return std::nullopt;
+  }
+  return matrix;
+}
+
+// Metadata that the file has by itself, and "transfer", which is not an attribute of any file.
+bool IsFilesOwn(const std::string& name) {
+  static const std::set<std::string> own = {
+      "channels",          "chromaticities",     "chunkCount", "compression", "dataWindow",
+      "displayWindow",     "lineOrder",          "name",       "transfer",    "type",
+      "pixelAspectRatio",  "screenWindowCenter", "version",    "tiles",       "view",
+      "screenWindowWidth", kExrChecksumAttribute};
+  return own.contains(name);
+}
+
+// Converts metadata to an attribute; attributes of nacre keep their types.
+nacre::ExrAttribute ToAttribute(const std::string& name, const std::string& text) {
+  // The number, if the whole text is one; else the text.
+  const auto number = [&](auto value) -> nacre::ExrAttribute {
+    const char* const end = text.data() + text.size();
+    const auto [last, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc() || last != end) return text;
+    return value;
+  };
+  if (name == "samplesPerPixel") return number(int{});
+  if (name == "renderTime" || name == "nacre:maxError") return number(float{});
+  return text;
+}
+
+nacre::ExrHeader MakeHeader(const Image& image, const WriteSettings& settings) {
+  nacre::ExrHeader header;
+  header.data = ToOwn(image.data);
+  header.display = ToOwn(image.frame);
+  if (header.display.empty()) header.display = header.data;
+  for (const Channel& channel : image.channels) {
+    header.channels.push_back({channel.name, ToFile(channel.type, settings.half_floats)});
+  }
+  header.attributes["Software"] = std::string("nacre ") + kVersion;
+  for (const auto& [name, text] : image.metadata) {
+    if (name == "worldToCamera") {
+      header.world_to_camera = ParseMatrix(text);
+    } else if (name == "worldToNDC") {
+      header.world_to_ndc = ParseMatrix(text);
+    } else if (!IsFilesOwn(name)) {
+      header.attributes[name] = ToAttribute(name, text);
+    }
+  }
+  return header;
+}
+
+void WriteExr(const Image& image, const std::string& path, const WriteSettings& settings) {
+  const ExrOptions options{.compression = ParseCompression(settings.compression),
+                           .small = settings.small};
+  ExrWriter writer(path, MakeHeader(image, settings), options);
+  std::vector<const float*> planes;
+  for (const Channel& channel : image.channels) planes.push_back(channel.samples.data());
+  writer.WriteAll(planes);
+  writer.Finish();
+}
+
+void WritePng(const Image& image, const std::string& path, const WriteSettings& settings) {
+  const Shown shown(image,
+                    {.layer = "", .tonemap = settings.tonemap, .exposure = settings.exposure},
+                    "a PNG file");
+  PngHeader header;
+  header.width = image.width();
+  header.height = image.height();
+  header.text = {{"Software", std::string("nacre ") + kVersion},
+                 {"nacre:tonemap", shown.displayed ? "none" : settings.tonemap}};
+  PngWriter writer(path, header, {.small = settings.small});
+  writer.WriteAll(
+      [&](size_t first, size_t count, uint8_t* rgb8) { EncodePixels(shown, first, count, rgb8); });
+  writer.Finish();
+}
+
+}  // namespace
+
+void Write(const Image& image, const std::string& path, const WriteSettings& settings) {
+  AtBorder([&] {
+    CheckImage(image);
+    if (HasExtension(path, ".exr")) return WriteExr(image, path, settings);
+    if (HasExtension(path, ".png")) return WritePng(image, path, settings);
+    throw nacre::Error(ExitCode::kUsage, path, "unknown output extension",
+                       "nacre writes .exr (linear, HDR) and .png (tone-mapped)");
   });
 }
 

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // api/render.cc: renders of the public API.
 #include <chrono>
+#include <map>
+#include <utility>
+#include <variant>
 
 #include "api/render_impl.h"
 #include "api/scene_impl.h"
+#include "base/overloaded.h"
 #include "output/metadata.h"
 #include "scene/limits.h"
+#include "scene_io/json_reader.h"
 
 namespace nacre::v0 {
 namespace {
@@ -20,24 +25,66 @@ void RequireWithin(double value, const Range& range, const char* setting) {
   Require(value == 0 || range.Contains(value), setting, "0 or " + Describe(range));
 }
 
+// Sets what is given by name. Throws nacre::Error.
+void ReadOthers(const Parameters& others, nacre::RenderSettings* own) {
+  if (others.empty()) return;
+  const std::string where = "RenderSettings::others";
+  FaultList faults;
+  const nacre::Json json = ParseJson(Value(others).json(), where, &faults);
+  JsonObject object({json, {}, &faults});
+  for (const SettingKey& key : SettingKeys()) {
+    if (key.library == LibraryUse::kNone) continue;
+    std::visit(Overloaded{[&](double nacre::RenderSettings::*field) {
+                            object.Number(key.name, key.range, &(own->*field));
+                          },
+                          [&](int nacre::RenderSettings::*field) {
+                            object.Whole(key.name, key.range, &(own->*field));
+                          },
+                          [&](bool nacre::RenderSettings::*field) {
+                            object.Boolean(key.name, &(own->*field));
+                          },
+                          [](std::vector<std::string> nacre::RenderSettings::*) {},  // a member
+                          [&](const SettingChoice& choice) {
+                            size_t option = 0;
+                            const bool given = object.Choice(key.name, choice.options, &option);
+                            if (given) choice.set(*own, option);
+                          },
+                          [&](const SettingText& of_text) {
+                            std::string text;
+                            if (object.Text(key.name, &text)) of_text.parse(text, own);
+                          }},
+               key.field);
+  }
+  object.RefuseOthers();
+  ThrowFaults(faults, where, ExitCode::kUsage);
+}
+
 }  // namespace
+
+std::map<std::string, std::string> NamedSettings() {
+  std::map<std::string, std::string> named;
+  for (const SettingKey& key : SettingKeys()) {
+    if (key.library == LibraryUse::kByName) named.emplace(key.name, key.meaning);
+  }
+  return named;
+}
 
 nacre::RenderSettings ToOwn(const RenderSettings& settings) {
   RequireWithin(settings.width, limits::kImageSide, "width");
   RequireWithin(settings.height, limits::kImageSide, "height");
   RequireWithin(settings.samples, limits::kSpp, "samples");
-  RequireWithin(settings.max_error, {1e-6, 1}, "max_error");
-  Require(settings.threads >= 0 && settings.threads <= 1024, "threads", "from 0 to 1024");
   nacre::RenderSettings own;
+  own.max_error = settings.max_error;
   own.threads = settings.threads;
   own.region = ToOwn(settings.region);
   const Window& region = settings.region;
   const bool all = region.x0 == 0 && region.y0 == 0 && region.x1 == 0 && region.y1 == 0;
   Require(all || !own.region.empty(), "region", "x0 < x1 and y0 < y1");
   own.layers = settings.layers;
-  own.max_error = settings.max_error;
   if (settings.samples > 0) own.max_samples = settings.samples;
-  own.intersector = ParseIntersector(settings.intersector);
+  SetChoice(SettingNamed("intersector"), settings.intersector, &own);
+  ReadOthers(settings.others, &own);
+  CheckSettings(own);
   own.on_progress = settings.on_progress;
   own.cancel = settings.cancel;
   return own;

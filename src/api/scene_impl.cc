@@ -39,9 +39,8 @@ std::vector<nacre::MaterialId> FindMaterials(const std::vector<std::string>& nam
     if (found != places.end()) continue;
     std::vector<std::string> known;
     for (const nacre::Material& material : scene.materials) known.push_back(material.name);
-    const std::string nearest = NearestName(name, known);
     faults.Add("material", "unknown material \"" + name + "\"",
-               nearest.empty() ? "AddMaterial adds one" : "did you mean \"" + nearest + "\"?");
+               NearestHint(name, known, "AddMaterial adds one"));
   }
   if (faults.count() > 0) throw nacre::Error(ExitCode::kBadInput, faults.All());
   return ids;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/basis-inl.h: orthonormal bases on SIMD vectors. Scalar twin: base/basis.h.
+// base/basis-inl.h: orthonormal bases, directions around an axis and points of the unit disk on
+// SIMD vectors. Scalar twin: base/basis.h.
 #if defined(NACRE_BASE_BASIS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_BASE_BASIS_INL_H_
 #undef NACRE_BASE_BASIS_INL_H_
@@ -7,11 +8,12 @@
 #define NACRE_BASE_BASIS_INL_H_
 #endif
 
+#include "base/basis.h"
+#include "base/trig-inl.h"
 #include "base/vec3-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <class V>
@@ -46,7 +48,31 @@ HWY_INLINE Vec3V<V> ToLocal(const BasisV<V>& basis, const Vec3V<V>& world) {
   return {FusedDot(basis.x, world), FusedDot(basis.y, world), FusedDot(basis.z, world)};
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+// The direction at 1 - cos = x from `axis`, with azimuth 2 pi u1.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Vec3V<V> DirectionAround(D d, const Vec3V<V>& axis, V x, V u1) {
+  const V one = hn::Set(d, 1.0f);
+  const V sin = hn::Sqrt(hn::Mul(x, hn::Sub(hn::Set(d, 2.0f), x)));
+  const SinCosV<V> phi = SinCosTurns(d, u1);
+  return ToWorld(BasisAbout(d, axis),
+                 Vec3V<V>{hn::Mul(sin, phi.cos), hn::Mul(sin, phi.sin), hn::Sub(one, x)});
+}
+
+// Shirley and Chiu 1997: angles are at most an eighth of a turn, plus a quarter.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE PointOnDisk<V> ConcentricDisk(D d, V u0, V u1) {
+  const V zero = hn::Zero(d);
+  const V one = hn::Set(d, 1.0f);
+  const V two = hn::Set(d, 2.0f);
+  const V a = hn::MulSub(two, u0, one), b = hn::MulSub(two, u1, one);
+  const auto flat = hn::Gt(hn::Abs(a), hn::Abs(b));
+  const V larger = hn::IfThenElse(flat, a, b), smaller = hn::IfThenElse(flat, b, a);
+  const V ratio = hn::Div(smaller, hn::IfThenElse(hn::Eq(larger, zero), one, larger));
+  const SinCosV<V> phi = SinCosTurns(d, hn::Mul(ratio, hn::Set(d, 0.125f)));
+  return {hn::Mul(larger, hn::IfThenElse(flat, phi.cos, phi.sin)),
+          hn::Mul(larger, hn::IfThenElse(flat, phi.sin, phi.cos)), hn::Abs(larger)};
+}
+
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/basis.h: right-handed orthonormal bases about a given axis. SIMD twin: basis-inl.h.
+// base/basis.h: right-handed orthonormal bases about a given axis, directions around it, and points
+// of the unit disk. SIMD twin: basis-inl.h.
 #pragma once
 
 #include <cmath>
@@ -28,6 +29,33 @@ Basis<Real> BasisAbout(const Imath::Vec3<Real>& z) {
   const Real a = -1 / (sign + z.z);
   const Real b = z.x * z.y * a;
   return {{1 + sign * z.x * z.x * a, sign * b, -sign * z.x}, {b, sign + z.y * z.y * a, -z.y}, z};
+}
+
+// The direction at 1 - cos = x from `axis`, with azimuth 2 pi u1.
+template <typename Real>
+Imath::Vec3<Real> DirectionAround(const Imath::Vec3<Real>& axis, Real x, Real u1) {
+  const Real sin = std::sqrt(x * (2 - x));
+  const Real phi = 2 * static_cast<Real>(M_PI) * u1;
+  return BasisAbout(axis).ToWorld({sin * std::cos(phi), sin * std::sin(phi), 1 - x});
+}
+
+template <typename Real>
+struct PointOnDisk {
+  Real x, y;
+  Real radius;  // exact, so that 1 - radius^2 is accurate; hypot(x, y) would be rounded
+};
+
+// The area-preserving concentric map from the unit square to the unit disk: Shirley and Chiu 1997,
+// "A Low Distortion Map Between Disk and Square", for u in [0, 1].
+template <typename Real>
+PointOnDisk<Real> ConcentricDisk(Real u0, Real u1) {
+  const Real a = 2 * u0 - 1, b = 2 * u1 - 1;
+  const bool flat = std::abs(a) > std::abs(b);
+  const Real larger = flat ? a : b, smaller = flat ? b : a;
+  if (larger == 0) return {0, 0, 0};
+  const Real phi = static_cast<Real>(M_PI / 4) * (smaller / larger);
+  const Real along = larger * std::cos(phi), across = larger * std::sin(phi);
+  return {flat ? along : across, flat ? across : along, std::abs(larger)};
 }
 
 }  // namespace nacre

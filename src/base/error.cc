@@ -64,4 +64,10 @@ std::string NearestName(const std::string& word, const std::vector<std::string>&
   return nearest;
 }
 
+std::string NearestHint(const std::string& word, const std::vector<std::string>& candidates,
+                        const std::string& otherwise) {
+  const std::string nearest = NearestName(word, candidates);
+  return nearest.empty() ? otherwise : "did you mean \"" + nearest + "\"?";
+}
+
 }  // namespace nacre

@@ -53,4 +53,8 @@ class Error : public std::exception {
 // typing error (more than a third of the letters differ).
 std::string NearestName(const std::string& word, const std::vector<std::string>& candidates);
 
+// The hint for an unknown name: did you mean "NEAREST"? If there is none, `otherwise`.
+std::string NearestHint(const std::string& word, const std::vector<std::string>& candidates,
+                        const std::string& otherwise);
+
 }  // namespace nacre

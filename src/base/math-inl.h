@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/math-inl.h: base-2 logarithm and exponential on float vectors, for powers with real
-// exponents: x^n = Exp2(n Log2(x)). Highway's contrib has natural ones, which take twice as long,
-// and its log1p is inaccurate for cosines near 0.
+// base/math-inl.h: polynomials, and base-2 logarithm and exponential on float vectors, for powers
+// with real exponents: x^n = Exp2(n Log2(x)). Highway's contrib has natural ones, which take twice
+// as long, and its log1p is inaccurate for cosines near 0. Also the power of two in a number, by
+// which scaling is exact.
 //
 // Coefficients: scripts/fit_math.py prints them with their errors.
 #if defined(NACRE_BASE_MATH_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -11,13 +12,54 @@
 #define NACRE_BASE_MATH_INL_H_
 #endif
 
-#include "base/polynomial-inl.h"
+#include <cstdint>
+#include <type_traits>
+
 #include "base/target_ops-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+
+// The polynomial in x with these coefficients, lowest first, by Horner's rule.
+template <class D, size_t kTerms, class V = hn::Vec<D>>
+HWY_INLINE V EvaluatePolynomial(D d, const float (&coefficients)[kTerms], V x) {
+  V p = hn::Set(d, coefficients[kTerms - 1]);
+  for (size_t i = kTerms - 1; i != 0; --i) p = hn::MulAdd(p, x, hn::Set(d, coefficients[i - 1]));
+  return p;
+}
+
+// A polynomial in x of kTerms terms, an even number; coefficient(i) is that of x^i. Even and odd
+// powers are summed separately by Horner's rule: two chains of dependent operations, each half as
+// long.
+template <size_t kTerms, class V, class Coefficient>
+HWY_INLINE V EvaluateEvenOdd(const Coefficient& coefficient, V x) {
+  static_assert(kTerms % 2 == 0);
+  const V x2 = hn::Mul(x, x);
+  V last = coefficient(kTerms - 1), before = coefficient(kTerms - 2);
+  for (size_t i = kTerms - 2; i != 0; i -= 2) {
+    last = hn::MulAdd(last, x2, coefficient(i - 1));
+    before = hn::MulAdd(before, x2, coefficient(i - 2));
+  }
+  return hn::MulAdd(last, x, before);
+}
+
+template <class V>
+struct PowerOfTwoV {
+  V power, inverse;
+};
+
+// For a normal v > 0: the power of two 2^e for which v / 2^e is in [1, 2), and 2^-e, which is 0 for
+// the largest e. For v = 0, both are finite.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE PowerOfTwoV<V> PowerOfTwo(D d, V v) {
+  using Bits = std::conditional_t<sizeof(hn::TFromD<D>) == 4, uint32_t, uint64_t>;
+  constexpr Bits kExponent = static_cast<Bits>(sizeof(Bits) == 4 ? 0x7f800000 : 0x7ff0000000000000);
+  constexpr Bits kTwiceOne = static_cast<Bits>(sizeof(Bits) == 4 ? 0x7f000000 : 0x7fe0000000000000);
+  const hn::Rebind<Bits, D> bits;
+  const auto exponent = hn::And(hn::BitCast(bits, v), hn::Set(bits, kExponent));
+  return {hn::BitCast(d, exponent), hn::BitCast(d, hn::Sub(hn::Set(bits, kTwiceOne), exponent))};
+}
 
 // log2(1 + f) for f in [sqrt(1/2) - 1, sqrt(2) - 1]: relative error 2e-8 before rounding.
 template <class D, class V = hn::Vec<D>>
@@ -147,7 +189,6 @@ HWY_INLINE V Exp2(D d, V y) {
   return hn::BitCast(d, bits);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

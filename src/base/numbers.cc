@@ -46,4 +46,18 @@ std::optional<std::vector<double>> ParseNumbers(std::string_view text) {
   }
 }
 
+std::optional<std::vector<int>> ParseIntegers(std::string_view text, char separator, size_t count) {
+  std::vector<int> numbers;
+  while (true) {
+    const size_t end = std::min(text.find(separator), text.size());
+    int value = 0;
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + end, value);
+    if (error != std::errc() || rest != text.data() + end) return std::nullopt;
+    numbers.push_back(value);
+    if (end == text.size()) break;
+    text.remove_prefix(end + 1);
+  }
+  return numbers.size() == count ? std::optional(numbers) : std::nullopt;
+}
+
 }  // namespace nacre

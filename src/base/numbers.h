@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/numbers.h: parses numbers in the text of files.
+// base/numbers.h: parses numbers in the text of files and options.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -15,5 +16,9 @@ std::optional<double> ParseNumber(std::string_view word);
 
 // Parses all words of the text, separated by blanks, as numbers. nullopt if any word is not one.
 std::optional<std::vector<double>> ParseNumbers(std::string_view text);
+
+// Parses `count` whole numbers separated by `separator`, with nothing around them; nullopt if the
+// text is anything else.
+std::optional<std::vector<int>> ParseIntegers(std::string_view text, char separator, size_t count);
 
 }  // namespace nacre

@@ -136,7 +136,4 @@ void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& b
   loop.ThrowIfFailed();
 }
 
-FlushDenormals::FlushDenormals() : saved_(EnterFloatMode(Denormals::kFlushed)) {}
-FlushDenormals::~FlushDenormals() { LeaveFloatMode(saved_); }
-
 }  // namespace nacre

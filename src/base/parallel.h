@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 
 namespace nacre {
@@ -16,19 +15,5 @@ void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& b
 
 // The number of threads that ParallelFor uses for `threads`.
 int ThreadCount(int threads);
-
-// While alive, denormals of this thread are treated as zero (FTZ and DAZ on x86, FZ on arm64): the
-// tails of highlights make them, and each costs a hundred cycles on x86. All other modes are those
-// of DefaultFloatMode (float_mode.h). Restores the caller's modes.
-class FlushDenormals {
- public:
-  FlushDenormals();
-  ~FlushDenormals();
-  FlushDenormals(const FlushDenormals&) = delete;
-  FlushDenormals& operator=(const FlushDenormals&) = delete;
-
- private:
-  uint64_t saved_ = 0;
-};
 
 }  // namespace nacre

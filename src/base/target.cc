@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/target.h"
 
+#include <iterator>
 #include <optional>
 
 #include "hwy/highway.h"
@@ -8,49 +9,32 @@
 namespace nacre {
 namespace {
 
-constexpr Target kAllTargets[] = {Target::kScalar, Target::kSse4, Target::kAvx2, Target::kAvx3,
-                                  Target::kNeon};
+struct TargetRow {
+  const char* name;
+  int64_t highway;  // Highway's bit; 0: not on this architecture
+};
 
-int64_t HighwayTarget(Target target) {
-  switch (target) {
-    case Target::kScalar:
-      return HWY_TARGETS & HWY_SCALAR;
-    case Target::kSse4:
-      return HWY_SSE4;
-    case Target::kAvx2:
-      return HWY_AVX2;
-    case Target::kAvx3:
-      return HWY_AVX3;
-    case Target::kNeon:
-      return HWY_ARCH_ARM ? HWY_STATIC_TARGET : 0;
-  }
-  return 0;
-}
+// By Target, slowest first.
+constexpr TargetRow kTargets[] = {
+    {"scalar", HWY_TARGETS& HWY_SCALAR},
+    {"sse4", HWY_SSE4},
+    {"avx2", HWY_AVX2},
+    {"avx3", HWY_AVX3},
+    {"neon", HWY_ARCH_ARM ? HWY_STATIC_TARGET : 0},
+};
+
+const TargetRow& RowOf(Target target) { return kTargets[static_cast<size_t>(target)]; }
 
 }  // namespace
 
-std::string TargetName(Target target) {
-  switch (target) {
-    case Target::kScalar:
-      return "scalar";
-    case Target::kSse4:
-      return "sse4";
-    case Target::kAvx2:
-      return "avx2";
-    case Target::kAvx3:
-      return "avx3";
-    case Target::kNeon:
-      return "neon";
-  }
-  return {};
-}
+std::string TargetName(Target target) { return RowOf(target).name; }
 
 std::vector<Target> SupportedTargets() {
   // Queried once, before any target is pinned: afterwards Highway returns the pinned one.
   static const int64_t supported = (hwy::SupportedTargets() | HWY_SCALAR) & HWY_TARGETS;
   std::vector<Target> targets;
-  for (const Target target : kAllTargets) {
-    if ((supported & HighwayTarget(target)) != 0) targets.push_back(target);
+  for (size_t i = 0; i < std::size(kTargets); ++i) {
+    if ((supported & kTargets[i].highway) != 0) targets.push_back(static_cast<Target>(i));
   }
   return targets;
 }
@@ -63,7 +47,7 @@ static std::optional<Target>& PinnedTarget() {
 
 void PinTarget(Target target) {
   SupportedTargets();
-  hwy::SetSupportedTargetsForTest(HighwayTarget(target));
+  hwy::SetSupportedTargetsForTest(RowOf(target).highway);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
   PinnedTarget() = target;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // base/target_ops-inl.h: the few operations whose fastest accurate form depends on the target.
-// Together with visibility/inverse_length-inl.h, for doubles, it contains nearly all uses of #if
-// HWY_TARGET.
+// It contains nearly all uses of #if HWY_TARGET.
 //
 // AVX-512 estimates reciprocals to 14 bits, and one Newton step makes them accurate to 1 ulp of a
 // float, in a third of the time of a division. Estimates of other targets have 12 bits and would
@@ -16,8 +15,7 @@
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // 1 / x for normal x of either sign, within 1 ulp; 0 for infinity.
@@ -62,6 +60,32 @@ HWY_INLINE V SquareRoot(D d, V x) {
 #endif
   (void)d;
   return hn::Sqrt(x);
+}
+
+// 1 / sqrt(v) to at least 14 bits, for v within the range of float. AVX-512 has an instruction for
+// it, which is several times faster than a square root and a division.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V RoughInverseSqrt(D d, V v) {
+#if HWY_TARGET <= HWY_AVX3
+  (void)d;
+  return V{_mm512_maskz_rsqrt14_pd(0xff, v.raw)};  // GCC 12 warns about the unmasked form
+#else
+  const hn::Rebind<float, D> df;
+  return hn::PromoteTo(d, hn::Div(hn::Set(df, 1.0f), hn::Sqrt(hn::DemoteTo(df, v))));
+#endif
+}
+
+// 1 / |direction| within 2 ulp, from dd = |direction|^2 of a camera ray, which is well within the
+// range of float. One step of fourth order refines the estimate g to double precision:
+// 1 / sqrt(dd) = g (1 + e/2 + 3/8 e^2 + 5/16 e^3 + ...) for e = 1 - dd g^2, of which
+// |35/128 e^4| < 2^-53 is dropped.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V InverseLength(D d, V dd) {
+  const V guess = RoughInverseSqrt(d, dd);
+  const V error = hn::NegMulAdd(hn::Mul(dd, guess), guess, hn::Set(d, 1.0));
+  V series = hn::MulAdd(error, hn::Set(d, 5.0 / 16), hn::Set(d, 3.0 / 8));
+  series = hn::MulAdd(error, series, hn::Set(d, 1.0 / 2));
+  return hn::MulAdd(hn::Mul(error, series), guess, guess);
 }
 
 // 2 sqrt(x) for normal x > 0, within 2 ulp: one operation and one dependent step fewer.
@@ -136,7 +160,6 @@ HWY_INLINE hn::Vec<hn::ScalableTag<float>> SubtractAndRound(hn::ScalableTag<floa
 #endif
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

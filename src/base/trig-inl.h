@@ -10,11 +10,10 @@
 #define NACRE_BASE_TRIG_INL_H_
 #endif
 
-#include "base/polynomial-inl.h"
+#include "base/math-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <class V>
@@ -92,15 +91,6 @@ HWY_INLINE V Atan2Upper(D d, V y, V x) {
   return hn::IfThenElse(hn::Lt(x, zero), hn::Sub(hn::Set(d, 3.14159265f), first), first);
 }
 
-// angle / sin(angle) - 1 for an angle in [0, pi) given by the tangent of its half.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V ArcExcess(D d, V tan_half) {
-  const V one = hn::Set(d, 1.0f);
-  const V z = hn::Mul(tan_half, tan_half);
-  return hn::Mul(z, hn::NegMulAdd(hn::Add(one, z), AtanRemainder(d, tan_half), one));
-}
-
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

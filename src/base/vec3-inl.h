@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/vec3-inl.h: 3-D vectors on SIMD vectors, one per lane.
+// base/vec3-inl.h: 3-D vectors on SIMD vectors, one per lane or one in all of them.
 #if defined(NACRE_BASE_VEC3_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_BASE_VEC3_INL_H_
 #undef NACRE_BASE_VEC3_INL_H_
@@ -9,9 +9,10 @@
 
 #include "hwy/highway.h"
 
+#include "base/vec.h"
+
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <class V>
@@ -19,10 +20,26 @@ struct Vec3V {
   V x, y, z;
 };
 
-// Products and sums are never fused, so that every target gives the same bits. For geometry.
+// v in all lanes, rounded to the lanes' type.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Vec3V<V> SetVec3(D d, const Vec3d& v) {
+  using T = hn::TFromD<D>;
+  return {hn::Set(d, static_cast<T>(v.x)), hn::Set(d, static_cast<T>(v.y)),
+          hn::Set(d, static_cast<T>(v.z))};
+}
+
+// Products and sums of Dot and Cross are never fused, so that every target gives the same bits. For
+// geometry.
 template <class V>
 HWY_INLINE V Dot(const Vec3V<V>& a, const Vec3V<V>& b) {
   return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+
+template <class V>
+HWY_INLINE Vec3V<V> Cross(const Vec3V<V>& a, const Vec3V<V>& b) {
+  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
+          hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
+          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
 }
 
 // Fused if the target has fused multiply-add: faster and more accurate, but with different bits on
@@ -94,13 +111,30 @@ HWY_INLINE void Store3(const Vec3V<V>& v, D d, hn::TFromD<D>* x, hn::TFromD<D>* 
   hn::Store(v.z, d, z);
 }
 
+// Rounded to float.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE auto Demote3(D /*d*/, const Vec3V<V>& v) {
+  const hn::Rebind<float, D> df;
+  return Vec3V<hn::Vec<decltype(df)>>{hn::DemoteTo(df, v.x), hn::DemoteTo(df, v.y),
+                                      hn::DemoteTo(df, v.z)};
+}
+
+// These take the arrays of x, y and z as `xyz`, and load and store their entries from i on.
+template <class D, class Arrays, class Index>
+HWY_INLINE Vec3V<hn::Vec<D>> Load3(D d, const Arrays& xyz, Index i) {
+  return Load3(d, xyz[0] + i, xyz[1] + i, xyz[2] + i);
+}
+template <class D, class V, class Arrays, class Index>
+HWY_INLINE void Store3(const Vec3V<V>& v, D d, Arrays&& xyz, Index i) {
+  Store3(v, d, xyz[0] + i, xyz[1] + i, xyz[2] + i);
+}
+
 // Loads from addresses that need not be aligned.
 template <class D, class T>
 HWY_INLINE Vec3V<hn::Vec<D>> LoadU3(D d, const T* x, const T* y, const T* z) {
   return {hn::LoadU(d, x), hn::LoadU(d, y), hn::LoadU(d, z)};
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -13,8 +13,7 @@
 #include "brdf/fresnel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // An AlbedoFit for each lane, as structure of arrays.
@@ -147,30 +146,6 @@ HWY_INLINE V AlbedoFresnel(D d, const FresnelAlbedoFit& fit, V albedo_one,
   return AlbedoNearMirror(d, fit.lobe, fit.fresnel, mirror, albedo_one, x);
 }
 
-// These overloads compute the variables from n.v, for callers that need only one of the albedos.
-template <class D, class Fit, class V = hn::Vec<D>>
-HWY_INLINE V AlbedoOne(D d, const Fit& fit, V n_dot_v) {
-  return AlbedoOne(d, fit, ComputeAlbedoVariables(d, fit.shape, n_dot_v));
-}
-
-template <class D, class Fit, class V = hn::Vec<D>>
-HWY_INLINE V AlbedoLoss(D d, const Fit& fit, V n_dot_v) {
-  return AlbedoLoss(d, fit, ComputeAlbedoVariables(d, fit.shape, n_dot_v));
-}
-
-template <class D, class Fit, class V = hn::Vec<D>>
-HWY_INLINE V AlbedoSchlick(D d, const Fit& fit, V n_dot_v) {
-  const AlbedoVariablesV<V> x = ComputeAlbedoVariables(d, fit.shape, n_dot_v);
-  return AlbedoSchlick(d, fit, AlbedoOne(d, fit, x), x);
-}
-
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V AlbedoFresnel(D d, const FresnelAlbedoFit& fit, V n_dot_v) {
-  const AlbedoVariablesV<V> x = ComputeAlbedoVariables(d, fit.lobe.shape, n_dot_v);
-  return AlbedoFresnel(d, fit, AlbedoOne(d, fit.lobe, x), x);
-}
-
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -115,37 +115,9 @@ double AlbedoOfOne(Shadowing shadowing, double roughness, double n_dot_v, int po
   return sum;
 }
 
-double AverageAlbedoOfOne(Shadowing shadowing, double roughness) {
-  // The albedo bends at n.v = alpha and has a logarithm in its slope at 0.
-  return IntegrateTowardsZero(
-      [&](double mu) { return 2 * mu * AlbedoOfOne(shadowing, roughness, mu); });
-}
-
 double AlbedoOfSchlick(Shadowing shadowing, double roughness, double n_dot_v) {
   return AlbedoOf(shadowing, roughness, n_dot_v,
                   [](double, double one_minus_vh) { return Power5(one_minus_vh); });
-}
-
-double CoupledDiffuseAlbedo(double n_dot_v) {
-  // n.l = sin(elevation). The integrand is smooth and periodic in the azimuth, so that equidistant
-  // azimuths are accurate.
-  constexpr int kAzimuths = 64;
-  const QuadratureRule& rule = GaussLegendre(32);
-  const double sin_v = std::sqrt((1 - n_dot_v) * (1 + n_dot_v));
-  double sum = 0;
-  for (size_t i = 0; i < rule.x.size(); ++i) {
-    // The nodes are dense towards the horizon: elevation = x^2 pi / 2.
-    const double elevation = rule.x[i] * rule.x[i] * M_PI_2;
-    const double weight =
-        rule.w[i] * 2 * rule.x[i] * M_PI_2 * std::sin(elevation) * std::cos(elevation);
-    for (int k = 0; k < kAzimuths; ++k) {
-      const double cos_phi = std::cos(M_PI * (k + 0.5) / kAzimuths);
-      const double l_dot_v = std::sin(elevation) * n_dot_v + std::cos(elevation) * sin_v * cos_phi;
-      const double v_dot_h = std::sqrt(std::max(0.0, (1 + l_dot_v) / 2));
-      sum += weight * (1 - Power5(1 - v_dot_h)) * 2 / kAzimuths;
-    }
-  }
-  return sum;
 }
 
 }  // namespace nacre

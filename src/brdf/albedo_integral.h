@@ -43,13 +43,6 @@ double Visibility(Shadowing shadowing, double n_dot_l, double n_dot_v, double ro
 double AlbedoOfOne(Shadowing shadowing, double roughness, double n_dot_v,
                    int points = AlbedoQuadrature().points);
 
-// 2 int AlbedoOfOne mu dmu: the mean over the hemisphere of lights.
-double AverageAlbedoOfOne(Shadowing shadowing, double roughness);
-
-// int (1 - (1 - v.h)^5) n.l / pi dl: the directional albedo of a white diffuse lobe that is scaled,
-// for each direction of light, by one minus Schlick's weight of the half vector.
-double CoupledDiffuseAlbedo(double n_dot_v);
-
 // int_0^2pi D F dphi at one node.
 //
 // In t = tan(phi/2), phi measured from the plane opposite the viewer, D is (1/pi alpha^2 ...) times

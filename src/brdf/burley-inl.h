@@ -7,20 +7,15 @@
 #define NACRE_BRDF_BURLEY_INL_H_
 #endif
 
-#include <cmath>
-
-#include "brdf/angles-inl.h"
+#include "brdf/fresnel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V BurleyGrazing(D d, V cos) {
-  const V x = hn::Sub(hn::Set(d, hn::TFromD<D>(1)), cos);
-  const V x2 = hn::Mul(x, x);
-  return hn::Mul(hn::Mul(x2, x2), x);
+  return Power5(hn::Sub(hn::Set(d, hn::TFromD<D>(1)), cos));
 }
 
 // pi times BurleyDiffuse, from |u|^2, u = l + v, and BurleyGrazing of both cosines.
@@ -32,17 +27,6 @@ HWY_INLINE V BurleySpread(D d, V u_squared, V grazing_l, V grazing_v, V roughnes
   return hn::Mul(hn::MulAdd(rise, grazing_l, one), hn::MulAdd(rise, grazing_v, one));
 }
 
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V BurleyDiffuse(D d, const AnglesV<V>& a, V roughness) {
-  using T = hn::TFromD<D>;
-  const V zero = hn::Zero(d);
-  const auto above = hn::And(hn::Gt(a.n_dot_l, zero), hn::Gt(a.n_dot_v, zero));
-  const V product = BurleySpread(d, a.u_squared, BurleyGrazing(d, a.n_dot_l),
-                                 BurleyGrazing(d, a.n_dot_v), roughness);
-  return hn::IfThenElseZero(above, hn::Mul(product, hn::Set(d, T(M_1_PI))));
-}
-
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

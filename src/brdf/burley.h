@@ -11,14 +11,14 @@
 #include <cmath>
 
 #include "brdf/angles.h"
+#include "brdf/fresnel.h"
 
 namespace nacre {
 
 // (1 - cos)^5.
 template <typename Real>
 Real BurleyGrazing(Real cos) {
-  const Real x = 1 - cos, x2 = x * x;
-  return x2 * x2 * x;
+  return Power5(1 - cos);
 }
 
 // The BRDF per unit of albedo: 1 / pi times a Schlick-like factor for each of n.l and n.v, whose

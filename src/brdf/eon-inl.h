@@ -15,8 +15,7 @@
 #include "brdf/eon.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <class D, class V = hn::Vec<D>>
@@ -71,24 +70,6 @@ HWY_INLINE V EonMultipleAlbedo(D d, V albedo, V roughness, V scale) {
   return hn::Div(hn::Mul(hn::Mul(albedo, albedo), mean), rest);
 }
 
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V Eon(D d, const AnglesV<V>& a, V albedo, V roughness) {
-  const V zero = hn::Zero(d);
-  const V one = hn::Set(d, 1.0f);
-  const auto above = hn::And(hn::Gt(a.n_dot_l, zero), hn::Gt(a.n_dot_v, zero));
-  const V n_dot_l = hn::IfThenElse(above, a.n_dot_l, one);
-  const V n_dot_v = hn::IfThenElse(above, a.n_dot_v, one);
-  const V l_dot_v = hn::NegMulAdd(hn::Set(d, 0.5f), a.lv_squared, one);
-  const V scale = EonScale(d, roughness);
-  const V single = EonSingleSpread(d, n_dot_l, n_dot_v, l_dot_v, roughness, scale);
-  const V multiple =
-      hn::Mul(EonMultipleAlbedo(d, albedo, roughness, scale),
-              EonMultipleSpread(d, EonLoss(d, n_dot_l), EonLoss(d, n_dot_v), roughness, scale));
-  const V sum = hn::MulAdd(albedo, single, multiple);
-  return hn::IfThenElseZero(above, hn::Mul(sum, hn::Set(d, static_cast<float>(M_1_PI))));
-}
-
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -80,11 +80,4 @@ Real Eon(const Angles<Real>& a, Real albedo, Real roughness) {
          EonMultipleAlbedo(albedo, roughness) * EonMultiple(a.n_dot_l, a.n_dot_v, roughness);
 }
 
-// The directional albedo at n.v of a surface with the albedo `albedo`.
-template <typename Real>
-Real EonDirectionalAlbedo(Real n_dot_v, Real albedo, Real roughness) {
-  const Real loss = EonScale(roughness) * roughness * EonLoss(n_dot_v);
-  return albedo * (1 - loss) + EonMultipleAlbedo(albedo, roughness) * loss;
-}
-
 }  // namespace nacre

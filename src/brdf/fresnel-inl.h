@@ -11,8 +11,7 @@
 #include "brdf/angles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // 1 - v.h, computed without cancellation, at most 1.
@@ -106,7 +105,6 @@ HWY_INLINE V FresnelF82(D d, V v_dot_h, V one_minus_vh, V f0, V slope) {
   return hn::Min(hn::Max(value, hn::Zero(d)), one);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

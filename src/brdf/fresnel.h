@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// brdf/fresnel.h: reflectance of a smooth interface. SIMD twin: fresnel-inl.h.
+// brdf/fresnel.h: reflectance of a smooth interface, and its average. SIMD twin: fresnel-inl.h.
 #pragma once
 
 #include <algorithm>
@@ -124,5 +124,24 @@ Real FresnelF82(Real v_dot_h, Real one_minus_vh, Real f0, Real slope) {
   const Real value = FresnelSchlick(f0, Real(1), weight) - slope * v_dot_h * one_minus_vh * weight;
   return std::min(std::max(value, Real(0)), Real(1));
 }
+
+// Curves averaged over the hemisphere, F_avg = 2 int F(c) c dc: the average reflectance at each
+// bounce of light between microfacets.
+//
+// Schlick: F0 + (F90 - F0) / 21, as 2 int (1 - c)^5 c dc = 1/21.
+template <typename Real>
+Real AverageSchlick(Real f0, Real f90 = 1) {
+  return f0 + (f90 - f0) / 21;
+}
+
+// F82: 2 int c^2 (1 - c)^6 dc = 1/126. Exact where the curve stays within [0, 1] unclamped.
+template <typename Real>
+Real AverageF82(Real f0, Real slope) {
+  return AverageSchlick(f0) - slope / 126;
+}
+
+// Computed by quadrature, to 1e-12.
+double AverageDielectric(double eta);
+double AverageConductor(double eta, double k);
 
 }  // namespace nacre

@@ -13,22 +13,8 @@
 #include "brdf/angles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-// Walter et al. 2007, eq. 33. alpha must not be a delta lobe's. 0 where h lies below the surface.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V GgxDistribution(D d, const HalfAnglesV<V>& a, V alpha) {
-  const V zero = hn::Zero(d);
-  const V scaled = hn::Mul(a.n_dot_u, alpha);
-  const V denominator = hn::MulAdd(scaled, scaled, a.nxu_squared);
-  const auto above = hn::And(hn::Gt(a.n_dot_u, zero), hn::Gt(denominator, zero));
-  const V k = hn::Div(hn::Mul(alpha, a.u_squared),
-                      hn::IfThenElse(above, denominator, hn::Set(d, hn::TFromD<D>(1))));
-  const V squared = hn::Mul(hn::Mul(k, k), hn::Set(d, hn::TFromD<D>(M_1_PI)));
-  return hn::IfThenElseZero(above, squared);
-}
 
 // |u|^2 q, where q = sin^2 + alpha^2 cos^2 of the half vector's angle, at least alpha^2. A kernel
 // that merges its divisions computes the distribution from it: alpha^2 |u|^4 / (pi (|u|^2 q)^2).
@@ -37,6 +23,18 @@ template <class D, class V = hn::Vec<D>>
 HWY_INLINE V GgxRootDenominator(D, const HalfAnglesV<V>& a, V alpha) {
   const V scaled = hn::Mul(a.n_dot_u, alpha);
   return hn::MulAdd(scaled, scaled, a.nxu_squared);
+}
+
+// Walter et al. 2007, eq. 33. alpha must not be a delta lobe's. 0 where h lies below the surface.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V GgxDistribution(D d, const HalfAnglesV<V>& a, V alpha) {
+  const V zero = hn::Zero(d);
+  const V denominator = GgxRootDenominator(d, a, alpha);
+  const auto above = hn::And(hn::Gt(a.n_dot_u, zero), hn::Gt(denominator, zero));
+  const V k = hn::Div(hn::Mul(alpha, a.u_squared),
+                      hn::IfThenElse(above, denominator, hn::Set(d, hn::TFromD<D>(1))));
+  const V squared = hn::Mul(hn::Mul(k, k), hn::Set(d, hn::TFromD<D>(M_1_PI)));
+  return hn::IfThenElseZero(above, squared);
 }
 
 template <class D, class V = hn::Vec<D>>
@@ -73,7 +71,6 @@ HWY_INLINE V VisibilityDenominatorSchlick(D d, V n_dot_l, V n_dot_v, V k, V scal
                  hn::MulAdd(n_dot_v, hn::Mul(scale4, one_minus_k), hn::Mul(scale4, k)));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -14,20 +14,18 @@
 #include <limits>
 
 #include "base/basis-inl.h"
-#include "base/concentric_disk-inl.h"
 #include "brdf/ggx-inl.h"
 #include "brdf/lobe_sampling.h"
 #include "brdf/phong-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Vec3V<V> SampleCosine(D d, const Vec3V<V>& normal, V u0, V u1) {
   const V one = hn::Set(d, 1.0f);
-  const PointOnDiskV<V> p = ConcentricDisk(d, u0, u1);
+  const PointOnDisk<V> p = ConcentricDisk(d, u0, u1);
   const V z = hn::Sqrt(hn::Mul(hn::Sub(one, p.radius), hn::Add(one, p.radius)));
   return ToWorld(BasisAbout(d, normal), Vec3V<V>{p.x, p.y, z});
 }
@@ -69,12 +67,6 @@ HWY_INLINE V GgxVisiblePdf(D d, V distribution, V n_dot_v, V alpha) {
   return hn::Div(distribution, hn::Add(sum, sum));
 }
 
-// alpha must not be a delta lobe's.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V GgxVisiblePdf(D d, const AnglesV<V>& a, V alpha) {
-  return GgxVisiblePdf(d, GgxDistribution(d, a, alpha), a.n_dot_v, alpha);
-}
-
 // 1 - 2^y for y <= 0, without cancellation next to 0.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V OneMinusExp2(D d, V y) {
@@ -114,16 +106,6 @@ HWY_INLINE V KullaContyPdf(D d, V n_dot_l, V spread) {
   return hn::IfThenElseZero(hn::Gt(n_dot_l, hn::Zero(d)), hn::Div(n_dot_l, hn::Mul(sum, scale)));
 }
 
-// The direction at 1 - cos = x from `axis`, with azimuth 2 pi u1.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE Vec3V<V> DirectionAround(D d, const Vec3V<V>& axis, V x, V u1) {
-  const V one = hn::Set(d, 1.0f);
-  const V sin = hn::Sqrt(hn::Mul(x, hn::Sub(hn::Set(d, 2.0f), x)));
-  const SinCosV<V> phi = SinCosTurns(d, u1);
-  return ToWorld(BasisAbout(d, axis),
-                 Vec3V<V>{hn::Mul(sin, phi.cos), hn::Mul(sin, phi.sin), hn::Sub(one, x)});
-}
-
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V OneMinusPowerCosine(D d, V shininess, V u0) {
   const V one = hn::Set(d, 1.0f);
@@ -154,13 +136,6 @@ HWY_INLINE V PhongLobePdf(D d, V lobe, V shininess) {
 }
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V PhongLobePdf(D d, const Vec3V<V>& normal, const Vec3V<V>& to_view,
-                          const Vec3V<V>& to_light, V shininess) {
-  const LobeCosineV<V> cosine = PhongCosine(d, SquaredFromReflection(normal, to_light, to_view));
-  return PhongLobePdf(d, PhongLobe(d, cosine, shininess), shininess);
-}
-
-template <class D, class V = hn::Vec<D>>
 HWY_INLINE Vec3V<V> SampleBlinnLobe(D d, const Vec3V<V>& normal, const Vec3V<V>& to_view,
                                     V shininess, V u0, V u1) {
   return Mirrored(to_view, DirectionAround(d, normal, OneMinusPowerCosine(d, shininess, u0), u1));
@@ -177,12 +152,6 @@ HWY_INLINE V BlinnLobePdf(D d, V lobe, const AnglesV<V>& a, V shininess) {
   return hn::IfThenElseZero(above, hn::Div(hn::Mul(scale, lobe), hn::Add(u_length, u_length)));
 }
 
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V BlinnLobePdf(D d, const AnglesV<V>& a, V shininess) {
-  return BlinnLobePdf(d, BlinnLobe(d, BlinnSquaredCosine(d, a), shininess), a, shininess);
-}
-
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

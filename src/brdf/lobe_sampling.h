@@ -12,7 +12,6 @@
 #include <limits>
 
 #include "base/basis.h"
-#include "base/concentric_disk.h"
 #include "brdf/albedo_curve.h"
 #include "brdf/ggx.h"
 #include "brdf/phong.h"
@@ -111,14 +110,6 @@ Real KullaContyPdf(Real n_dot_l, Real spread) {
 // float any smaller exponent acts as 0 (kDarkLog2 in phong-inl.h).
 inline constexpr double kConstantLobeExponent = 0x1p-88;
 
-// The direction at 1 - cos = x from `axis`, with azimuth 2 pi u1.
-template <typename Real>
-Imath::Vec3<Real> DirectionAround(const Imath::Vec3<Real>& axis, Real x, Real u1) {
-  const Real sin = std::sqrt(x * (2 - x));
-  const Real phi = 2 * static_cast<Real>(M_PI) * u1;
-  return BasisAbout(axis).ToWorld({sin * std::cos(phi), sin * std::sin(phi), 1 - x});
-}
-
 // 1 - cos of an angle whose pdf per solid angle is proportional to cos^shininess:
 // cos^(shininess + 1) is 1 - u0.
 template <typename Real>
@@ -157,16 +148,12 @@ Imath::Vec3<Real> SampleBlinnLobe(const Imath::Vec3<Real>& normal, const Imath::
 
 // (n + 1) / (2 pi) (n.h)^n / (4 v.h), with v.h = |u| / 2.
 template <typename Real>
-Real BlinnLobePdf(const Angles<Real>& a, Real shininess) {
+Real BlinnLobePdf(const Imath::Vec3<Real>& normal, const Imath::Vec3<Real>& to_view,
+                  const Imath::Vec3<Real>& to_light, Real shininess) {
+  const Angles<Real> a = ComputeAngles(normal, to_light, to_view);
   if (!(a.n_dot_u > 0) || !(a.u_squared > 0)) return 0;
   return (shininess + 1) / (4 * static_cast<Real>(M_PI)) * BlinnLobe(a, shininess) /
          std::sqrt(a.u_squared);
-}
-
-template <typename Real>
-Real BlinnLobePdf(const Imath::Vec3<Real>& normal, const Imath::Vec3<Real>& to_view,
-                  const Imath::Vec3<Real>& to_light, Real shininess) {
-  return BlinnLobePdf(ComputeAngles(normal, to_light, to_view), shininess);
 }
 
 }  // namespace nacre

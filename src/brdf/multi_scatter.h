@@ -3,7 +3,7 @@
 // bounce on microfacets loses. Turquin's factor 1 + F0 (1 / E - 1) on the lobe itself is in the
 // models' Fresnel terms (shading/scalar_bsdf.h).
 //
-// E, the albedo for F = 1, comes from brdf/albedo.h, F_avg from brdf/fresnel_average.h.
+// E, the albedo for F = 1, comes from brdf/albedo.h, F_avg from brdf/fresnel.h.
 #pragma once
 
 #include <cmath>

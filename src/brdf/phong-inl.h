@@ -12,8 +12,7 @@
 #include "brdf/angles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // A lobe's cosine c, and 1 - c, computed without cancellation.
@@ -94,7 +93,6 @@ HWY_INLINE V BlinnLobe(D d, const LobeCosineV<V>& squared_cosine, V shininess) {
   return LobePowerOfSquare(d, LobeLog2(d, squared_cosine), shininess);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

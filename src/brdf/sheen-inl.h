@@ -17,40 +17,31 @@
 #include "brdf/sheen.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-template <class V>
-struct CharlieV {
-  V roughness, alpha;
-  V a, b, c, d, e, twice_middle;
-  V typical_lambda;
-  V albedo[kCharlieTerms];
-};
 
 // All lanes have the same roughness.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE CharlieV<V> BroadcastCharlie(D d, const Charlie<double>& charlie) {
+HWY_INLINE Charlie<V> BroadcastCharlie(D d, const Charlie<double>& charlie) {
   using T = hn::TFromD<D>;
   const auto all = [&](double value) HWY_ATTR { return hn::Set(d, static_cast<T>(value)); };
-  CharlieV<V> lanes{all(charlie.roughness),
-                    all(charlie.alpha),
-                    all(charlie.a),
-                    all(charlie.b),
-                    all(charlie.c),
-                    all(charlie.d),
-                    all(charlie.e),
-                    all(charlie.twice_middle),
-                    all(charlie.typical_lambda),
-                    {}};
-  for (int i = 0; i < kCharlieTerms; ++i) lanes.albedo[i] = all(charlie.albedo[size_t(i)]);
+  Charlie<V> lanes{all(charlie.roughness),
+                   all(charlie.alpha),
+                   all(charlie.a),
+                   all(charlie.b),
+                   all(charlie.c),
+                   all(charlie.d),
+                   all(charlie.e),
+                   all(charlie.twice_middle),
+                   all(charlie.typical_lambda),
+                   {}};
+  for (size_t i = 0; i < kCharlieTerms; ++i) lanes.albedo[i] = all(charlie.albedo[i]);
   return lanes;
 }
 
 // There is no sheen where IsDeltaLobe(alpha).
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE hn::Mask<D> HasSheen(D d, const CharlieV<V>& charlie) {
+HWY_INLINE hn::Mask<D> HasSheen(D d, const Charlie<V>& charlie) {
   return hn::Ge(charlie.alpha, hn::Set(d, hn::TFromD<D>(0x1p-40)));
 }
 
@@ -71,7 +62,7 @@ HWY_INLINE V CharlieDistribution(D d, const HalfAnglesV<V>& a, V alpha) {
 
 // log(Lambda) at x <= 1/2.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V CharlieLogLambda(D d, const CharlieV<V>& charlie, V x) {
+HWY_INLINE V CharlieLogLambda(D d, const Charlie<V>& charlie, V x) {
   using T = hn::TFromD<D>;
   const V smallest = hn::Set(d, std::numeric_limits<T>::min());
   const V power = hn::IfThenElseZero(
@@ -81,7 +72,7 @@ HWY_INLINE V CharlieLogLambda(D d, const CharlieV<V>& charlie, V x) {
 }
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V CharlieCosineLambda(D d, const CharlieV<V>& charlie, V n_dot_x) {
+HWY_INLINE V CharlieCosineLambda(D d, const Charlie<V>& charlie, V n_dot_x) {
   using T = hn::TFromD<D>;
   const V one = hn::Set(d, T(1));
   const V x = hn::Max(n_dot_x, hn::Set(d, static_cast<T>(kLeastCharlieCosine)));
@@ -103,7 +94,7 @@ HWY_INLINE V CharlieVisibility(D d, V n_dot_l, V n_dot_v, V cosine_lambda_l, V c
 
 // D V; 0 unless n.l > 0 and n.v >= 0.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V CharlieLobe(D d, const CharlieV<V>& charlie, const AnglesV<V>& a) {
+HWY_INLINE V CharlieLobe(D d, const Charlie<V>& charlie, const AnglesV<V>& a) {
   const V zero = hn::Zero(d), one = hn::Set(d, hn::TFromD<D>(1));
   const auto above = hn::And(hn::Gt(a.n_dot_l, zero), hn::Ge(a.n_dot_v, zero));
   const V n_dot_l = hn::IfThenElse(above, a.n_dot_l, one);
@@ -116,7 +107,7 @@ HWY_INLINE V CharlieLobe(D d, const CharlieV<V>& charlie, const AnglesV<V>& a) {
 
 // E, from n.v and n.v Lambda(n.v).
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V CharlieAlbedo(D d, const CharlieV<V>& charlie, V n_dot_v, V cosine_lambda_v) {
+HWY_INLINE V CharlieAlbedo(D d, const Charlie<V>& charlie, V n_dot_v, V cosine_lambda_v) {
   using T = hn::TFromD<D>;
   const V one = hn::Set(d, T(1));
   const auto present = HasSheen(d, charlie);
@@ -138,16 +129,16 @@ HWY_INLINE V CharlieAlbedo(D d, const CharlieV<V>& charlie, V n_dot_v, V cosine_
 }
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V CharlieAlbedo(D d, const CharlieV<V>& charlie, V n_dot_v) {
+HWY_INLINE V CharlieAlbedo(D d, const Charlie<V>& charlie, V n_dot_v) {
   return CharlieAlbedo(d, charlie, n_dot_v, CharlieCosineLambda(d, charlie, n_dot_v));
 }
 
 // Each lane has its own roughness, in [0, 1].
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE CharlieV<V> MakeCharlie(D d, V roughness) {
+HWY_INLINE Charlie<V> MakeCharlie(D d, V roughness) {
   using T = hn::TFromD<D>;
   const V one = hn::Set(d, T(1));
-  CharlieV<V> charlie;
+  Charlie<V> charlie;
   charlie.roughness = roughness;
   charlie.alpha = hn::Mul(roughness, roughness);
   const V smooth = hn::Mul(hn::Sub(one, charlie.alpha), hn::Sub(one, charlie.alpha));
@@ -177,19 +168,13 @@ HWY_INLINE CharlieV<V> MakeCharlie(D d, V roughness) {
   return charlie;
 }
 
-template <class V>
-struct SheenScaleV {
-  V lobe, below;
-};
-
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE SheenScaleV<V> ScaleSheen(D d, V largest_channel, V albedo_v, V albedo_l) {
+HWY_INLINE SheenScale<V> ScaleSheen(D d, V largest_channel, V albedo_v, V albedo_l) {
   const V one = hn::Set(d, hn::TFromD<D>(1));
   const V share = hn::Mul(largest_channel, hn::Max(albedo_v, albedo_l));
   return {hn::Div(one, hn::Max(share, one)), hn::Max(hn::Sub(one, share), hn::Zero(d))};
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -11,7 +11,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/basis.h"
@@ -29,8 +28,8 @@ struct Charlie {
   // log(Lambda(x)) = a / (1 + b x^c) + d x + e for x < 1/2 (Estevez and Kulla 2017), and
   // twice_middle - log(Lambda(1 - x)) for larger x; twice_middle is twice its value at 1/2.
   Real a, b, c, d, e, twice_middle;
-  Real typical_lambda;  // half of Lambda at the n.l that most light of the lobe comes from
-  std::array<Real, kCharlieTerms> albedo;  // the polynomial of CharlieAlbedo
+  Real typical_lambda;         // half of Lambda at the n.l that most light of the lobe comes from
+  Real albedo[kCharlieTerms];  // the polynomial of CharlieAlbedo
 };
 
 // Estevez and Kulla 2017: (2 + 1 / alpha) sin^(1 / alpha) / 2 pi of the half vector's angle,
@@ -116,9 +115,7 @@ Real CharlieAlbedo(const Charlie<Real>& charlie, Real n_dot_v, Real cosine_lambd
   const Real offset = 3 * charlie.roughness;
   const Real x = 2 * std::sqrt(mu * (1 + offset) / (mu + offset)) - 1;
   Real sum = 0;
-  for (int i = kCharlieTerms - 1; i >= 0; --i) {
-    sum = sum * x + charlie.albedo[static_cast<size_t>(i)];
-  }
+  for (int i = kCharlieTerms - 1; i >= 0; --i) sum = sum * x + charlie.albedo[i];
   const Real cosines = mu + cosine_lambda_v + mu * charlie.typical_lambda;
   return std::max(std::exp(log_sin2 / (2 * charlie.alpha)) * sum / (charlie.roughness * cosines),
                   Real(0));
@@ -149,7 +146,7 @@ Charlie<Real> MakeCharlie(Real roughness) {
   charlie.twice_middle =
       2 * (charlie.a / (1 + charlie.b * std::pow(half, charlie.c)) + charlie.d * half + charlie.e);
   charlie.typical_lambda = 0;
-  charlie.albedo = {};
+  std::fill_n(charlie.albedo, kCharlieTerms, Real(0));
   if (IsDeltaLobe(charlie.alpha)) return charlie;
   const Real typical = roughness / (1 + roughness);
   charlie.typical_lambda = CharlieCosineLambda(charlie, typical) / (2 * typical);
@@ -159,7 +156,7 @@ Charlie<Real> MakeCharlie(Real roughness) {
     for (int j = kCharlieTerms - 1; j >= 0; --j) {
       sum = sum * y + static_cast<Real>(kCharlieAlbedo[i][j]);
     }
-    charlie.albedo[static_cast<size_t>(i)] = sum;
+    charlie.albedo[i] = sum;
   }
   return charlie;
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cli/cmd_compare.cc: nacre compare: metrics of an image against a reference, a verdict, a map.
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -8,16 +10,18 @@
 
 #include "base/error.h"
 #include "cli/commands.h"
-#include "cli/heat_picture.h"
 #include "cli/help_text.h"
 #include "cli/metrics_json.h"
 #include "cli/outputs.h"
 #include "cli/perceptual_options.h"
 #include "cli/print.h"
 #include "cli/render_options.h"
+#include "compare/heat_map.h"
 #include "compare/perceptual.h"
 #include "compare/verdict.h"
+#include "image_io/canvas.h"
 #include "image_io/output_file.h"
+#include "image_io/png_writer.h"
 #include "image_io/read_image.h"
 #include "scene_io/json_text.h"
 
@@ -85,6 +89,46 @@ std::string PartWindowsInWords(const ImageFile& image, const ImageFile& referenc
   }
   return {};
 }
+
+// ---- The heat map -------------------------------------------------------------------------------
+
+constexpr int kTextPx = 13;
+constexpr int kBarHeight = 12;
+constexpr int kLegendHeight = 60;
+constexpr int kMargin = 24;
+constexpr int kMinWidth = 320;  // so that the text of the legend fits
+
+constexpr Rgb8 kGround = {24, 24, 24};
+
+TextItem LegendText(const std::string& text, int x, int y) {
+  return {.text = text, .x = x, .y = y, .size_px = kTextPx, .align_x = AlignX::kCenter};
+}
+
+void DrawLegend(int top, int width, HeatQuantity quantity, const HeatScale& scale, Canvas* page) {
+  page->Paste(HeatLegend(width, kBarHeight), kMargin, top);
+  const int low = static_cast<int>(std::ceil(std::log10(scale.low) - 1e-9));
+  const int high = static_cast<int>(std::floor(std::log10(scale.high) + 1e-9));
+  for (int power = low; power <= high; ++power) {
+    const int x = kMargin + static_cast<int>(scale.Position(std::pow(10.0, power)) * width);
+    page->AddText(LegendText(fmt::format("1e{}", power), x, top + kBarHeight + 3));
+  }
+  page->AddText(LegendText(quantity == HeatQuantity::kRelative
+                               ? "error / sqrt(reference^2 + 0.01^2), black: equal"
+                               : "absolute error, black: equal",
+                           width / 2 + kMargin, top + kBarHeight + 5 + kTextPx));
+}
+
+// Writes the map, and below it a bar of its colours with ticks at powers of ten.
+void WriteHeatPicture(const std::string& path, const Rgb8Picture& map, HeatQuantity quantity,
+                      const HeatScale& scale) {
+  const int width = std::max(map.width, kMinWidth);
+  Canvas page(width, map.height + kLegendHeight, kGround);
+  page.Paste(map, 0, 0);
+  DrawLegend(map.height + 8, width - 2 * kMargin, quantity, scale, &page);
+  WritePng(path, page.Draw());
+}
+
+// ---- The command --------------------------------------------------------------------------------
 
 int RunCompare(const CompareArguments& arguments) {
   const HeatScale& scale = arguments.heat_scale;

@@ -11,15 +11,15 @@
 #include "base/error.h"
 #include "cli/commands.h"
 #include "cli/difference_page.h"
-#include "cli/given_options.h"
 #include "cli/outputs.h"
 #include "cli/print.h"
+#include "cli/usage_error.h"
 #include "image_io/output_file.h"
 #include "scene_io/load_scene.h"
 #include "scene_io/material_json.h"
 #include "scene_io/sheet_axis.h"
 #include "shading/material_fit.h"
-#include "study/lobe_curves.h"
+#include "study/material_curves.h"
 
 namespace nacre {
 namespace {

@@ -152,9 +152,8 @@ void AddExplainCommand(CLI::App* app, int*) {
       "  scenes/textbook/*.json: the lesson's set-ups for nacre's own renderer");
   command->callback([arguments] {
     if (arguments->topic != "textbook") {
-      const std::string nearest = NearestName(arguments->topic, {"textbook"});
       throw Error(ExitCode::kUsage, "", fmt::format("unknown topic \"{}\"", arguments->topic),
-                  nearest.empty() ? "the only topic is textbook" : "did you mean \"textbook\"?");
+                  NearestHint(arguments->topic, {"textbook"}, "the only topic is textbook"));
     }
     ExplainTextbook(arguments->folder);
   });

@@ -195,11 +195,10 @@ std::string ModelAxes(std::string_view MaterialModel::*axis) {
 }
 
 constexpr char kAxisHelp[] =
-    "Parameter that varies {}: PARAMETER=FROM:TO:COUNT (both ends included; :log "
-    "for equal ratios) or PARAMETER=A,B,C. A parameter is a number, a colour "
-    "(#rrggbb or [r,g,b], mixed in linear light), a choice "
-    "(shadowing=height_correlated,separable) or material, for whole models by name "
-    "or as JSON";
+    "Parameter that varies {}: PARAMETER=FROM:TO:COUNT (both ends included; :log for equal ratios) "
+    "or PARAMETER=A,B,C. A parameter is a number, a colour (#rrggbb or [r,g,b], mixed in linear "
+    "light), a choice (shadowing=height_correlated,separable) or material, for whole models by "
+    "name or as JSON";
 
 }  // namespace
 

@@ -28,15 +28,7 @@ namespace nacre {
 namespace {
 
 std::string TypeName(PixelType type) {
-  switch (type) {
-    case PixelType::kHalf:
-      return "half";
-    case PixelType::kFloat:
-      return "float";
-    case PixelType::kUint:
-      return "uint";
-  }
-  return {};
+  return type == PixelType::kHalf ? "half" : type == PixelType::kFloat ? "float" : "uint";
 }
 
 std::string WindowText(const Window& w) {

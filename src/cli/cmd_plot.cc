@@ -10,18 +10,17 @@
 
 #include "base/error.h"
 #include "cli/commands.h"
-#include "cli/given_options.h"
 #include "cli/help_text.h"
 #include "cli/outputs.h"
-#include "cli/plot_defaults.h"
 #include "cli/plot_inputs.h"
 #include "cli/print.h"
 #include "cli/progress.h"
 #include "cli/render_options.h"
+#include "cli/usage_error.h"
 #include "image_io/output_file.h"
 #include "report/plot.h"
-#include "study/brdf_slice.h"
 #include "study/light_curves.h"
+#include "study/material_curves.h"
 
 namespace nacre {
 namespace {
@@ -123,8 +122,7 @@ Plots DrawFalloff(const PlotArguments& a) {
   }
   for (const std::string& name : without) {
     PrintError(
-        "note: \"{}\" is left out: it is all around, or has no centre to measure a distance "
-        "from\n",
+        "note: \"{}\" is left out: it is all around, or has no centre to measure a distance from\n",
         name);
   }
   return {FalloffPlot(lights)};
@@ -188,10 +186,8 @@ const PlotKind& FindKind(const std::string& name) {
     if (name == kind.name) return kind;
     names.emplace_back(kind.name);
   }
-  const std::string nearest = NearestName(name, names);
   throw Error(ExitCode::kUsage, "", fmt::format("unknown plot \"{}\"", name),
-              nearest.empty() ? fmt::format("the plots are {}", fmt::join(names, ", "))
-                              : fmt::format("did you mean \"{}\"?", nearest));
+              NearestHint(name, names, fmt::format("the plots are {}", fmt::join(names, ", "))));
 }
 
 // Arranges panels in rows of at most three, with a title above.

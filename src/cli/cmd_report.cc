@@ -13,7 +13,6 @@
 #include "cli/outputs.h"
 #include "cli/perceptual_options.h"
 #include "cli/render_options.h"
-#include "cli/report_page.h"
 #include "cli/report_sections.h"
 
 namespace nacre {
@@ -105,7 +104,8 @@ void RunReport(const ReportArguments& arguments) {
     if (kind == ReportInput::kBench) sections.push_back(BenchSection(path));
     if (kind == ReportInput::kReferences) {
       ValidationSection validation(perceptual, limit / FindReferences(path).size(), &page);
-      const ReferenceOptions references{arguments.render.threads, arguments.render.allow_paths};
+      const ReferenceOptions references{arguments.render.settings.threads,
+                                        arguments.render.allow_paths};
       RunReferences(path, references, [&](const ReferenceOutcome& outcome) {
         CheckOutputsAreNoInputs({arguments.output}, outcome.read);
         validation.Add(outcome);
@@ -145,11 +145,8 @@ void AddReportCommand(CLI::App* app, int*) {
       ->capture_default_str();
   AddPerceptualOptions(command, &a->perceptual);
   AddPictureOptions(command, &a->render);
-  command
-      ->add_option("--layers", a->render.layers,
-                   "Layers of scenes to render besides R G B A, or all")
-      ->delimiter(',')
-      ->allow_extra_args(false)
+  AddSettingOption(command, SettingNamed("layers"), &a->render)
+      ->description("Layers of scenes to render besides R G B A, or all")
       ->group("Picture");
   AddMachineOptions(command, &a->render);
   MoveBehindHelpAll(command, {"--limit"});

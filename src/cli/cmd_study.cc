@@ -120,10 +120,8 @@ const StudyEntry& FindStudy(const std::string& name) {
     if (name == study.name) return study;
     names.emplace_back(study.name);
   }
-  const std::string nearest = NearestName(name, names);
   throw Error(ExitCode::kUsage, "", fmt::format("unknown study \"{}\"", name),
-              nearest.empty() ? fmt::format("the studies are {}", fmt::join(names, ", "))
-                              : fmt::format("did you mean \"{}\"?", nearest));
+              NearestHint(name, names, fmt::format("the studies are {}", fmt::join(names, ", "))));
 }
 
 void Run(const StudyArguments& arguments) {

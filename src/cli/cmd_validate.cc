@@ -12,7 +12,6 @@
 #include "cli/print.h"
 #include "cli/references.h"
 #include "cli/render_options.h"
-#include "cli/report_page.h"
 #include "cli/report_sections.h"
 
 namespace nacre {

@@ -29,13 +29,12 @@
 #include "base/printable.h"
 #include "base/version.h"
 #include "cli/commands.h"
-#include "cli/given_options.h"
 #include "cli/help_text.h"
 #include "cli/print.h"
 #include "cli/progress.h"
 #include "cli/render_options.h"
-#include "cli/report_page.h"
 #include "cli/report_sections.h"
+#include "cli/usage_error.h"
 #include "report/child_process.h"
 #include "scene_io/kept_files.h"
 #include "view/edits.h"
@@ -219,8 +218,11 @@ ServerOptions MakeServerOptions(const ViewArguments& arguments) {
 // Shows images in the report's page, without a scene. When files change, the page is made again.
 void RunImages(const ViewArguments& arguments, const CLI::App& command, int* exit_code) {
   const RenderOptions& options = arguments.options;
-  const std::set<std::string> of_scenes = {"--size", "--spp",     "--max-error",
-                                           "--set",  "--threads", "--allow-paths"};
+  std::set<std::string> of_scenes = {"--size", "--spp", "--set", "--allow-paths"};
+  for (const SettingKey& key : SettingKeys()) {
+    // As --target, these two are accepted: they do not change what is seen.
+    if (key.name != "intersector" && key.name != "tile_size") of_scenes.insert(OptionOf(key));
+  }
   RefuseOptions(
       command, [&](const CLI::Option& option) { return !of_scenes.contains(option.get_name()); },
       "images", "it is for scenes, which are rendered");
@@ -310,8 +312,7 @@ void RunView(const ViewArguments& arguments, const CLI::App& command, int* exit_
   };
   WorkerOptions work;
   work.samples = options.spp.value_or(0);
-  work.max_error = options.max_error;
-  work.threads = options.threads;
+  work.settings = MakeRenderSettings(options);
   work.display.tone = ParseToneOperator(options.tonemap);
   work.display.exposure_ev = options.exposure;
   work.file = scene;
@@ -371,11 +372,7 @@ void AddViewCommand(CLI::App* app, int* exit_code) {
       ->add_option("--spp", o->spp,
                    "Samples per pixel once nothing moves; the scene's if not given")
       ->check(WholeInRange(1, 65536));
-  command
-      ->add_option("--max-error", o->max_error,
-                   "Once nothing moves, sample until each pixel's relative error is below this")
-      ->check(InRange(1e-6, 1))
-      ->type_name("E");
+  AddViewSettingOptions(command, o);
   command->add_option("--set", o->sets, "Change a value of the scene, as render does; repeatable")
       ->type_name("/POINTER=JSON")
       ->allow_extra_args(false);
@@ -392,7 +389,7 @@ void AddViewCommand(CLI::App* app, int* exit_code) {
       ->type_name("URL");
   command->add_flag("--quiet", o->quiet, "Print nothing but the address and errors");
   AddMachineOptions(command, o);
-  MoveBehindHelpAll(command, {"--listen", "--origin", "--quiet", "--max-error"});
+  MoveBehindHelpAll(command, {"--listen", "--origin", "--quiet"});
   command->footer(
       "Examples:\n"
       "  nacre view\n"

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "cli/given_options.h"
 #include "cli/outputs.h"
 #include "cli/progress.h"
+#include "cli/usage_error.h"
 #include "color/display.h"
 #include "compare/heat_map.h"
 #include "image_io/canvas.h"

@@ -21,8 +21,7 @@
 #include "cli/commands.h"
 #include "cli/help_text.h"
 #include "cli/known_environment.h"
-#include "cli/manual.h"
-#include "cli/option_values.h"
+#include "cli/option_text.h"
 #include "cli/print.h"
 #include "cli/progress.h"
 #include "cli/usage_error.h"
@@ -42,10 +41,9 @@ void CheckCommandName(const CLI::App& app, const std::vector<std::string>& rever
   if (!known.empty()) return;
   std::vector<std::string> names;
   for (const CLI::App* command : nacre::ShownCommands(app)) names.push_back(command->get_name());
-  const std::string nearest = nacre::NearestName(word, names);
-  throw nacre::Error(nacre::ExitCode::kUsage, "", fmt::format("unknown command \"{}\"", word),
-                     nearest.empty() ? fmt::format("the commands are {}", fmt::join(names, ", "))
-                                     : fmt::format("did you mean \"{}\"?", nearest));
+  throw nacre::Error(
+      nacre::ExitCode::kUsage, "", fmt::format("unknown command \"{}\"", word),
+      nacre::NearestHint(word, names, fmt::format("the commands are {}", fmt::join(names, ", "))));
 }
 
 // Turns "nacre help" into "nacre --help" and "nacre help render" into "nacre render --help". The

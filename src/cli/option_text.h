@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/option_text.h: texts about options, derived from their definitions: for help, manual and
-// shell.
+// cli/option_text.h: texts about commands and options, derived from their definitions: for help,
+// manual and shell.
 #pragma once
 
 #include <string>
@@ -9,6 +9,9 @@
 #include <CLI/App.hpp>
 
 namespace nacre {
+
+// The commands that the help shows: all except those in the nameless group.
+std::vector<const CLI::App*> ShownCommands(const CLI::App& app);
 
 // The names as typed: "-o", "--output". Empty for positional arguments.
 std::vector<std::string> NamesOf(const CLI::Option& option);

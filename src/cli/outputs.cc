@@ -88,7 +88,10 @@ void CheckOutputsAreNoInputs(const std::vector<std::string>& outputs,
 
 ExrHeader MakeOutputHeader(const RenderOptions& options, const FramePlan& plan,
                            PreparedScene* prepared) {
-  ExrHeader header = MakeExrHeader(plan, options.reproducible, options.tile, prepared);
+  const auto tile = options.setting_texts.find("tile");
+  ExrHeader header =
+      MakeExrHeader(plan, options.reproducible,
+                    tile != options.setting_texts.end() ? tile->second : std::string(), prepared);
   const PixelType color_type = options.depth == "float" ? PixelType::kFloat : PixelType::kHalf;
   for (const ChannelSpec& channel : StripChannels(plan.film.layers, color_type)) {
     header.channels.push_back({channel.name, channel.type});

@@ -33,4 +33,12 @@ std::vector<NamedMaterial> ReadPlotMaterials(const PlotInputs& inputs,
 // The lights that the options name, chosen as in ReadPlotMaterials.
 std::vector<Light> ReadPlotLights(const PlotInputs& inputs, const std::vector<PlotItem>& defaults);
 
+// What is drawn by default, to show the purpose of each kind of plot.
+std::vector<PlotItem> DefaultModels();
+std::vector<PlotItem> DefaultDistributions();
+std::vector<PlotItem> DefaultMaskings();
+std::vector<PlotItem> DefaultAlbedos();
+std::vector<PlotItem> DefaultInterfaces();
+std::vector<PlotItem> DefaultLights();
+
 }  // namespace nacre

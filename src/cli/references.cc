@@ -22,7 +22,7 @@ constexpr char kReferenceHint[] =
     R"({"scene": "x.json", "image": "x.exr", "tolerances": {"max_rel": 1e-5}, "reason": "why"})";
 
 void RequireText(JsonObject* object, std::string_view name, std::string* text) {
-  if (object->Require(name, kReferenceHint) != nullptr) object->Text(name, text);
+  if (object->Require(name, kReferenceHint)) object->Text(name, text);
 }
 
 // Reads a member that names a file beside the reference. Adds a fault for paths that scenes in that
@@ -31,38 +31,33 @@ fs::path FindFile(const fs::path& folder, std::string_view name, const Reference
                   JsonObject* object) {
   std::string text;
   RequireText(object, name, &text);
-  const Json* const json = object->Find(name);
-  if (json == nullptr || !json->is_string()) return {};  // reported already
+  const auto value = object->Find(name);
+  if (!value || !value->json.is_string()) return {};  // reported already
   try {
     ResolveReference(folder, text, {.allow_paths = options.allow_paths});
   } catch (const Error& error) {
-    for (const Fault& fault : error.faults()) {
-      object->faults()->Add(object->path().Member(name).ToString(), fault.what, fault.hint);
-    }
+    for (const Fault& fault : error.faults()) value->AddFault(fault.what, fault.hint);
   }
   return folder / text;
 }
 
 void ReadLayers(JsonObject* object, std::vector<std::string>* layers) {
-  const Json* const json = object->Find("layers");
-  if (json == nullptr) return;
-  const JsonPath path = object->path().Member("layers");
-  const JsonValue value{*json, path, object->faults()};
-  if (!value.Expect(json->is_array(), "an array of names",
-                    R"(["", "diffuse"]; "" is the beauty)")) {
+  const auto value = object->Find("layers");
+  if (!value || !value->Expect(value->json.is_array(), "an array of names",
+                               R"(["", "diffuse"]; "" is the beauty)")) {
     return;
   }
-  for (size_t i = 0; i < json->size(); ++i) {
+  for (size_t i = 0; i < value->json.size(); ++i) {
     std::string layer;
-    if (ReadText({(*json)[i], path.Element(i), object->faults()}, &layer)) layers->push_back(layer);
+    if (ReadText(value->Element(i), &layer)) layers->push_back(layer);
   }
 }
 
 void ReadTolerances(JsonObject* object, Tolerances* tolerances) {
-  const Json* const json = object->Require("tolerances", kReferenceHint);
-  if (json == nullptr) return;
+  const auto value = object->Require("tolerances", kReferenceHint);
+  if (!value) return;
   constexpr Range kError{0, 1e30};
-  JsonObject members({*json, object->path().Member("tolerances"), object->faults()});
+  JsonObject members(*value);
   members.Number("max_abs", kError, &tolerances->max_abs);
   members.Number("max_rel", kError, &tolerances->max_rel);
   members.Number("exceeding_fraction", limits::kUnit, &tolerances->exceeding_fraction);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <set>
 #include <string>
@@ -55,5 +56,12 @@ class RenderJob {
 void RunRenderJob(const RenderOptions& options, const std::vector<std::string>& inputs,
                   const std::function<Scene(const LoadOptions&)>& load,
                   const std::vector<TextItem>& captions = {});
+
+// nacre render --watch: renders the scene at `path`, and again whenever its files have changed,
+// until a stop signal comes; returns the exit code for that signal. `environment` is
+// LoadOptions::environment. Throws Error for errors before the first picture is written; later
+// errors are printed.
+int RunWatchJob(const RenderOptions& options, const std::filesystem::path& path,
+                const std::filesystem::path& environment);
 
 }  // namespace nacre

@@ -2,15 +2,18 @@
 #include "cli/render_options.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdlib>
-#include <initializer_list>
+#include <variant>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "base/error.h"
+#include "base/numbers.h"
+#include "base/overloaded.h"
 #include "base/path.h"
 #include "base/strip.h"
 #include "base/target.h"
@@ -23,20 +26,6 @@ namespace nacre {
 namespace {
 
 constexpr int kMaxSide = 65536;  // pixels, as for ImageSettings
-
-// Parses `count` whole numbers separated by `separator`; false if `text` is anything else.
-bool ParseIntegers(std::string_view text, char separator, size_t count, std::vector<int>* out) {
-  out->clear();
-  while (true) {
-    const size_t end = std::min(text.find(separator), text.size());
-    int value = 0;
-    const auto [rest, error] = std::from_chars(text.data(), text.data() + end, value);
-    if (error != std::errc() || rest != text.data() + end) return false;
-    out->push_back(value);
-    if (end == text.size()) return out->size() == count;
-    text.remove_prefix(end + 1);
-  }
-}
 
 }  // namespace
 
@@ -80,6 +69,66 @@ void AddDisplayOptions(CLI::App* command, std::string* tonemap, double* exposure
       ->capture_default_str();
 }
 
+CLI::Option* AddSettingOption(CLI::App* command, const SettingKey& key, RenderOptions* o) {
+  const std::string name = OptionOf(key);
+  const std::string meaning(key.meaning);
+  RenderSettings* const s = &o->settings;
+  CLI::Option* const option = std::visit(
+      Overloaded{
+          [&](double RenderSettings::*field) {
+            return command->add_option(name, s->*field, meaning)
+                ->check(InRange(key.range.min, key.range.max));
+          },
+          [&](int RenderSettings::*field) {
+            return command->add_option(name, s->*field, meaning)
+                ->check(WholeInRange(static_cast<uint64_t>(key.range.min),
+                                     static_cast<uint64_t>(key.range.max)));
+          },
+          [&](bool RenderSettings::*field) { return command->add_flag(name, s->*field, meaning); },
+          [&](std::vector<std::string> RenderSettings::*field) {
+            return command->add_option(name, s->*field, meaning)
+                ->delimiter(',')
+                ->allow_extra_args(false);
+          },
+          [&](const SettingChoice& choice) {
+            const std::vector<std::string> options(choice.options.begin(), choice.options.end());
+            return command
+                ->add_option_function<std::string>(
+                    name, [&key, s](const std::string& text) { SetChoice(key, text, s); }, meaning)
+                ->check(CLI::IsMember(options))
+                ->default_str(options[choice.get(*s)]);
+          },
+          [&](const SettingText&) {
+            return command->add_option(name, o->setting_texts[key.name], meaning);
+          }},
+      key.field);
+  if (!key.form.empty()) option->type_name(std::string(key.form));
+  return option;
+}
+
+namespace {
+
+constexpr std::array kGroupTitles = {"Picture", "EXR files", "Machine"};  // by SettingGroup
+
+// Adds the options for the settings of a group that the command does not have already.
+void AddSettingOptions(CLI::App* command, SettingGroup group, RenderOptions* o) {
+  for (const SettingKey& key : SettingKeys()) {
+    if (key.group != group || command->get_option_no_throw(OptionOf(key)) != nullptr) continue;
+    AddSettingOption(command, key, o)->group(kGroupTitles[static_cast<size_t>(group)]);
+    if (!key.common) MoveBehindHelpAll(command, {OptionOf(key)});
+  }
+}
+
+}  // namespace
+
+void AddViewSettingOptions(CLI::App* command, RenderOptions* o) {
+  for (const SettingKey& key : SettingKeys()) {
+    if (key.view_meaning.empty()) continue;
+    AddSettingOption(command, key, o)->description(std::string(key.view_meaning));
+    MoveBehindHelpAll(command, {OptionOf(key)});
+  }
+}
+
 void AddPictureOptions(CLI::App* command, RenderOptions* o) {
   const std::string picture = "Picture";
   command->add_option("--size", o->size, "Width and height in pixels")
@@ -88,28 +137,7 @@ void AddPictureOptions(CLI::App* command, RenderOptions* o) {
   command->add_option("--spp", o->spp, "Samples per pixel; 1 goes through the pixel's centre")
       ->check(WholeInRange(1, 65536))
       ->group(picture);
-  command
-      ->add_option("--max-error", o->max_error,
-                   "Sample until each pixel's relative error is below this, e.g. 0.01; with 95 % "
-                   "confidence. Pixels darker than 0.05 count as 0.05, highlights brighter than "
-                   "white as white. --spp is then the most samples of a pixel (4096 if not given; "
-                   "rounded up to a power of two). Pixels that have not converged by then are "
-                   "reported")
-      ->check(InRange(1e-6, 1))
-      ->type_name("E")
-      ->group(picture);
-  command
-      ->add_option("--region", o->region,
-                   "Render only these pixels, counted from the top left, x1 and y1 excluded; the "
-                   "same bits as in the full frame")
-      ->type_name("x0,y0,x1,y1")
-      ->group(picture);
-  command
-      ->add_option("--tile", o->tile,
-                   "Render band i = 0 .. N-1 of N, counted from the top; the same bits as in the "
-                   "full frame. nacre merge puts the bands' EXR files together")
-      ->type_name("i/N")
-      ->group(picture);
+  AddSettingOptions(command, SettingGroup::kPicture, o);
   command->add_option("--seed", o->seed, "Seed of the sample pattern")->group(picture);
   command
       ->add_option("--set", o->sets,
@@ -118,20 +146,14 @@ void AddPictureOptions(CLI::App* command, RenderOptions* o) {
       ->type_name("/POINTER=JSON")
       ->allow_extra_args(false)
       ->group(picture);
-  MoveBehindHelpAll(command, {"--region", "--tile", "--seed"});
+  MoveBehindHelpAll(command, {"--seed"});
 }
 
 namespace {
 
 void AddExrOptions(CLI::App* command, RenderOptions* o) {
   const std::string exr = "EXR files";
-  command
-      ->add_option("--layers", o->layers,
-                   "Layers besides R G B A: diffuse, specular, ambient, emission, albedo, N, P, Z, "
-                   "id.object, id.material, light.NAME, or all")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->group(exr);
+  AddSettingOptions(command, SettingGroup::kExrFiles, o);
   command->add_option("--depth", o->depth, "Precision of colour samples: half or float")
       ->check(CLI::IsMember({"half", "float"}))
       ->capture_default_str()
@@ -163,28 +185,15 @@ CLI::Option* AddTargetOption(CLI::App* command, std::string* target) {
 
 void AddMachineOptions(CLI::App* command, RenderOptions* o) {
   const std::string machine = "Machine";
-  command->add_option("--threads", o->threads, "Number of threads; 0: as many as the machine has")
-      ->check(WholeInRange(0, 1024))
-      ->group(machine);
+  AddSettingOption(command, SettingNamed("threads"), o)->group(machine);
   AddTargetOption(command, &o->target)->group(machine);
-  command
-      ->add_option("--intersector", o->intersector,
-                   "How rays find spheres: auto, embree, tiles or shells; changes no bits")
-      ->check(CLI::IsMember(IntersectorNames()))
-      ->capture_default_str()
-      ->group(machine);
-  command
-      ->add_option("--tile-size", o->tile_size,
-                   "Width of tiles in pixels, 0: chosen by the plan; changes no bits")
-      ->check(WholeInRange(0, 64))
-      ->group(machine);
+  AddSettingOptions(command, SettingGroup::kMachine, o);
   command
       ->add_flag("--allow-paths", o->allow_paths,
                  "Let the scene refer to files outside its own folder")
       ->group(machine);
   AddMaxPrimitivesOption(command, &o->max_primitives)->group(machine);
-  MoveBehindHelpAll(command, {"--threads", "--target", "--intersector", "--tile-size",
-                              "--allow-paths", "--max-primitives"});
+  MoveBehindHelpAll(command, {"--threads", "--target", "--allow-paths", "--max-primitives"});
 }
 
 namespace {
@@ -214,16 +223,21 @@ void AddTellingOptions(CLI::App* command, RenderOptions* o) {
 }
 
 void FindIdleOptions(const CLI::App& command, RenderOptions* o) {
-  const auto find = [&](std::initializer_list<const char*> names, const char* extension) {
+  const auto find = [&](const std::vector<std::string>& names, const char* extension) {
     if (std::any_of(o->outputs.begin(), o->outputs.end(),
                     [&](const std::string& path) { return HasExtension(path, extension); })) {
       return;
     }
-    for (const char* name : names) {
+    for (const std::string& name : names) {
       if (command.get_option(name)->count() > 0) o->idle_options.push_back({name, extension});
     }
   };
-  find({"--layers", "--depth", "--compression"}, ".exr");
+  std::vector<std::string> of_exr;
+  for (const SettingKey& key : SettingKeys()) {
+    if (key.group == SettingGroup::kExrFiles) of_exr.push_back(OptionOf(key));
+  }
+  of_exr.insert(of_exr.end(), {"--depth", "--compression"});
+  find(of_exr, ".exr");
   find({"--tonemap", "--exposure", "--labels"}, ".png");
 }
 
@@ -252,7 +266,7 @@ LoadOptions MakeLoadOptions(const RenderOptions& options) {
   LoadOptions load;
   load.allow_paths = options.allow_paths;
   load.max_primitives = options.max_primitives;
-  load.threads = options.threads;
+  load.threads = options.settings.threads;
   for (const std::string& set : options.sets) {
     const size_t equals = set.find('=');
     if (equals == std::string::npos || set.empty() || set.front() != '/') {
@@ -278,54 +292,33 @@ LoadOptions MakeLoadOptions(const RenderOptions& options) {
 }
 
 void ParseSize(const std::string& text, int* width, int* height) {
-  std::vector<int> sides;
-  if (!ParseIntegers(text, 'x', 2, &sides) || sides[0] < 1 || sides[1] < 1 || sides[0] > kMaxSide ||
-      sides[1] > kMaxSide) {
+  const auto sides = ParseIntegers(text, 'x', 2);
+  const auto is_side = [](int side) { return side >= 1 && side <= kMaxSide; };
+  if (!sides || !std::all_of(sides->begin(), sides->end(), is_side)) {
     throw Error(
         ExitCode::kUsage, "--size", "\"" + text + "\" is not a size",
         fmt::format("give WIDTHxHEIGHT with sides from 1 to {}, for example 1920x1080", kMaxSide));
   }
-  *width = sides[0];
-  *height = sides[1];
-}
-
-Window ParseRegion(const std::string& text) {
-  if (text.empty()) return {};
-  std::vector<int> edges;
-  if (!ParseIntegers(text, ',', 4, &edges) || edges[0] >= edges[2] || edges[1] >= edges[3]) {
-    throw Error(ExitCode::kUsage, "--region", "\"" + text + "\" is not a region",
-                "give x0,y0,x1,y1 in pixels from the top left with x0 < x1 and y0 < y1");
-  }
-  return {edges[0], edges[1], edges[2], edges[3]};
-}
-
-FrameBand ParseTile(const std::string& text) {
-  if (text.empty()) return {};
-  std::vector<int> numbers;
-  if (!ParseIntegers(text, '/', 2, &numbers) || numbers[0] < 0 || numbers[0] >= numbers[1]) {
-    throw Error(ExitCode::kUsage, "--tile", "\"" + text + "\" is not a tile",
-                "give i/N with i from 0 to N-1: --tile 0/4 is the top quarter of the rows");
-  }
-  return {numbers[0], numbers[1]};
+  *width = sides->at(0);
+  *height = sides->at(1);
 }
 
 RenderSettings MakeRenderSettings(const RenderOptions& options) {
-  RenderSettings settings;
-  settings.threads = options.threads;
-  settings.region = ParseRegion(options.region);
-  settings.band = ParseTile(options.tile);
-  if (!options.tile.empty() && !options.region.empty()) {
+  RenderSettings settings = options.settings;
+  for (const SettingKey& key : SettingKeys()) {
+    const auto text = options.setting_texts.find(key.name);
+    if (text == options.setting_texts.end() || text->second.empty()) continue;
+    std::get<SettingText>(key.field).parse(text->second, &settings);
+  }
+  if (settings.band.count > 0 && settings.region != Window{}) {
     throw Error(ExitCode::kUsage, "--tile", "cannot be used with --region",
                 "a tile spans the frame's width; leave one of them out");
   }
   // The chunks of a tile must be those of the whole picture's file.
   settings.band_rows = std::max(kStripRows, RowsPerChunk(ParseCompression(options.compression)));
-  settings.layers = options.layers;
-  settings.tile_size = options.tile_size;
   settings.time_stages = options.explain || !options.stats.empty();
-  settings.max_error = options.max_error;
   if (options.spp) settings.max_samples = *options.spp;
-  settings.intersector = ParseIntersector(options.intersector);
+  CheckSettings(settings);
   return settings;
 }
 

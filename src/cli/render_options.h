@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/App.hpp>
@@ -27,13 +29,12 @@ struct RenderOptions {
   std::vector<std::string> outputs;
   std::string size;  // "WxH"; empty: the scene's
   std::optional<int> spp;
-  double max_error = 0;  // 0: no adaptive sampling
   std::optional<uint32_t> seed;
-  int threads = 0;
+  // The settings of SettingKeys() that options have set, but for those that are written as text:
+  // these are parsed by MakeRenderSettings, after all options are known.
+  RenderSettings settings;
+  std::map<std::string_view, std::string> setting_texts;  // by name; empty: not given
   std::string target = "auto";
-  std::string region;  // "x0,y0,x1,y1"; empty: everything
-  std::string tile;    // "i/N"; empty: everything
-  std::vector<std::string> layers;
   std::string depth = "half";
   std::string compression = "zip";
   bool small = false;
@@ -49,8 +50,6 @@ struct RenderOptions {
   bool reproducible = false;
   bool quiet = false;
   std::string progress = "auto";
-  std::string intersector = "auto";
-  int tile_size = 0;  // 0: the plan chooses it
   std::vector<IdleOption> idle_options;
 };
 
@@ -63,6 +62,12 @@ CLI::Option* AddTargetOption(CLI::App* command, std::string* target);
 // Adds the options for the look of a PNG, which `tonemap` has, too.
 void AddDisplayOptions(CLI::App* command, std::string* tonemap, double* exposure);
 
+// Adds the option for a setting.
+CLI::Option* AddSettingOption(CLI::App* command, const SettingKey& key, RenderOptions* options);
+
+// Adds the options for the settings of refined pictures that the live view takes.
+void AddViewSettingOptions(CLI::App* command, RenderOptions* options);
+
 // Add the options for the scene's picture, and for how the machine renders it.
 void AddPictureOptions(CLI::App* command, RenderOptions* options);
 void AddMachineOptions(CLI::App* command, RenderOptions* options);
@@ -73,12 +78,6 @@ CLI::Option* AddMaxPrimitivesOption(CLI::App* command, std::optional<uint64_t>* 
 // The options for scene_io. --size, --spp and --seed become overrides of the scene's image, like
 // those of --set. Throws Error (kUsage).
 LoadOptions MakeLoadOptions(const RenderOptions& options);
-
-// Parses "x0,y0,x1,y1"; an empty text gives an empty window. Throws Error (kUsage).
-Window ParseRegion(const std::string& text);
-
-// Parses "i/N" with 0 <= i < N to a band; an empty text gives none. Throws Error (kUsage).
-FrameBand ParseTile(const std::string& text);
 
 // A check for numbers in [low, high]; unlike CLI11's own, it refuses NaN.
 std::function<std::string(const std::string&)> InRange(double low, double high);

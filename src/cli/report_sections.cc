@@ -7,7 +7,12 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/path.h"
+#include "base/target.h"
+#include "base/version.h"
 #include "cli/metrics_json.h"
+#include "cli/print.h"
+#include "cli/text_output.h"
 
 namespace nacre {
 namespace {
@@ -16,12 +21,6 @@ using Json = nlohmann::ordered_json;
 
 Json FrameOf(const Image& image) {
   return {{"width", image.display.width()}, {"height", image.display.height()}};
-}
-
-// Moves the window to coordinates with the frame's corner at the origin.
-Window FromCorner(const Window& window, const Window& display) {
-  return {window.x0 - display.x0, window.y0 - display.y0, window.x1 - display.x0,
-          window.y1 - display.y0};
 }
 
 void AddNote(const Packing& packing, const std::vector<const Image*>& images, Json* section) {
@@ -87,6 +86,16 @@ Json CompareWith(const ReportPicture& got, const ReportPicture& reference,
   }
   const Verdict verdict = Judge(got.image, reference.image, {}, options);
   return Compare(got.image, reference.image, options, verdict, perceptual, packing, index, page);
+}
+
+std::string Summary(const PerceptualArguments& shown, const Json& sections) {
+  const bool pictures = std::any_of(sections.begin(), sections.end(),
+                                    [](const Json& s) { return s["kind"] == "images"; });
+  if (!pictures) return fmt::format("By nacre {}.", kVersion);
+  return fmt::format(
+      "By nacre {}, SIMD target {}. Pictures open with the tone operator {} at {} "
+      "stops; what they hold is linear.",
+      kVersion, TargetName(ActiveTarget()), shown.tonemap, shown.exposure);
 }
 
 }  // namespace
@@ -171,6 +180,32 @@ Json BenchSection(const std::string& path) {
     }
   }
   return {{"kind", "bench"}, {"title", "Benchmark"}, {"data", data}};
+}
+
+void CheckReportPath(const std::string& path) {
+  if (!HasExtension(path, ".html")) {
+    throw Error(ExitCode::kUsage, path, "unknown output extension", "a report is a .html file");
+  }
+  CheckTextOutput(path);
+}
+
+std::string ReportHtml(const std::string& title, const Json& sections,
+                       const PerceptualArguments& shown, const Page& page) {
+  const std::string generator = fmt::format("nacre {} ({})", kVersion, kCommit);
+  return page.Html(title, generator,
+                   {{"generator", generator},
+                    {"summary", Summary(shown, sections)},
+                    {"notes", Json::array()},
+                    {"tone", shown.tonemap},
+                    {"exposure", shown.exposure},
+                    {"sections", sections}});
+}
+
+void WriteReport(const std::string& path, const std::string& title, const Json& sections,
+                 const PerceptualArguments& shown, const Page& page) {
+  const std::string html = ReportHtml(title, sections, shown, page);
+  WriteText(path, html);
+  PrintError("{}: {:.1f} MiB\n", path, static_cast<double>(html.size()) / (1024 * 1024));
 }
 
 }  // namespace nacre

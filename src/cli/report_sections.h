@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/report_sections.h: the sections of a report as JSON for the page (src/report/html).
+// cli/report_sections.h: the sections of a report as JSON for the page (src/report/html), and the
+// file that is made of them.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "cli/perceptual_options.h"
 #include "cli/references.h"
 #include "cli/report_inputs.h"
+#include "report/page.h"
 #include "report/picture.h"
 
 namespace nacre {
@@ -39,5 +43,18 @@ class ValidationSection {
 };
 
 nlohmann::ordered_json BenchSection(const std::string& path);
+
+// Throws Error: kUsage unless `path` is a .html file, kCannotWrite if it cannot be written.
+void CheckReportPath(const std::string& path);
+
+// The HTML of a report. `page` holds the samples of the sections' pictures, which open as `shown`
+// says.
+std::string ReportHtml(const std::string& title, const nlohmann::ordered_json& sections,
+                       const PerceptualArguments& shown, const Page& page);
+
+// Writes such a page to a file, and prints the file's size on stderr.
+void WriteReport(const std::string& path, const std::string& title,
+                 const nlohmann::ordered_json& sections, const PerceptualArguments& shown,
+                 const Page& page);
 
 }  // namespace nacre

@@ -2,8 +2,9 @@
 #include "cli/usage_error.h"
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -19,93 +20,60 @@ namespace {
 
 // Names that other renderers, viewers and comparison tools have for options of nacre. A pair is
 // ignored if the command does not have the option.
-constexpr auto kOtherNames = std::to_array<std::pair<std::string_view, std::string_view>>({
-    {"--samples", "--spp"},
-    {"--sample-count", "--spp"},
-    {"--samples-per-pixel", "--spp"},
-    {"--quality", "--spp"},
-    {"--passes", "--spp"},
-    {"+A", "--spp"},
-    {"--out", "-o"},
-    {"--outfile", "-o"},
-    {"--output-file", "-o"},
-    {"--render-output", "-o"},
-    {"+O", "-o"},
-    {"--resolution", "--size"},
-    {"--res", "--size"},
-    {"--resize", "--size"},
-    {"--scale", "--size"},
-    {"--width", "--size"},
-    {"--height", "--size"},
-    {"-w", "--size"},
-    {"-r", "--size"},
-    {"+W", "--size"},
-    {"+H", "--size"},
-    {"--crop", "--region"},
-    {"--cropwindow", "--region"},
-    {"--pixelbounds", "--region"},
-    {"--pixel", "--region"},
-    {"--window", "--region"},
-    {"--nthreads", "--threads"},
-    {"--num-threads", "--threads"},
-    {"--jobs", "--threads"},
-    {"-j", "--threads"},
-    {"-t", "--threads"},
-    {"--env", "--environment"},
-    {"--envmap", "--environment"},
-    {"--hdri", "--environment"},
-    {"--ibl", "--environment"},
-    {"--aovs", "--layers"},
-    {"--aov", "--layers"},
-    {"--channels", "--layers"},
-    {"--ch", "--layers"},
-    {"--bit-depth", "--depth"},
-    {"-d", "--depth"},
-    {"--noise", "--max-error"},
-    {"--silent", "--quiet"},
-    {"-q", "--quiet"},
-    {"--verbose", "--explain"},
-    {"-v", "--explain"},
-    {"--log-level", "--progress"},
-    {"--device", "--target"},
-    {"-D", "--set"},
-    {"--define", "--set"},
-    {"--override", "--set"},
-    {"--ev", "--exposure"},
-    {"--tone-map", "--tonemap"},
-    {"--gamma", "--tonemap"},
-    {"--view-transform", "--tonemap"},
-    {"--mode", "--intersector"},
-    {"-fail", "--max-abs"},
-    {"--fail", "--max-abs"},
-    {"--tolerance", "--max-abs"},
-    {"--failpercent", "--fraction"},
-    {"--threshold", "--max-rel"},
-});
+struct OtherNames {
+  std::string_view ours, others;  // others: separated by spaces
+};
+constexpr OtherNames kOtherNames[] = {
+    {"--spp", "--samples --sample-count --samples-per-pixel --quality --passes +A"},
+    {"-o", "--out --outfile --output-file --render-output +O"},
+    {"--size", "--resolution --res --resize --scale --width --height -w -r +W +H"},
+    {"--region", "--crop --cropwindow --pixelbounds --pixel --window"},
+    {"--threads", "--nthreads --num-threads --jobs -j -t"},
+    {"--environment", "--env --envmap --hdri --ibl"},
+    {"--layers", "--aovs --aov --channels --ch"},
+    {"--depth", "--bit-depth -d"},
+    {"--max-error", "--noise"},
+    {"--quiet", "--silent -q"},
+    {"--explain", "--verbose -v"},
+    {"--progress", "--log-level"},
+    {"--target", "--device"},
+    {"--set", "-D --define --override"},
+    {"--exposure", "--ev"},
+    {"--tonemap", "--tone-map --gamma --view-transform"},
+    {"--intersector", "--mode"},
+    {"--max-abs", "-fail --fail --tolerance"},
+    {"--fraction", "--failpercent"},
+    {"--max-rel", "--threshold"},
+};
 
 // Options of other programs for what nacre does differently, with an explanation.
-constexpr auto kOtherWays = std::to_array<std::pair<std::string_view, std::string_view>>({
-    {"--frame", "a scene is one picture: change it by --set, and call once for each frame"},
-    {"--frames", "a scene is one picture: change it by --set, and call once for each frame"},
-    {"--render-frame", "a scene is one picture: change it by --set, and call once for each frame"},
-    {"-f", "a scene is one picture: change it by --set, and call once for each frame"},
-    {"--format", "the name behind -o says the format: .png or .exr"},
-    {"--render-format", "the name behind -o says the format: .png or .exr"},
-    {"-F", "the name behind -o says the format: .png or .exr"},
-    {"-i", "files that are read are named without an option"},
-    {"--input", "files that are read are named without an option"},
-    {"--scene", "files that are read are named without an option"},
+struct OtherWay {
+  std::string_view options, hint;
+};
+constexpr OtherWay kOtherWays[] = {
+    {"--frame --frames --render-frame -f",
+     "a scene is one picture: change it by --set, and call once for each frame"},
+    {"--format --render-format -F", "the name behind -o says the format: .png or .exr"},
+    {"-i --input --scene", "files that are read are named without an option"},
     {"--gpu", "nacre renders on the processor: --target chooses its instructions"},
     {"--engine", "there is one renderer: --target chooses its instructions"},
-    {"--integrator", "light goes from lights to surfaces to the camera, without further bounces"},
-    {"--bounces", "light goes from lights to surfaces to the camera, without further bounces"},
-    {"--max-depth", "light goes from lights to surfaces to the camera, without further bounces"},
+    {"--integrator --bounces --max-depth",
+     "light goes from lights to surfaces to the camera, without further bounces"},
     {"--denoise", "ask for fewer errors: more samples (--spp), or an error (--max-error)"},
     {"--background", "nacre opens no window; a scene's colour is --set /background=0"},
     {"-b", "nacre opens no window"},
     {"--camera", "change a scene's camera by --set, e.g. /camera/position=[0,1,6]"},
     {"--fast", "the fast mode is gone: leave it out, samples reach its error sooner"},
-});
+};
+
+std::vector<std::string> WordsOf(std::string_view text) {
+  std::istringstream words{std::string(text)};
+  return {std::istream_iterator<std::string>(words), {}};
+}
+
+bool Has(const std::vector<std::string>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
 
 // The innermost command that was named.
 const CLI::App* NamedCommand(const CLI::App& app) {
@@ -117,14 +85,16 @@ const CLI::App* NamedCommand(const CLI::App& app) {
 // The nearest name among the command's options and their other names, or "".
 std::string OptionMeant(const std::string& word, const std::vector<std::string>& names) {
   std::vector<std::string> candidates = names;
-  for (const auto& [other, ours] : kOtherNames) {
-    if (std::find(names.begin(), names.end(), ours) != names.end()) candidates.emplace_back(other);
+  for (const auto& [ours, others] : kOtherNames) {
+    if (!Has(names, ours)) continue;
+    for (const std::string& other : WordsOf(others)) candidates.push_back(other);
   }
   const std::string nearest = NearestName(word, candidates);
-  const auto other = std::find_if(kOtherNames.begin(), kOtherNames.end(),
-                                  [&](const auto& pair) { return pair.first == nearest; });
-  const bool is_ours = std::find(names.begin(), names.end(), nearest) != names.end();
-  return is_ours || other == kOtherNames.end() ? nearest : std::string(other->second);
+  if (Has(names, nearest)) return nearest;
+  for (const auto& [ours, others] : kOtherNames) {
+    if (Has(WordsOf(others), nearest)) return std::string(ours);
+  }
+  return nearest;
 }
 
 std::string HelpOf(const CLI::App& app, const CLI::App& command) {
@@ -163,15 +133,13 @@ std::optional<Error> UnknownArgument(const CLI::App& app, const CLI::ParseError&
   for (const CLI::Option* known : command.get_options()) {
     for (std::string& name : NamesOf(*known)) names.push_back(std::move(name));
   }
-  if (options_end && std::find(names.begin(), names.end(), word) != names.end()) {
+  if (options_end && Has(names, word)) {
     return Error(ExitCode::kUsage, word, "is behind --, which ends the options",
                  "write it before --");
   }
-  const auto way = std::find_if(kOtherWays.begin(), kOtherWays.end(),
-                                [&](const auto& pair) { return pair.first == word; });
-  if (way != kOtherWays.end()) {
-    return Error(ExitCode::kUsage, "", fmt::format("unknown option {}", word),
-                 std::string(way->second));
+  for (const auto& [options, hint] : kOtherWays) {
+    if (!Has(WordsOf(options), word)) continue;
+    return Error(ExitCode::kUsage, "", fmt::format("unknown option {}", word), std::string(hint));
   }
   const std::string meant = OptionMeant(word, names);
   return Error(ExitCode::kUsage, "", fmt::format("unknown option {}", word),
@@ -184,16 +152,32 @@ Error ValueError(const CLI::Option& option, const std::string& where, const std:
                  const std::string& help) {
   const std::vector<std::string> choices = ChoicesOf(option);
   const std::vector<std::string> given = option.results();
-  const auto wrong = std::find_if(given.begin(), given.end(), [&](const std::string& value) {
-    return std::find(choices.begin(), choices.end(), value) == choices.end();
-  });
+  const auto wrong = std::find_if(given.begin(), given.end(),
+                                  [&](const std::string& value) { return !Has(choices, value); });
   if (choices.empty() || wrong == given.end()) {
     return Error(ExitCode::kUsage, where, told, fmt::format("{} tells what it takes", help));
   }
-  const std::string nearest = NearestName(*wrong, choices);
   return Error(ExitCode::kUsage, where, fmt::format("\"{}\" is none of its values", *wrong),
-               nearest.empty() ? fmt::format("one of: {}", fmt::join(choices, ", "))
-                               : fmt::format("did you mean \"{}\"?", nearest));
+               NearestHint(*wrong, choices, fmt::format("one of: {}", fmt::join(choices, ", "))));
+}
+
+constexpr char kNoValue[] = "its value is missing";
+
+// The option that a word names, without "=" and a value; null if it names none. A lone "-" is
+// standard input or output, and for a word without a dash CLI11 would search the positional
+// arguments.
+const CLI::Option* OptionNamed(const CLI::App& command, const std::string& word) {
+  if (word.size() < 2 || word[0] != '-') return nullptr;
+  return command.get_option_no_throw(word);
+}
+
+void CheckList(const std::string& name, const std::string& list, char delimiter) {
+  const std::string text = delimiter + list + delimiter;
+  if (text.find(std::string(2, delimiter)) == std::string::npos) return;
+  throw Error(
+      ExitCode::kUsage, name,
+      list.empty() ? "the list is empty" : fmt::format("\"{}\" has an element that is empty", list),
+      fmt::format("separate elements by one \"{}\" and end with none", delimiter));
 }
 
 }  // namespace
@@ -233,6 +217,45 @@ Error UsageError(const CLI::App& app, const CLI::ParseError& failure) {
       return ValueError(*option, name, text.substr(std::min(name.size() + 2, text.size())), help);
     default:
       return Error(ExitCode::kUsage, "", message, fmt::format("{} tells what it takes", help));
+  }
+}
+
+void CheckOptionValues(const CLI::App& app, const std::vector<std::string>& words) {
+  if (words.empty()) return;
+  const auto named =
+      app.get_subcommands([&](const CLI::App* command) { return command->get_name() == words[0]; });
+  if (named.empty()) return;
+  const CLI::App& command = *named.front();
+  for (size_t i = 1; i < words.size() && words[i] != "--"; ++i) {
+    const bool is_long = words[i].starts_with("--");
+    const size_t equals = is_long ? words[i].find('=') : std::string::npos;
+    const std::string name = words[i].substr(0, equals);
+    const CLI::Option* const option = OptionNamed(command, name);
+    if (option == nullptr || !TakesValue(*option)) continue;
+    std::string value;
+    std::string hint = fmt::format("nacre {} --help-all tells what it takes", words[0]);
+    if (equals != std::string::npos) {
+      value = words[i].substr(equals + 1);
+      if (value.empty()) throw Error(ExitCode::kUsage, name, kNoValue, hint);
+    } else if (i + 1 == words.size()) {
+      throw Error(ExitCode::kUsage, name, kNoValue, hint);
+    } else {
+      value = words[++i];
+      if (OptionNamed(command, value.substr(0, value.find('='))) != nullptr) {
+        if (is_long) hint += fmt::format("; if it is meant, write {}={}", name, value);
+        throw Error(ExitCode::kUsage, name,
+                    fmt::format("{}: the option {} follows", kNoValue, value), hint);
+      }
+    }
+    if (option->get_delimiter() != '\0') CheckList(name, value, option->get_delimiter());
+  }
+}
+
+void RefuseOptions(const CLI::App& command, const std::function<bool(const CLI::Option&)>& applies,
+                   const std::string& what, const std::string& hint) {
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->count() == 0 || applies(*option)) continue;
+    throw Error(ExitCode::kUsage, option->get_name(), "cannot be used with " + what, hint);
   }
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/watch_job.h"
-
+// cli/watch_job.cc: nacre render --watch: repeats a render whenever its files change.
 #include <atomic>
 #include <chrono>
 #include <new>

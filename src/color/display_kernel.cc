@@ -10,13 +10,12 @@
 #include "hwy/highway.h"
 
 #include "color/display.h"
-#include "color/srgb8-inl.h"
+#include "color/srgb8.h"
 #include "color/tone-inl.h"
 #include "color/transfer-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 
 // Pixels are encoded in chunks by two loops. Tone operators have long dependency chains, and table
 // look-ups many micro-operations; in one loop they would not overlap.
@@ -64,6 +63,20 @@ HWY_INLINE void ToneChunk(D d, const Tone& tone, float scale, const float* r, co
   for (size_t i = 0; i < kChunk; i += hn::Lanes(d)) {
     ToneVector(d, tone, scale, r + i, g + i, b + i, to + i);
   }
+}
+
+// SIMD twin of Srgb8 in color/srgb8.h: the code, 0..255, of each lane of `linear`; `entries` is
+// Srgb8Table's. NaN gives 0.
+template <class D, class V = hn::Vec<D>, class VI = hn::Vec<hn::RebindToSigned<D>>>
+HWY_INLINE VI Srgb8Codes(D d, V linear, const int32_t* HWY_RESTRICT entries) {
+  const hn::RebindToSigned<D> di;
+  const VI first_bits = hn::Set(di, static_cast<int32_t>(Srgb8Table::kFirstBits));
+  const VI last_bits = hn::Set(di, static_cast<int32_t>(Srgb8Table::kLastBits));
+  // Max returns its second operand where the first is NaN, so indices stay in the table.
+  const V clamped = hn::Min(hn::Max(linear, hn::BitCast(d, first_bits)), hn::BitCast(d, last_bits));
+  const VI offset = hn::Sub(hn::BitCast(di, clamped), first_bits);
+  const VI entry = hn::GatherIndex(di, entries, hn::ShiftRight<16>(offset));
+  return hn::ShiftRight<16>(hn::Add(entry, hn::And(offset, hn::Set(di, 0xffff))));
 }
 
 // Encodes a chunk. Returns the number of pixels whose light.r is NaN.
@@ -135,7 +148,7 @@ HWY_INLINE auto WithTone(const DisplaySettings& settings, const Work& work) {
     case ToneOperator::kReinhard:
       return work(ReinhardTone(), scale);
     case ToneOperator::kReinhardExtended:
-      return work(ReinhardExtendedTone(settings.white), scale);
+      return work(ReinhardExtendedTone{ReinhardExtendedCurve(settings.white)}, scale);
     case ToneOperator::kAces:
       return work(AcesTone(), scale);
     case ToneOperator::kAgx:
@@ -189,8 +202,7 @@ void DecodeSrgbT(size_t count, float* values) {
   std::memcpy(values + i, rest, (count - i) * sizeof(float));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

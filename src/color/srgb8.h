@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // color/srgb8.h: 8-bit sRGB codes of linear floats, by a table that is exact for every float. SIMD
-// twin: srgb8-inl.h.
+// twin: display_kernel.cc.
 #pragma once
 
 #include <array>

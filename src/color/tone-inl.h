@@ -16,19 +16,29 @@
 #include "color/agx.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-struct NoneTone {
+// The operator that applies a curve to each channel.
+template <class Curve>
+struct ChannelTone {
+  Curve curve;
+
   template <class D, class V>
   HWY_INLINE void operator()(D d, V& r, V& g, V& b) const {
-    const V one = hn::Set(d, 1.0f);
-    r = hn::Min(r, one);
-    g = hn::Min(g, one);
-    b = hn::Min(b, one);
+    r = curve(d, r);
+    g = curve(d, g);
+    b = curve(d, b);
   }
 };
+
+struct NoneCurve {
+  template <class D, class V>
+  HWY_INLINE V operator()(D d, V x) const {
+    return hn::Min(x, hn::Set(d, 1.0f));
+  }
+};
+using NoneTone = ChannelTone<NoneCurve>;
 
 // x as the ratio u / v of two numbers in [0, 1], one of which is 1; v = 0 at infinity. Rational
 // curves of x are homogeneous in u and v and cannot overflow.
@@ -42,35 +52,22 @@ HWY_INLINE V RatioDenominator(D d, V x) {
   return hn::Min(hn::Div(one, x), one);
 }
 
-struct ReinhardTone {
+struct ReinhardCurve {
   template <class D, class V>
-  HWY_INLINE void operator()(D d, V& r, V& g, V& b) const {
-    r = Curve(d, r);
-    g = Curve(d, g);
-    b = Curve(d, b);
-  }
-
-  template <class D, class V>
-  static HWY_INLINE V Curve(D d, V x) {
+  HWY_INLINE V operator()(D d, V x) const {
     const V u = RatioNumerator(d, x);
     return hn::Div(u, hn::Add(u, RatioDenominator(d, x)));
   }
 };
+using ReinhardTone = ChannelTone<ReinhardCurve>;
 
-struct ReinhardExtendedTone {
-  explicit ReinhardExtendedTone(double white_point)
+struct ReinhardExtendedCurve {
+  explicit ReinhardExtendedCurve(double white_point)
       : white(static_cast<float>(white_point)),
         inverse_square(static_cast<float>(1 / (white_point * white_point))) {}
 
   template <class D, class V>
-  HWY_INLINE void operator()(D d, V& r, V& g, V& b) const {
-    r = Curve(d, r);
-    g = Curve(d, g);
-    b = Curve(d, b);
-  }
-
-  template <class D, class V>
-  HWY_INLINE V Curve(D d, V x) const {
+  HWY_INLINE V operator()(D d, V x) const {
     const V one = hn::Set(d, 1.0f);
     const V below = hn::Min(x, hn::Set(d, white));
     const V numerator = hn::Mul(below, hn::MulAdd(below, hn::Set(d, inverse_square), one));
@@ -80,17 +77,11 @@ struct ReinhardExtendedTone {
   float white;
   float inverse_square;
 };
+using ReinhardExtendedTone = ChannelTone<ReinhardExtendedCurve>;
 
-struct AcesTone {
+struct AcesCurve {
   template <class D, class V>
-  HWY_INLINE void operator()(D d, V& r, V& g, V& b) const {
-    r = Curve(d, r);
-    g = Curve(d, g);
-    b = Curve(d, b);
-  }
-
-  template <class D, class V>
-  static HWY_INLINE V Curve(D d, V x) {
+  HWY_INLINE V operator()(D d, V x) const {
     const V u = RatioNumerator(d, x);
     const V v = RatioDenominator(d, x);
     // Numerator and denominator are multiplied by 100, so that the coefficients are exact.
@@ -101,6 +92,7 @@ struct AcesTone {
     return hn::Min(hn::Div(numerator, denominator), set(1));
   }
 };
+using AcesTone = ChannelTone<AcesCurve>;
 
 // The scalar twin's formulas over one common denominator: with q = peak + headroom - start,
 // a = q - headroom^2 = q new_peak, e = 0.15 q (peak - new_peak), the result is
@@ -202,7 +194,6 @@ struct AgxTone {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -36,10 +36,9 @@ ToneOperator ParseToneOperator(const std::string& name) {
   for (const auto& [value, known] : kToneNames) {
     if (name == known) return value;
   }
-  const std::string nearest = NearestName(name, ToneOperatorNames());
   throw Error(ExitCode::kUsage, {}, "unknown tone operator \"" + name + "\"",
-              nearest.empty() ? "one of neutral, reinhard, reinhard_extended, aces, agx, none"
-                              : "did you mean \"" + nearest + "\"?");
+              NearestHint(name, ToneOperatorNames(),
+                          "one of neutral, reinhard, reinhard_extended, aces, agx, none"));
 }
 
 }  // namespace nacre

@@ -11,8 +11,7 @@
 #include "base/math-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // Calls of Log2 and Exp2 are qualified: hwy/contrib/math has functions of the same names, which
@@ -39,7 +38,6 @@ HWY_INLINE V SrgbEotf(D d, V encoded) {
                         hn::Mul(encoded, hn::Set(d, static_cast<float>(1 / 12.92))), power);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -1,15 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
-// compare/flip_rows.h: the two steps of FLIP on rows of pixels, in float: horizontal filters, then
-// vertical filters and differences. The kernels are in flip_kernel.cc.
+// compare/flip_rows.h: the filters of FLIP (Andersson et al. 2020), in double and in float, and its
+// two steps on rows of pixels: horizontal filters, then vertical filters and differences. The
+// kernels are in flip_kernel.cc.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <vector>
 
-#include "compare/flip_filters.h"
+#include "compare/plane.h"
 
 namespace nacre {
+
+// ---- Filters, in double -------------------------------------------------------------------------
+
+// One dimension of each filter; all are separable. The filters of contrast sensitivity have a sum
+// of 1, and turn opponent colours into perceived ones; that for blue-yellow is first_share *
+// blue_yellow[0] + (1 - first_share) * blue_yellow[1].
+//
+// `edge` and `point` are the first and second derivative of the Gaussian `smooth`, scaled so that a
+// step or a dot in [0, 1] gives at most 1; each is applied in one direction with `smooth` in the
+// other, both ways round.
+struct FlipFilters {
+  Kernel luminance, red_green;
+  Kernel blue_yellow[2];
+  double first_share = 1;
+  Kernel smooth, edge, point;
+};
+
+FlipFilters MakeFlipFilters(double pixels_per_degree);
+
+// The largest radius of the filters, in pixels.
+int RadiusOf(const FlipFilters& filters);
+
+// ---- Rows, in float -----------------------------------------------------------------------------
 
 // Columns that are processed together, a multiple of two of the widest vectors. Their filtered rows
 // stay in L2, and few pixels at the borders are converted twice.

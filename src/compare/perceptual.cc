@@ -10,7 +10,6 @@
 #include "base/error.h"
 #include "color/display.h"
 #include "compare/ssim.h"
-#include "compare/ssim_rows.h"
 
 namespace nacre {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "color/display.h"
-#include "compare/flip_hdr.h"
+#include "compare/flip.h"
 #include "compare/layers.h"
 
 namespace nacre {

@@ -6,7 +6,6 @@
 
 #include "base/aligned.h"
 #include "base/parallel.h"
-#include "compare/ssim_rows.h"
 
 namespace nacre {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// compare/ssim_rows_kernel.cc: the kernels of compare/ssim_rows.h.
+// compare/ssim_rows_kernel.cc: the kernels of compare/ssim.h.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "compare/ssim_rows_kernel.cc"
 #include "hwy/foreach_target.h"
@@ -8,7 +8,7 @@
 
 #include "base/aligned.h"
 #include "color/transfer-inl.h"
-#include "compare/ssim_rows.h"
+#include "compare/ssim.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {

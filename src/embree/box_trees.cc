@@ -11,10 +11,9 @@
 #include "base/handover.h"
 #include "embree/embree_api.h"
 #include "embree/embree_device.h"
-#include "embree/sphere_kernel.h"
+#include "embree/primitives.h"
 #include "embree/tbb_threads.h"
 #include "embree/trace_kernel.h"
-#include "embree/triangle_kernel.h"
 
 namespace nacre {
 namespace {

@@ -34,13 +34,10 @@ inline EmbreePacket::EmbreePacket(int width, RTCScene to_scene, const TraceGeome
   packet.geometry = geometry;
   const unsigned lanes = Width();
   RTCRayN* ray = ray_n();
-  packet.floats = {origin[0],
-                   origin[1],
-                   origin[2],
-                   &RTCRayN_dir_x(ray, lanes, 0),
-                   &RTCRayN_dir_y(ray, lanes, 0),
-                   &RTCRayN_dir_z(ray, lanes, 0),
-                   &RTCRayN_tfar(ray, lanes, 0)};
+  packet.floats = {
+      {origin[0], origin[1], origin[2]},
+      {&RTCRayN_dir_x(ray, lanes, 0), &RTCRayN_dir_y(ray, lanes, 0), &RTCRayN_dir_z(ray, lanes, 0)},
+      &RTCRayN_tfar(ray, lanes, 0)};
   auto* hits = RTCRayHitN_HitN(reinterpret_cast<RTCRayHitN*>(&rays), lanes);
   for (unsigned i = 0; i < lanes; ++i) {
     RTCRayN_tnear(ray, lanes, i) = 0;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // embree/sphere_kernel.cc: a float test proposes the rays of a packet that may hit a sphere,
 // and the double test decides.
-#include "embree/sphere_kernel.h"
-
 #include "embree/embree_packet.h"
+#include "embree/primitives.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "embree/sphere_kernel.cc"
@@ -12,8 +11,7 @@
 #include "visibility/sphere_packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -38,8 +36,7 @@ void OccludedBySphere(const RTCOccludedFunctionNArguments* args) {
 PrimitiveCallbacks Callbacks() { return {&IntersectSphere, &OccludedBySphere}; }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -8,12 +8,12 @@
 #define HWY_TARGET_INCLUDE "embree/trace_kernel.cc"
 #include "hwy/foreach_target.h"
 
-#include "base/geometry-inl.h"
+#include "base/vec3-inl.h"
 #include "visibility/fill_packet-inl.h"
+#include "visibility/occlusion-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -45,9 +45,8 @@ HWY_INLINE void FillOrigins(const Vec3d& offset, EmbreePacket* to) {
 HWY_INLINE bool AreIncoherent(const Packet& packet) {
   constexpr float kLimit = 0.5f;
   const hn::CappedTag<float, kMaxPacketWidth> d;
-  const FloatRays& rays = packet.floats;
   float extent = 0;
-  for (const float* component : {rays.direction_x, rays.direction_y, rays.direction_z}) {
+  for (const float* component : packet.floats.direction) {
     auto lowest = hn::Set(d, 2.0f), highest = hn::Set(d, -2.0f);
     for (int lane = 0; lane < packet.width; lane += static_cast<int>(hn::Lanes(d))) {
       const auto asked = MaskOfBits(d, packet.lanes, lane);
@@ -100,13 +99,12 @@ void Occluded(const TraceScene& scene, ShadowRayBatch* rays) {
       ChooseLanes(&to);
       OccludedPacket(to.packet.width, to.valid, to.scene, &to.context, &to.rays);
     }
-    StoreOccluded(to.packet, first, rays);
+    StoreOccluded(to.packet.occluded, first, to.Width(), rays);
   }
 }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -3,23 +3,21 @@
 //
 // Embree's own triangle test is watertight, but its float edges depend on the instruction set and
 // on which rays share a packet, and so would the picture.
-#include "embree/triangle_kernel.h"
-
 #include <cmath>
 
 #include "embree/embree_packet.h"
+#include "embree/primitives.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "embree/triangle_kernel.cc"
 #include "hwy/foreach_target.h"
 
-#include "base/geometry-inl.h"
+#include "base/vec3-inl.h"
 #include "visibility/occlusion-inl.h"
 #include "visibility/triangle_test-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -40,8 +38,7 @@ HWY_INLINE TriangleHitV<D> TestLanes(D d, const Packet& packet, int lane, const 
   return TestTriangle(d, Sub(SetVec3(d, corners.a), origin), Sub(SetVec3(d, corners.b), origin),
                       Sub(SetVec3(d, corners.c), origin), Direction(d, packet, lane),
                       hn::Load(d, packet.inverse_dd + lane),
-                      RayShearV<V>{Load3(d, shear[0] + lane, shear[1] + lane, shear[2] + lane),
-                                   Load3(d, shear[3] + lane, shear[4] + lane, shear[5] + lane)});
+                      RayShearV<V>{Load3(d, shear, lane), Load3(d, shear + 3, lane)});
 }
 
 // The lanes of `hits` that are not in a hole of the mesh. Not inlined, because few scenes have
@@ -230,8 +227,7 @@ void OccludedByTriangles(const RTCOccludedFunctionNArguments* args) {
 PrimitiveCallbacks Callbacks() { return {&IntersectTriangles, &OccludedByTriangles}; }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -11,12 +11,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <type_traits>
 
 #include "base/aligned.h"
 #include "hit/camera_frame.h"
-#include "scene/light_shapes.h"
+#include "scene/primitive_range.h"
 
 namespace nacre {
 

@@ -12,8 +12,7 @@
 #include "hit/shading_normal.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <class D, class V = hn::Vec<D>>
@@ -45,7 +44,6 @@ HWY_INLINE Vec3V<V> BendNormal(D d, const Vec3V<V>& normal, const Vec3V<V>& surf
   return Select(bends, Select(is_half, bent, surface), normal);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -2,7 +2,6 @@
 #include "image_io/exr_bands.h"
 
 #include <algorithm>
-#include <new>
 #include <set>
 #include <utility>
 
@@ -18,19 +17,20 @@
 
 #include "base/error.h"
 #include "base/input_file.h"
+#include "image_io/exr_check.h"
 #include "image_io/exr_checksum.h"
 #include "image_io/exr_chunk.h"
-#include "image_io/exr_chunk_check.h"
 #include "image_io/exr_container.h"
-#include "image_io/exr_header_check.h"
 #include "image_io/exr_types.h"
 #include "image_io/image_file.h"
 
 namespace nacre {
 namespace {
 
+constexpr char kRenderAgain[] = "render this tile again";
+
 [[noreturn]] void RefuseBand(const std::string& path, const std::string& what) {
-  throw Error(ExitCode::kBadInput, path, what, "render this tile again");
+  throw Error(ExitCode::kBadInput, path, what, kRenderAgain);
 }
 
 [[noreturn]] void RefuseKind(const std::string& path, const std::string& what) {
@@ -67,18 +67,10 @@ void AddAttribute(const std::string& path, const std::string& name, const Imf::A
 }  // namespace
 
 struct ExrBandReader::State {
-  // Calls work(), and turns the exceptions by which OpenEXR reports errors of a file into Error.
+  // Calls work(), and turns what OpenEXR throws into Error.
   template <class Work>
   auto Guard(const Work& work) const {
-    try {
-      return work();
-    } catch (const Error&) {
-      throw;
-    } catch (const std::bad_alloc&) {
-      RefuseBand(path, "there is no memory for it");
-    } catch (const std::exception& exception) {
-      RefuseBand(path, std::string("cannot be read as EXR: ") + exception.what());
-    }
+    return WithOpenExr(path, kRenderAgain, work);
   }
 
   // An uncompressed chunk has exactly its full size, and a compressed one is never larger. OpenEXR

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "image_io/exr_chunk_check.h"
-
+// image_io/exr_chunk_check.cc: CheckExrChunks() and DecodeExrLines() of exr_check.h.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -15,6 +14,7 @@
 #include "base/error.h"
 #include "base/huge_pages.h"
 #include "base/parallel.h"
+#include "image_io/exr_check.h"
 #include "image_io/image_file.h"
 
 namespace nacre {
@@ -192,17 +192,29 @@ Lines CheckLines(const std::string& path, const ChunkFile& file, int part, uint6
   return lines;
 }
 
+struct PartHeader {
+  exr_storage_t storage = EXR_STORAGE_SCANLINE;
+  exr_compression_t compression = EXR_COMPRESSION_NONE;
+  exr_attr_box2i_t data_window{};
+  uint64_t channels = 0;
+};
+
+PartHeader DescribePart(const ChunkFile& file, int part) {
+  PartHeader header;
+  const exr_attr_chlist_t* channels = nullptr;
+  file.Check(exr_get_storage(file.get(), part, &header.storage), "a part");
+  file.Check(exr_get_compression(file.get(), part, &header.compression), "a compression");
+  file.Check(exr_get_data_window(file.get(), part, &header.data_window), "a data window");
+  file.Check(exr_get_channels(file.get(), part, &channels), "channels");
+  header.channels = static_cast<uint64_t>(channels->num_channels);
+  return header;
+}
+
 }  // namespace
 
 void CheckExrChunks(const std::string& path, int part, uint64_t file_bytes) {
   const ChunkFile file(path);
-  exr_storage_t storage = EXR_STORAGE_SCANLINE;
-  exr_attr_box2i_t box{};
-  const exr_attr_chlist_t* channels = nullptr;
-  file.Check(exr_get_storage(file.get(), part, &storage), "a part");
-  file.Check(exr_get_data_window(file.get(), part, &box), "a data window");
-  file.Check(exr_get_channels(file.get(), part, &channels), "channels");
-  const auto channel_count = static_cast<uint64_t>(channels->num_channels);
+  const auto [storage, compression, box, channel_count] = DescribePart(file, part);
   const int64_t width = int64_t{box.max.x} - box.min.x + 1;
   const int64_t height = int64_t{box.max.y} - box.min.y + 1;
   if (storage == EXR_STORAGE_TILED) {
@@ -238,19 +250,11 @@ void CheckExrChunks(const std::string& path, int part, uint64_t file_bytes) {
 bool DecodeExrLines(const std::string& path, int part, uint64_t file_bytes,
                     const std::function<void(const ExrChunkRows&)>& use) {
   const ChunkFile file(path);
-  exr_storage_t storage = EXR_STORAGE_SCANLINE;
-  exr_compression_t compression = EXR_COMPRESSION_NONE;
-  exr_attr_box2i_t box{};
-  const exr_attr_chlist_t* channels = nullptr;
-  file.Check(exr_get_storage(file.get(), part, &storage), "a part");
-  file.Check(exr_get_compression(file.get(), part, &compression), "a compression");
+  const auto [storage, compression, box, channel_count] = DescribePart(file, part);
   const bool is_deflated =
       compression == EXR_COMPRESSION_ZIP || compression == EXR_COMPRESSION_ZIPS;
   if (storage != EXR_STORAGE_SCANLINE || !is_deflated) return false;
-  file.Check(exr_get_data_window(file.get(), part, &box), "a data window");
-  file.Check(exr_get_channels(file.get(), part, &channels), "channels");
-  const Lines lines =
-      CheckLines(path, file, part, file_bytes, box, static_cast<uint64_t>(channels->num_channels));
+  const Lines lines = CheckLines(path, file, part, file_bytes, box, channel_count);
   ForEachChunk(file, part, lines, [&](const exr_chunk_info_t& chunk, const std::string& name) {
     if (chunk.packed_size > chunk.unpacked_size) CheckChunk(path, file, part, chunk, name);
     HugeArray<uint8_t> packed(chunk.packed_size);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "image_io/exr_header_check.h"
-
+// image_io/exr_header_check.cc: CheckExrHeader() of exr_check.h.
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -9,6 +8,7 @@
 #include <openexr.h>
 
 #include "base/error.h"
+#include "image_io/exr_check.h"
 
 namespace nacre {
 namespace {

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "image_io/exr_reader.h"
-
+// image_io/exr_reader.cc: reads EXR files with OpenEXR.
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <limits>
 #include <memory>
-#include <new>
 #include <set>
 #include <utility>
 
@@ -35,9 +33,9 @@
 
 #include "base/error.h"
 #include "base/input_file.h"
-#include "image_io/exr_chunk_check.h"
-#include "image_io/exr_header_check.h"
+#include "image_io/exr_check.h"
 #include "image_io/exr_types.h"
+#include "image_io/format_readers.h"
 
 namespace nacre {
 namespace {
@@ -263,20 +261,6 @@ void ReadPart(const std::string& path, uint64_t file_bytes, Imf::MultiPartInputF
   }
 }
 
-// Calls body(), and turns the library's exceptions into Error.
-template <typename Body>
-void WithLibrary(const std::string& path, const Body& body) {
-  try {
-    body();
-  } catch (const Error&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    Fail(path, "there is no memory for it");
-  } catch (const std::exception& exception) {
-    Fail(path, std::string("cannot be read as EXR: ") + exception.what());
-  }
-}
-
 struct OpenedExr {
   std::unique_ptr<Imf::MultiPartInputFile> file;
   std::vector<ImagePart> parts;
@@ -286,7 +270,7 @@ OpenedExr OpenParts(const std::string& path) {
   CheckInputFile(path);
   CheckExrHeader(path);
   OpenedExr opened;
-  WithLibrary(path, [&] {
+  WithOpenExr(path, {}, [&] {
     constexpr int kNoThreads = 0;
     // The chunk table may be incomplete at this point: ReadPart checks it before decoding.
     opened.file = std::make_unique<Imf::MultiPartInputFile>(path.c_str(), kNoThreads);
@@ -380,7 +364,7 @@ ImageFile OpenExr(const std::string& path, const std::string& part) {
         }
       }
     }
-    WithLibrary(path, [&] {
+    WithOpenExr(path, {}, [&] {
       for (size_t i = 0; i < parts.size(); ++i) {
         if (!by_part[i].empty()) {
           ReadPart(path, bytes, *file, static_cast<int>(i), region, by_part[i]);

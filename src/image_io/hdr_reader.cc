@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "image_io/hdr_reader.h"
-
+// image_io/hdr_reader.cc: reads Radiance pictures.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -20,6 +19,7 @@
 #include "base/parallel.h"
 #include "base/vec.h"
 #include "color/primaries.h"
+#include "image_io/format_readers.h"
 #include "image_io/orientation.h"
 
 namespace nacre {
@@ -29,11 +29,6 @@ constexpr int kLargestSide = 65536;
 // kShortestCoded and kLongestCoded limit the width of rows that are run-length encoded.
 constexpr int kRowsAtATime = 16;
 constexpr int kShortestCoded = 8, kLongestCoded = 0x7fff;
-
-[[noreturn]] void FailHdr(const std::string& path, const std::string& what,
-                          const std::string& hint = {}) {
-  throw Error(ExitCode::kBadInput, path, what, hint);
-}
 
 // Reads the file byte by byte. Throws at its end.
 class HdrBytes {
@@ -64,8 +59,7 @@ class HdrBytes {
     constexpr size_t kLongest = 1 << 16;
     std::string line;
     for (char c = static_cast<char>(Next()); c != '\n'; c = static_cast<char>(Next())) {
-      if (line.size() == kLongest)
-        FailHdr(path_, "cannot be read: a line of its header has no end");
+      if (line.size() == kLongest) FailToRead(path_, "a line of its header has no end");
       line += c;
     }
     if (line.ends_with('\r')) line.pop_back();
@@ -81,7 +75,7 @@ class HdrBytes {
   void Fill() {
     next_ = 0;
     end_ = ReadInto(0);
-    if (end_ == 0) FailHdr(path_, "cannot be read: it is cut off");
+    if (end_ == 0) FailToRead(path_, "it is cut off");
   }
 
   std::string path_;
@@ -154,8 +148,7 @@ void ReadVariable(const std::string& path, const std::string& line, HdrHeader* h
   const auto numbers = [&](size_t count) {
     const auto parsed = ParseNumbers(value);
     if (!parsed || parsed->size() != count) {
-      FailHdr(path, fmt::format("cannot be read: {} is not {} number{}", name, count,
-                                count == 1 ? "" : "s"));
+      FailToRead(path, fmt::format("{} is not {} number{}", name, count, count == 1 ? "" : "s"));
     }
     return *parsed;
   };
@@ -169,14 +162,14 @@ void ReadVariable(const std::string& path, const std::string& line, HdrHeader* h
     for (int c = 0; c < 3; ++c) {
       header->exposure[c] *= all[count == 1 ? 0 : static_cast<size_t>(c)];
       if (!(header->exposure[c] > 0) || !std::isfinite(header->exposure[c])) {
-        FailHdr(path, "cannot be read: " + name + " makes no factor above 0");
+        FailToRead(path, name + " makes no factor above 0");
       }
     }
   };
   if (name == "FORMAT") {
     header->is_xyz = value == "32-bit_rle_xyze";
     if (!header->is_xyz && value != "32-bit_rle_rgbe") {
-      FailHdr(path, "cannot be read: its FORMAT is neither 32-bit_rle_rgbe nor 32-bit_rle_xyze");
+      FailToRead(path, "its FORMAT is neither 32-bit_rle_rgbe nor 32-bit_rle_xyze");
     }
   }
   if (name == "EXPOSURE" && !says_nothing(1)) factors(1);
@@ -189,12 +182,12 @@ void ReadVariable(const std::string& path, const std::string& line, HdrHeader* h
     }
   }
   if (name == "GAMMA" && !says_nothing(1) && numbers(1)[0] != 1) {
-    FailHdr(path, "its GAMMA is not 1", "pixels must be linear");
+    throw Error(ExitCode::kBadInput, path, "its GAMMA is not 1", "pixels must be linear");
   }
   if (name == "PIXASPECT" && !says_nothing(1)) {
     header->pixel_aspect *= numbers(1)[0];
     if (!(header->pixel_aspect > 0) || !std::isfinite(header->pixel_aspect)) {
-      FailHdr(path, "cannot be read: PIXASPECT makes no factor above 0");
+      FailToRead(path, "PIXASPECT makes no factor above 0");
     }
     // EXR has pixel width over height, Radiance the reciprocal.
     header->variables["pixelAspectRatio"] = fmt::format("{:.6g}", 1 / header->pixel_aspect);
@@ -213,7 +206,7 @@ HdrHeader ReadHeader(const std::string& path, HdrBytes* bytes) {
   std::string resolution;
   while (resolution.empty()) resolution = bytes->Line();  // some files have several empty lines
   if (!ParseResolution(resolution, &header)) {
-    FailHdr(path, "cannot be read: its resolution is not like -Y 512 +X 1024, up to 65536 a side");
+    FailToRead(path, "its resolution is not like -Y 512 +X 1024, up to 65536 a side");
   }
   return header;
 }
@@ -239,7 +232,7 @@ class RowReader {
     const bool may_be_coded = width >= kShortestCoded && width <= kLongestCoded;
     if (may_be_coded && first[0] == 2 && first[1] == 2 && first[2] < 128) {
       if ((first[2] << 8 | first[3]) != width) {
-        FailHdr(path_, "cannot be read: a row is not as long as its header says");
+        FailToRead(path_, "a row is not as long as its header says");
       }
       for (size_t component = 0; component < 4; ++component) ReadRuns(component, row);
       return;
@@ -278,7 +271,7 @@ class RowReader {
       const bool same = code > 128;
       const size_t count = same ? code - 128u : code;
       if (count == 0 || count > row->size() - x) {
-        FailHdr(path_, "cannot be read: a run is longer than its row");
+        FailToRead(path_, "a run is longer than its row");
       }
       const uint8_t value = same ? bytes_->Next() : 0;
       for (size_t i = 0; i < count; ++i) (*row)[x++][component] = same ? value : bytes_->Next();
@@ -293,7 +286,7 @@ class RowReader {
       if (pixel[0] == 1 && pixel[1] == 1 && pixel[2] == 1) {
         const size_t count = shift < 24 ? size_t{pixel[3]} << shift : row->size() + 1;
         if (x == 0 || count > row->size() - x) {
-          FailHdr(path_, "cannot be read: a repetition is longer than its row");
+          FailToRead(path_, "a repetition is longer than its row");
         }
         for (size_t i = 0; i < count; ++i, ++x) (*row)[x] = (*row)[x - 1];
         shift += 8;
@@ -354,23 +347,14 @@ void ReadPixels(const std::string& path, const Window& size, const Window& regio
 ImageFile OpenHdr(const std::string& path) {
   HdrBytes bytes(path);
   HdrHeader header = ReadHeader(path, &bytes);
-  ImageFile image;
-  image.path = path;
-  image.file_bytes = FileBytes(path);
   // Checks a lower bound on the file's size before memory for its pixels is allocated. The densest
   // rows, those of the oldest files, repeat a pixel 65536 times in 16 bytes, or 4096 times per
   // byte.
   const double pixels = static_cast<double>(header.width) * header.height;
-  if (pixels / 4096 > static_cast<double>(image.file_bytes)) {
-    FailHdr(path, "cannot be read: it is cut off");
-  }
-  image.header.display = image.header.data = {0, 0, header.width, header.height};
-  image.header.metadata = std::move(header.variables);
-  image.header.metadata["transfer"] = "linear";
-  for (const char* name : {"R", "G", "B"}) {
-    image.header.channels.push_back({name, PixelType::kFloat, {}});
-  }
-  image.parts = {PartOf(image.header)};
+  if (pixels / 4096 > static_cast<double>(FileBytes(path))) FailToRead(path, "it is cut off");
+  header.variables["transfer"] = "linear";
+  ImageFile image = MakeImageFile(path, header.width, header.height, /*is_color=*/true,
+                                  /*has_alpha=*/false, std::move(header.variables));
   image.read = [path, size = image.header.data](const Window& region,
                                                 std::span<const SampleTarget> targets) {
     ReadPixels(path, size, region, targets);

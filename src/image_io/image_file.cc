@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -31,6 +32,10 @@ void CheckSampleCount(const std::string& path, uint64_t file_bytes, int64_t widt
   }
 }
 
+void FailToRead(const std::string& path, const std::string& reason) {
+  throw Error(ExitCode::kBadInput, path, "cannot be read: " + reason);
+}
+
 void CheckUnchanged(const std::string& path, bool same) {
   if (!same) throw Error(ExitCode::kBadInput, path, "changed while it was being read");
 }
@@ -52,6 +57,21 @@ ImagePart PartOf(const Image& header) {
   for (const Channel& channel : header.channels)
     part.channels.push_back({channel.name, channel.type});
   return part;
+}
+
+ImageFile MakeImageFile(const std::string& path, int width, int height, bool is_color,
+                        bool has_alpha, std::map<std::string, std::string> metadata) {
+  ImageFile image;
+  image.path = path;
+  image.file_bytes = FileBytes(path);
+  image.header.data = image.header.display = {0, 0, width, height};
+  image.header.metadata = std::move(metadata);
+  std::vector<const char*> names = {"Y"};
+  if (is_color) names = {"R", "G", "B"};
+  if (has_alpha) names.push_back("A");
+  for (const char* name : names) image.header.channels.push_back({name, PixelType::kFloat, {}});
+  image.parts = {PartOf(image.header)};
+  return image;
 }
 
 }  // namespace nacre

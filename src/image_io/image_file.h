@@ -29,6 +29,9 @@ inline constexpr uint64_t kMaxSamples = uint64_t{1} << 30;
 void CheckSampleCount(const std::string& path, uint64_t file_bytes, int64_t width, int64_t height,
                       uint64_t channels);
 
+// The error of files that cannot be read (kBadInput).
+[[noreturn]] void FailToRead(const std::string& path, const std::string& reason);
+
 // For files that are opened a second time to read their samples: throws Error (kBadInput) unless
 // `same`, which says whether the header still agrees with what the caller has allocated.
 void CheckUnchanged(const std::string& path, bool same);
@@ -79,5 +82,10 @@ struct ImageFile {
                      int64_t{region.y1} - region.y0, channels);
   }
 };
+
+// A file with one image, from pixel 0, 0 on, whose channels are R, G and B, or Y, perhaps with A.
+// Its `read` is not set.
+ImageFile MakeImageFile(const std::string& path, int width, int height, bool is_color,
+                        bool has_alpha, std::map<std::string, std::string> metadata);
 
 }  // namespace nacre

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "image_io/jpeg_reader.h"
-
+// image_io/jpeg_reader.cc: reads JPEG files with libjpeg-turbo.
 #include <algorithm>
 #include <cerrno>
 #include <csetjmp>
 #include <cstdlib>
 #include <cstring>
+#include <map>
 #include <memory>
 #include <span>
 #include <utility>
@@ -18,7 +18,7 @@
 #include "base/error.h"
 #include "image_io/c_file.h"
 #include "image_io/exif.h"
-#include "image_io/fail_to_read.h"
+#include "image_io/format_readers.h"
 #include "image_io/icc_profile.h"
 #include "image_io/orientation.h"
 
@@ -73,13 +73,12 @@ class JpegFile {
  public:
   explicit JpegFile(const std::string& path) : path_(path), file_(OpenToRead(path)) {
     if (!file_) Fail(std::strerror(errno));
-    jpeg_decompress_struct& jpeg = decoder_->jpeg;
-    jpeg.err = jpeg_std_error(&decoder_->errors);
+    decoder_->jpeg.err = jpeg_std_error(&decoder_->errors);
     decoder_->errors.error_exit = &OnError;
     decoder_->errors.emit_message = &OnMessage;
     decoder_->progress.progress_monitor = &OnScan;
-    jpeg.client_data = decoder_.get();
-    if (!ReadHeader()) FailWithMessage();
+    decoder_->jpeg.client_data = decoder_.get();
+    Call([&](j_decompress_ptr jpeg) { ReadHeader(jpeg, decoder_.get(), file_.get()); });
   }
 
   const jpeg_decompress_struct& header() const { return decoder_->jpeg; }
@@ -100,63 +99,46 @@ class JpegFile {
   std::vector<uint8_t> profile() {
     JOCTET* bytes = nullptr;
     unsigned size = 0;
-    if (!TryReadProfile(&bytes, &size)) FailWithMessage();
+    Call([&](j_decompress_ptr jpeg) { jpeg_read_icc_profile(jpeg, &bytes, &size); });
     const std::unique_ptr<JOCTET, decltype(&std::free)> owner(bytes, &std::free);
     return {bytes, bytes + size};
   }
 
   // Starts to decode rows of `width` pixels with `components` samples each.
   void Start() {
-    if (!TryStart()) FailWithMessage();
+    Call([](j_decompress_ptr jpeg) { jpeg_start_decompress(jpeg); });
   }
   void ReadRow(uint8_t* row) {
-    if (!TryReadRow(row)) FailWithMessage();
+    Call([&](j_decompress_ptr jpeg) { jpeg_read_scanlines(jpeg, &row, 1); });
   }
   // To be called after the last row. Checks that the rest of the file is whole.
   void Finish() {
-    if (!TryFinish()) FailWithMessage();
+    Call([](j_decompress_ptr jpeg) { jpeg_finish_decompress(jpeg); });
   }
 
  private:
-  // libjpeg may leave these functions by longjmp, which must not skip the destructor of a C++
-  // object. They return false if it does.
-  bool ReadHeader() {
-    if (setjmp(decoder_->leave) != 0) return false;
-    jpeg_decompress_struct& jpeg = decoder_->jpeg;
-    jpeg_create_decompress(&jpeg);
-    jpeg.client_data = decoder_.get();
-    jpeg.progress = &decoder_->progress;
-    jpeg_stdio_src(&jpeg, file_.get());
+  // Calls body(), and throws if the library reports an error. libjpeg then leaves body() by
+  // longjmp, which must not skip the destructor of a C++ object.
+  template <class Body>
+  void Call(const Body& body) {
+    if (setjmp(decoder_->leave) != 0) FailWithMessage();
+    body(&decoder_->jpeg);
+  }
+
+  static void ReadHeader(j_decompress_ptr jpeg, Decoder* decoder, std::FILE* file) {
+    jpeg_create_decompress(jpeg);
+    jpeg->client_data = decoder;
+    jpeg->progress = &decoder->progress;
+    jpeg_stdio_src(jpeg, file);
     constexpr unsigned kLongest = 0xffff;
-    jpeg_save_markers(&jpeg, JPEG_APP0 + 1, kLongest);
-    jpeg_save_markers(&jpeg, JPEG_APP0 + 2, kLongest);
-    jpeg_read_header(&jpeg, TRUE);
-    const bool is_cmyk = jpeg.jpeg_color_space == JCS_CMYK || jpeg.jpeg_color_space == JCS_YCCK;
-    jpeg.out_color_space = jpeg.jpeg_color_space == JCS_GRAYSCALE ? JCS_GRAYSCALE
-                           : is_cmyk                              ? JCS_CMYK
-                                                                  : JCS_RGB;
-    jpeg_calc_output_dimensions(&jpeg);
-    return true;
-  }
-  bool TryReadProfile(JOCTET** bytes, unsigned* size) {
-    if (setjmp(decoder_->leave) != 0) return false;
-    jpeg_read_icc_profile(&decoder_->jpeg, bytes, size);
-    return true;
-  }
-  bool TryStart() {
-    if (setjmp(decoder_->leave) != 0) return false;
-    jpeg_start_decompress(&decoder_->jpeg);
-    return true;
-  }
-  bool TryReadRow(uint8_t* row) {
-    if (setjmp(decoder_->leave) != 0) return false;
-    jpeg_read_scanlines(&decoder_->jpeg, &row, 1);
-    return true;
-  }
-  bool TryFinish() {
-    if (setjmp(decoder_->leave) != 0) return false;
-    jpeg_finish_decompress(&decoder_->jpeg);
-    return true;
+    jpeg_save_markers(jpeg, JPEG_APP0 + 1, kLongest);
+    jpeg_save_markers(jpeg, JPEG_APP0 + 2, kLongest);
+    jpeg_read_header(jpeg, TRUE);
+    const bool is_cmyk = jpeg->jpeg_color_space == JCS_CMYK || jpeg->jpeg_color_space == JCS_YCCK;
+    jpeg->out_color_space = jpeg->jpeg_color_space == JCS_GRAYSCALE ? JCS_GRAYSCALE
+                            : is_cmyk                               ? JCS_CMYK
+                                                                    : JCS_RGB;
+    jpeg_calc_output_dimensions(jpeg);
   }
 
   [[noreturn]] void Fail(const std::string& reason) const { FailToRead(path_, reason); }
@@ -199,27 +181,18 @@ void ToFloats(const jpeg_decompress_struct& jpeg, const std::vector<uint8_t>& co
 
 ImageFile OpenJpeg(const std::string& path) {
   JpegFile jpeg(path);
-  ImageFile image;
-  image.path = path;
-  image.file_bytes = FileBytes(path);
   const Orientation orientation = jpeg.orientation();
   int width = static_cast<int>(jpeg.header().output_width);
   int height = static_cast<int>(jpeg.header().output_height);
   if (orientation.transpose) std::swap(width, height);
-  image.header.data = image.header.display = {0, 0, width, height};
-  image.header.metadata["transfer"] = "display";
+  std::map<std::string, std::string> metadata = {{"transfer", "display"}};
   if (const std::vector<uint8_t> embedded = jpeg.profile(); !embedded.empty()) {
     const IccProfile profile = ReadIccProfile(embedded);
-    image.header.metadata["icc_profile"] = profile.name;
-    if (!profile.is_srgb) {
-      image.header.metadata["not_srgb"] = "the ICC profile \"" + profile.name + "\"";
-    }
+    metadata["icc_profile"] = profile.name;
+    if (!profile.is_srgb) metadata["not_srgb"] = "the ICC profile \"" + profile.name + "\"";
   }
-  for (const char* name : {"R", "G", "B"}) {
-    image.header.channels.push_back({jpeg.is_grey() ? "Y" : name, PixelType::kFloat, {}});
-    if (jpeg.is_grey()) break;
-  }
-  image.parts = {PartOf(image.header)};
+  ImageFile image =
+      MakeImageFile(path, width, height, !jpeg.is_grey(), /*has_alpha=*/false, metadata);
   // Opens the file again for each reading, which decodes the rows from the first one on.
   image.read = [path, orientation, is_grey = jpeg.is_grey(), data = image.header.data](
                    const Window& region, std::span<const SampleTarget> targets) {

@@ -16,7 +16,6 @@
 
 #include "base/error.h"
 #include "base/input_file.h"
-#include "image_io/fail_to_read.h"
 #include "image_io/oiio_abi.h"
 #include "image_io/orientation.h"
 #include "image_io/tiff_check.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "image_io/png_reader.h"
-
+// image_io/png_reader.cc: reads PNG files with libspng.
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -21,7 +20,7 @@
 #include "base/error.h"
 #include "image_io/c_file.h"
 #include "image_io/exif.h"
-#include "image_io/fail_to_read.h"
+#include "image_io/format_readers.h"
 #include "image_io/icc_profile.h"
 #include "image_io/orientation.h"
 
@@ -305,23 +304,15 @@ void ToFloats(const uint8_t* codes, std::vector<float>* values) {
 }  // namespace
 
 ImageFile OpenPng(const std::string& path) {
-  ImageFile image;
-  image.path = path;
-  image.file_bytes = FileBytes(path);
   const PngFile png(path);
-  CheckPromise(png, path, image.file_bytes);
+  CheckPromise(png, path, FileBytes(path));
   const Orientation orientation = OrientationOf(png);
   int width = static_cast<int>(png.header().width), height = static_cast<int>(png.header().height);
   if (orientation.transpose) std::swap(width, height);
-  image.header.data = image.header.display = {0, 0, width, height};
-  image.header.metadata = MetadataOf(png);
-  std::vector<const char*> names = {"Y"};
-  if (png.is_color()) names = {"R", "G", "B"};
-  if (png.has_alpha()) names.push_back("A");
-  for (const char* name : names) image.header.channels.push_back({name, PixelType::kFloat, {}});
-  image.parts = {PartOf(image.header)};
+  ImageFile image =
+      MakeImageFile(path, width, height, png.is_color(), png.has_alpha(), MetadataOf(png));
   // Opens the file again for each reading, which decodes the rows from the first one on.
-  image.read = [path, orientation, channels = names.size(), data = image.header.data](
+  image.read = [path, orientation, channels = png.channels(), data = image.header.data](
                    const Window& region, std::span<const SampleTarget> targets) {
     PngFile file(path);
     const RowPlacer placer(orientation, data, region, targets);

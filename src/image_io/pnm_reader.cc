@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "image_io/pnm_reader.h"
-
+// image_io/pnm_reader.cc: reads the portable pixel maps of Netpbm, and PFM.
 #include <bit>
 #include <cctype>
 #include <charconv>
@@ -11,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include "base/error.h"
 #include "image_io/c_file.h"
+#include "image_io/format_readers.h"
 #include "image_io/orientation.h"
 
 namespace nacre {
@@ -89,9 +88,7 @@ class PnmFile {
   }
 
  private:
-  [[noreturn]] void Fail(const std::string& reason) const {
-    throw Error(ExitCode::kBadInput, path_, "cannot be read: " + reason);
-  }
+  [[noreturn]] void Fail(const std::string& reason) const { FailToRead(path_, reason); }
 
   // Skips blanks and comments, and reads up to and including the blank after a word. Long words are
   // cut.
@@ -155,27 +152,18 @@ void CheckLength(const PnmHeader& header, const std::string& path, uint64_t file
   if (header.kind == '4') bytes = (row + 7) / 8 * header.height;
   if (header.is_float()) bytes *= 4;
   if (bytes <= file_bytes) return;
-  throw Error(ExitCode::kBadInput, path,
-              fmt::format("cannot be read: cut off: {} bytes are too few for {} x {} pixels",
-                          file_bytes, header.width, header.height));
+  FailToRead(path, fmt::format("cut off: {} bytes are too few for {} x {} pixels", file_bytes,
+                               header.width, header.height));
 }
 
 }  // namespace
 
 ImageFile OpenPnm(const std::string& path) {
-  ImageFile image;
-  image.path = path;
-  image.file_bytes = FileBytes(path);
   const PnmHeader header = PnmFile(path).header();
-  CheckLength(header, path, image.file_bytes);
-  image.header.data = image.header.display = {0, 0, static_cast<int>(header.width),
-                                              static_cast<int>(header.height)};
-  image.header.metadata["transfer"] = header.is_float() ? "linear" : "display";
-  for (const char* name : {"R", "G", "B"}) {
-    image.header.channels.push_back({header.is_color() ? name : "Y", PixelType::kFloat, {}});
-    if (!header.is_color()) break;
-  }
-  image.parts = {PartOf(image.header)};
+  CheckLength(header, path, FileBytes(path));
+  ImageFile image = MakeImageFile(
+      path, static_cast<int>(header.width), static_cast<int>(header.height), header.is_color(),
+      /*has_alpha=*/false, {{"transfer", header.is_float() ? "linear" : "display"}});
   // Opens the file again for each reading, which reads the rows from the first one on.
   image.read = [path, header, data = image.header.data](const Window& region,
                                                         std::span<const SampleTarget> targets) {

@@ -9,13 +9,8 @@
 #include "base/huge_pages.h"
 #include "base/input_file.h"
 #include "base/path.h"
-#include "image_io/exr_reader.h"
-#include "image_io/hdr_reader.h"
-#include "image_io/jpeg_reader.h"
+#include "image_io/format_readers.h"
 #include "image_io/oiio.h"
-#include "image_io/png_reader.h"
-#include "image_io/pnm_reader.h"
-#include "image_io/tga_reader.h"
 
 namespace nacre {
 namespace {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "image_io/tga_reader.h"
-
+// image_io/tga_reader.cc: reads Truevision TGA files.
 #include <array>
 #include <utility>
 #include <vector>
 
-#include "base/error.h"
 #include "image_io/c_file.h"
+#include "image_io/format_readers.h"
 #include "image_io/orientation.h"
 
 namespace nacre {
@@ -87,9 +86,7 @@ class TgaFile {
   }
 
  private:
-  [[noreturn]] void Fail(const std::string& reason) const {
-    throw Error(ExitCode::kBadInput, path_, "cannot be read: " + reason);
-  }
+  [[noreturn]] void Fail(const std::string& reason) const { FailToRead(path_, reason); }
 
   uint8_t Byte() {
     const int byte = std::getc(file_.get());
@@ -144,17 +141,10 @@ class TgaFile {
 }  // namespace
 
 ImageFile OpenTga(const std::string& path) {
-  ImageFile image;
-  image.path = path;
-  image.file_bytes = FileBytes(path);
   const TgaHeader header = TgaFile(path).header();
-  image.header.data = image.header.display = {0, 0, header.width, header.height};
-  image.header.metadata["transfer"] = "display";
-  std::vector<const char*> names = {"R", "G", "B", "A"};
-  if (header.channels() == 1) names = {"Y"};
-  names.resize(header.channels());
-  for (const char* name : names) image.header.channels.push_back({name, PixelType::kFloat, {}});
-  image.parts = {PartOf(image.header)};
+  ImageFile image =
+      MakeImageFile(path, header.width, header.height, header.kind != TgaHeader::Kind::kGrey,
+                    header.has_alpha, {{"transfer", "display"}});
   // Opens the file again for each reading, which reads the rows from the first one on.
   image.read = [path, header, data = image.header.data](const Window& region,
                                                         std::span<const SampleTarget> targets) {

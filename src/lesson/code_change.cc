@@ -22,11 +22,7 @@ CodedPicture RenderGrid(const TextbookGrid& settings) {
 }
 
 LessonPictures RenderLesson(const TextbookFaults& faults) {
-  TextbookComparison comparison;
-  comparison.faults = faults;
-  TextbookGrid grid;
-  grid.faults = faults;
-  return {RenderComparison(comparison), RenderGrid(grid)};
+  return {RenderComparison({.faults = faults}), RenderGrid({.faults = faults})};
 }
 
 CodeChange MeasureChange(const std::vector<uint8_t>& codes_a, const std::vector<uint8_t>& codes_b,

@@ -8,14 +8,13 @@
 #define NACRE_LIGHT_AREA_SAMPLE_INL_H_
 #endif
 
-#include "base/power_of_two-inl.h"
+#include "base/math-inl.h"
 #include "base/trig-inl.h"
 #include "base/vec3-inl.h"
 #include "light/area_sample.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 inline constexpr float kTwoPi = 6.28318531f;
@@ -111,7 +110,6 @@ HWY_INLINE V InverseIfPositive(D d, V x) {
   return hn::IfThenElseZero(positive, hn::Div(one, hn::IfThenElse(positive, x, one)));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

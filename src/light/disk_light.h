@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// light/disk_light.h: sampling a disk as a light. SIMD twin: disk_light-inl.h.
+// light/disk_light.h: a disk as a light: sampling and irradiance. SIMD twin: disk_light-inl.h.
 //
 // The solid angle of a disk is an elliptic integral, and a map that is uniform in solid angle needs
 // its inverse (Guillen et al. 2017). Instead, a disk at some distance is sampled by area, which is
@@ -8,10 +8,11 @@
 // miss the disk, about a fifth, are discarded. At the transition both have about the same variance.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/basis.h"
-#include "base/concentric_disk.h"
+#include "base/trig.h"
 #include "light/rectangle_light.h"
 
 namespace nacre {
@@ -118,6 +119,125 @@ Real LightPdf(const DiskLight<Real>& light, const Imath::Vec3<Real>& direction) 
   if ((direction * t - light.centre).length2() > radius2) return 0;
   if (IsNearby(view, light.radius)) return LightPdf(SquareAround(light, view), direction);
   return t * t / (static_cast<Real>(M_PI) * radius2 * std::abs(towards));
+}
+
+// The irradiance of a surface under the disk. By Stokes' theorem it is half the contour integral of
+// normal.(r x dr) / r^2 (Fock 1924, Lambert for polygons). On a circle r^2 = a + b cos(t), so the
+// integral is elementary, also over the arc above the horizon; the chord along the horizon
+// contributes its angle. The surface's normal has the components n in the axes of DiskView.
+template <typename Real>
+struct DiskHorizonTerms {
+  Imath::Vec3<Real> n;
+  Real rho, z, radius;
+  Real centre_height;  // height of the centre over the horizon
+  Real rim_height;     // height of the rim's highest point over the centre
+};
+
+template <typename Real>
+DiskHorizonTerms<Real> MakeDiskHorizonTerms(const DiskLight<Real>& light,
+                                            const Imath::Vec3<Real>& normal) {
+  const DiskView<Real> view = ViewOf(light);
+  DiskHorizonTerms<Real> disk;
+  disk.n = {normal ^ view.x_axis, normal ^ view.y_axis, normal ^ light.normal};
+  disk.rho = view.rho;
+  disk.z = view.z;
+  disk.radius = light.radius;
+  disk.centre_height = normal ^ light.centre;
+  disk.rim_height = light.radius * std::hypot(disk.n.x, disk.n.y);
+  return disk;
+}
+
+// The irradiance of a disk above the horizon is pi radius^2 (n.z (w + q) + 2 z rho n.x) /
+// (q (a + q)) with a = z^2 + rho^2 + radius^2, w = z^2 + radius^2 - rho^2,
+// q^2 = a^2 - b^2 = w^2 + (2 z rho)^2.
+template <typename Real>
+Real IrradianceOfWholeDisk(const DiskHorizonTerms<Real>& disk) {
+  const Real radius2 = disk.radius * disk.radius, z2 = disk.z * disk.z;
+  const Real a = z2 + disk.rho * disk.rho + radius2;
+  const Real w = z2 + (disk.radius - disk.rho) * (disk.radius + disk.rho);
+  const Real cross = 2 * disk.z * disk.rho;
+  const Real q = std::hypot(w, cross);
+  const Real w_plus_q = w > 0 ? w + q : cross * cross / (q - w);
+  return static_cast<Real>(M_PI) * radius2 * std::abs(disk.n.z * w_plus_q + cross * disk.n.x) /
+         (q * (a + q));
+}
+
+// The integral of max(y - x, 0) over the unit disk, where y is a coordinate on it.
+template <typename Real>
+Real HeightMoment(Real x) {
+  const Real y = std::sqrt((1 - x) * (1 + x));
+  return 2 * y * y * y / 3 - x * (std::acos(x) - x * y);
+}
+
+// The irradiance of a disk that the horizon clips, and that is so small (below 1e-5 of its
+// distance) that distance and direction are constant over it: it is proportional to the first
+// moment of height over the segment above the horizon. The relative error is 4 times the ratio of
+// size and distance.
+template <typename Real>
+Real IrradianceOfSmallClippedDisk(const DiskHorizonTerms<Real>& disk) {
+  const Real x = -disk.centre_height / disk.rim_height;  // the horizon, in radii from the centre
+  const Real distance2 = disk.z * disk.z + disk.rho * disk.rho;
+  return std::abs(disk.z) * disk.radius * disk.radius * disk.rim_height * HeightMoment(x) /
+         (distance2 * distance2);
+}
+
+// A point of the rim, and the antiderivatives there of 1, cos(t) and sin(t) over a + b cos(t).
+template <typename Real>
+struct RimPoint {
+  Imath::Vec3<Real> position;
+  Real distance2;  // a + b cos(t)
+  Real one, cos;   // for sin(t), the difference is a logarithm of the ratio of distance2
+};
+
+template <typename Real>
+RimPoint<Real> RimPointAt(const DiskHorizonTerms<Real>& disk, Real t) {
+  const Real radius2 = disk.radius * disk.radius, z2 = disk.z * disk.z;
+  const Real a = z2 + disk.rho * disk.rho + radius2;
+  const Real b = 2 * disk.rho * disk.radius;
+  const Real w = z2 + (disk.radius - disk.rho) * (disk.radius + disk.rho);
+  const Real q = std::hypot(w, 2 * disk.z * disk.rho);
+  RimPoint<Real> rim;
+  rim.position = {disk.rho + disk.radius * std::cos(t), disk.radius * std::sin(t), disk.z};
+  // a - b + b (1 + cos(t)), which does not cancel where the rim passes by the point.
+  const Real cos_half = std::cos(t / 2);
+  rim.distance2 =
+      z2 + (disk.radius - disk.rho) * (disk.radius - disk.rho) + 2 * b * cos_half * cos_half;
+  // The arc tangent divided by b, which has a limit at b = 0.
+  const Real slope = std::sin(t) / (q + rim.distance2);
+  const Real x = std::abs(b * slope);
+  const Real angle_over_b = slope * (1 - x * x * AtanRemainder(x));
+  rim.one = (t - 2 * b * angle_over_b) / q;
+  rim.cos = (2 * a * angle_over_b - t * b / (a + q)) / q;
+  return rim;
+}
+
+// The irradiance of a disk that the horizon clips. In double only: terms of the order of the disk's
+// angular size cancel to its cube, so that 6 digits are left where it is 1e-5.
+inline double IrradianceOfClippedDisk(const DiskHorizonTerms<double>& disk) {
+  const double distance = std::hypot(disk.z, disk.rho);
+  if (disk.radius < 1e-5 * distance) return IrradianceOfSmallClippedDisk(disk);
+  const double highest = std::atan2(disk.n.y, disk.n.x);
+  const double half = std::acos(std::fmax(-1, std::fmin(1, -disk.centre_height / disk.rim_height)));
+  const RimPoint<double> from = RimPointAt(disk, highest - half);
+  const RimPoint<double> to = RimPointAt(disk, highest + half);
+  const double sin_integral =
+      -std::log1p((to.distance2 - from.distance2) / from.distance2) / (2 * disk.rho * disk.radius);
+  const double sin_limit = (from.position.x - to.position.x) / (disk.radius * from.distance2);
+  const double arc = disk.radius * disk.n.z * (to.one - from.one) +
+                     (disk.rho * disk.n.z - disk.z * disk.n.x) * (to.cos - from.cos) -
+                     disk.z * disk.n.y * (disk.rho > 1e-9 * distance ? sin_integral : sin_limit);
+  const double chord =
+      std::atan2(disk.n ^ (to.position % from.position), to.position ^ from.position);
+  return std::min(std::abs(disk.radius * arc + chord) / 2, M_PI);
+}
+
+template <typename Real>
+Real Irradiance(const DiskLight<Real>& light, const Imath::Vec3<Real>& normal) {
+  const DiskHorizonTerms<Real> disk = MakeDiskHorizonTerms(light, normal);
+  if (disk.z == 0 || !(disk.radius > 0) || disk.centre_height <= -disk.rim_height) return 0;
+  if (disk.centre_height >= disk.rim_height) return IrradianceOfWholeDisk(disk);
+  return static_cast<Real>(IrradianceOfClippedDisk(
+      {Vec3d(disk.n), disk.rho, disk.z, disk.radius, disk.centre_height, disk.rim_height}));
 }
 
 }  // namespace nacre

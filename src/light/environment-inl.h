@@ -19,19 +19,13 @@
 #include "light/environment.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 inline constexpr size_t kMaxEnvironmentLanes = 2 * 64 / sizeof(float);
 
-template <class V>
-struct LatLongV {
-  V u, v;
-};
-
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE LatLongV<V> LatLongFromDirection(D d, const Vec3V<V>& direction) {
+HWY_INLINE LatLong<V> LatLongFromDirection(D d, const Vec3V<V>& direction) {
   const V zero = hn::Zero(d);
   const V one = hn::Set(d, 1.0f);
   const V turns = hn::Set(d, static_cast<float>(M_1_PI / 2));
@@ -83,7 +77,7 @@ HWY_INLINE EnvironmentTexelV<V> LoadTexels(D d, const EnvironmentMap& map,
 // The radiance of these directions, and the pdf with which they are sampled.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE EnvironmentTexelV<V> TexelAt(D d, const EnvironmentMap& map, const Vec3V<V>& direction) {
-  const LatLongV<V> at = LatLongFromDirection(d, direction);
+  const LatLong<V> at = LatLongFromDirection(d, direction);
   alignas(64) float u[kMaxEnvironmentLanes], v[kMaxEnvironmentLanes];
   hn::Store(hn::Mul(at.u, hn::Set(d, static_cast<float>(map.width))), d, u);
   hn::Store(hn::Mul(at.v, hn::Set(d, static_cast<float>(map.height))), d, v);
@@ -136,7 +130,6 @@ HWY_INLINE EnvironmentSampleV<V> SampleEnvironment(D d, const EnvironmentMap& ma
           LoadTexels(d, map, lanes)};
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -63,8 +63,6 @@ struct EnvironmentMap {
   HugeArray<EnvironmentBlock> blocks;  // row by row
   double sum = 0;                      // luminance times solid angle, summed over all texels
   bool is_black = true;                // nothing to sample
-
-  size_t size() const { return static_cast<size_t>(width) * static_cast<size_t>(height); }
 };
 
 // `texels` are rows from +y on; radiances must be >= 0 and finite. The map takes one byte per texel
@@ -96,13 +94,6 @@ template <typename Real>
 struct LatLong {
   Real u, v;
 };
-
-template <typename Real>
-Imath::Vec3<Real> DirectionFromLatLong(Real u, Real v) {
-  const Real pi = static_cast<Real>(M_PI);
-  const Real sin = std::sin(pi * v);
-  return {std::sin(2 * pi * u) * sin, std::cos(pi * v), -std::cos(2 * pi * u) * sin};
-}
 
 // Returns u in [0, 1), v in [0, 1]. Both are arc tangents, because acos(y) loses its digits at the
 // poles.

@@ -13,12 +13,11 @@
 #include <cstdint>
 #include <limits>
 
-#include "base/geometry-inl.h"
+#include "base/vec3-inl.h"
 #include "light/mesh_light.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // Rays in the form in which they are tested against the boxes of the tree, in floats: relative to
@@ -108,15 +107,12 @@ HWY_INLINE void ForEachLeafHit(const MeshLightLeaf& leaf, const Vec3d& point,
   const V zero = hn::Zero(d);
   const Vec3V<V> along = SetVec3(d, direction), from = SetVec3(d, point);
   for (size_t i = 0; i < kMeshLightLeaf; i += hn::Lanes(d)) {
-    const auto load = [&](const double(&column)[3][kMeshLightLeaf]) HWY_ATTR {
-      return Vec3V<V>{hn::Load(d, column[0] + i), hn::Load(d, column[1] + i),
-                      hn::Load(d, column[2] + i)};
-    };
-    const Vec3V<V> corner = Sub(load(leaf.corner), from);
-    const Vec3V<V> normal = load(leaf.cross);
+    const Vec3V<V> corner = Sub(Load3(d, leaf.corner, i), from);
+    const Vec3V<V> normal = Load3(d, leaf.cross, i);
     const V towards = Dot(along, normal);
     const Vec3V<V> across = Cross(corner, along);
-    const V along_y = Dot(across, load(leaf.edge_y)), along_x = Dot(across, load(leaf.edge_x));
+    const V along_y = Dot(across, Load3(d, leaf.edge_y, i)),
+            along_x = Dot(across, Load3(d, leaf.edge_x, i));
     const auto back = hn::Lt(towards, zero);
     const V x = hn::IfThenElse(back, hn::Neg(along_y), along_y);
     const V y = hn::IfThenElse(back, along_x, hn::Neg(along_x));
@@ -175,7 +171,6 @@ HWY_INLINE void ForEachMeshLightHit(const MeshLight& light, const LightBoxRays& 
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -40,46 +40,30 @@ struct Range {
 };
 
 // Splits the triangles at the median along the longest side of their centroids' box, until each
-// range has few. Sorts `order`.
-class RangeSplitter {
- public:
-  RangeSplitter(const std::vector<TriangleLight<double>>& triangles, std::vector<uint32_t>* order)
-      : triangles_(triangles), order_(*order) {}
-
-  std::vector<Range> Split() {
-    ranges_.emplace_back();
-    SplitRange(0, 0, static_cast<uint32_t>(order_.size()));
-    return std::move(ranges_);
+// range has few. Sorts `order`, whose part from `begin` to `end` becomes the range.
+void SplitRange(const std::vector<TriangleLight<double>>& triangles, size_t range, uint32_t begin,
+                uint32_t end, std::vector<uint32_t>* order, std::vector<Range>* ranges) {
+  constexpr uint32_t kFew = 4;
+  Box box, centroids;
+  for (uint32_t i = begin; i < end; ++i) {
+    box.Add(triangles[(*order)[i]]);
+    centroids.Add(Centroid(triangles[(*order)[i]]));
   }
-
- private:
-  void SplitRange(size_t range, uint32_t begin, uint32_t end) {
-    constexpr uint32_t kFew = 4;
-    Box box, centroids;
-    for (uint32_t i = begin; i < end; ++i) {
-      box.Add(triangles_[order_[i]]);
-      centroids.Add(Centroid(triangles_[order_[i]]));
-    }
-    ranges_[range] = {box, begin, end, 0};
-    if (end - begin <= kFew) return;
-    const Vec3d size = centroids.high - centroids.low;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const uint32_t middle = begin + (end - begin) / 2;
-    std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-                     [&](uint32_t a, uint32_t b) {
-                       return Centroid(triangles_[a])[axis] < Centroid(triangles_[b])[axis];
-                     });
-    const auto halves = static_cast<uint32_t>(ranges_.size());
-    ranges_[range].halves = halves;
-    ranges_.resize(ranges_.size() + 2);
-    SplitRange(halves, begin, middle);
-    SplitRange(halves + 1, middle, end);
-  }
-
-  const std::vector<TriangleLight<double>>& triangles_;
-  std::vector<uint32_t>& order_;
-  std::vector<Range> ranges_;
-};
+  (*ranges)[range] = {box, begin, end, 0};
+  if (end - begin <= kFew) return;
+  const Vec3d size = centroids.high - centroids.low;
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const uint32_t middle = begin + (end - begin) / 2;
+  std::nth_element(order->begin() + begin, order->begin() + middle, order->begin() + end,
+                   [&](uint32_t a, uint32_t b) {
+                     return Centroid(triangles[a])[axis] < Centroid(triangles[b])[axis];
+                   });
+  const auto halves = static_cast<uint32_t>(ranges->size());
+  (*ranges)[range].halves = halves;
+  ranges->resize(ranges->size() + 2);
+  SplitRange(triangles, halves, begin, middle, order, ranges);
+  SplitRange(triangles, halves + 1, middle, end, order, ranges);
+}
 
 float RoundDown(double x) {
   const auto f = static_cast<float>(x);
@@ -99,7 +83,7 @@ class TreeBuilder {
     ListLeaves(0, &leaves);
     light_.is_flat_list = leaves.size() <= kMaxListedLeaves;
     if (!light_.is_flat_list) {
-      AddNode(0);
+      AddNode(ChildrenOf(0));
       return;
     }
     for (size_t i = 0; i < leaves.size(); i += kMeshLightWidth) {
@@ -114,8 +98,6 @@ class TreeBuilder {
     ListLeaves(ranges_[range].halves, leaves);
   }
 
-  uint32_t AddNode(uint32_t root) { return AddNode(ChildrenOf(root)); }
-
   uint32_t AddNode(std::span<const uint32_t> children) {
     const auto node = static_cast<uint32_t>(light_.nodes.size());
     light_.nodes.emplace_back();
@@ -126,7 +108,7 @@ class TreeBuilder {
     }
     for (size_t i = 0; i < children.size(); ++i) {
       const bool leaf = ranges_[children[i]].count() <= kMeshLightLeaf;
-      const uint32_t child = leaf ? AddLeaf(children[i]) : AddNode(children[i]);
+      const uint32_t child = leaf ? AddLeaf(children[i]) : AddNode(ChildrenOf(children[i]));
       light_.nodes[node].child[i] = child;
       light_.nodes[node].leaves |= leaf ? 1u << i : 0u;
     }
@@ -241,7 +223,8 @@ MeshLight MakeMeshLight(std::span<const Vec3d> positions, std::span<const uint32
   }
   std::vector<uint32_t> order(unsorted.size());
   std::iota(order.begin(), order.end(), 0u);
-  const std::vector<Range> ranges = RangeSplitter(unsorted, &order).Split();
+  std::vector<Range> ranges(1);
+  SplitRange(unsorted, 0, 0, static_cast<uint32_t>(order.size()), &order, &ranges);
   MeshLight light;
   light.triangles.reserve(order.size());
   light.crosses.reserve(order.size());

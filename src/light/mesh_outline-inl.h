@@ -15,8 +15,7 @@
 #include "light/polygon_irradiance-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // A mesh's corners relative to shaded points: the first corner, and the offsets from it to all
@@ -26,30 +25,6 @@ struct OutlineCornersV {
   Vec3V<V> first;
   std::array<Vec3V<V>, kMaxOutlineCorners> offset, unit_offset;
 };
-
-// The light relative to a surface's horizon: `visible` if any of it is above the horizon;
-// `needs_sectors` if the horizon clips it or it is low over the horizon, so that its irradiance
-// needs SectorIrradiance.
-template <class M>
-struct HorizonV {
-  M visible, needs_sectors;
-};
-
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE auto FindHorizon(D d, const OutlineCornersV<V>& seen, size_t count,
-                            const Vec3V<V>& pivot, const Vec3V<V>& normal) {
-  const V zero = hn::Zero(d);
-  V size2 = zero, highest = zero, lowest = zero;
-  for (size_t i = 0; i < count; ++i) {
-    const V height = FusedDot(normal, Add(pivot, seen.unit_offset[i]));
-    size2 = hn::Max(size2, FusedDot(seen.unit_offset[i], seen.unit_offset[i]));
-    highest = hn::Max(highest, height);
-    lowest = hn::Min(lowest, height);
-  }
-  const V highest2 = hn::Mul(highest, highest);
-  const auto low = hn::Or(hn::Lt(hn::Mul(highest2, highest2), size2), hn::Lt(lowest, zero));
-  return HorizonV<hn::Mask<D>>{hn::Gt(highest, zero), low};
-}
 
 // An edge of the mesh from `a` to `b`, oriented so that the face that the point sees is on its
 // left; and whether it belongs to the silhouette: the point sees one of its faces and not the
@@ -101,9 +76,7 @@ HWY_INLINE V SumCutOutline(D d, const MeshOutline& outline, const OutlineCorners
     overhead =
         hn::IfThenElse(silhouette.is_silhouette, hn::IfThenElseZero(inside, overhead), overhead);
   }
-  const V closed = hn::Add(sums.chords, EdgeIrradiance(d, pivot, sums.leaves, sums.enters, normal));
-  const auto by_sectors = hn::And(needs_sectors, hn::Eq(overhead, zero));
-  return hn::IfThenElse(by_sectors, sums.sectors, closed);
+  return CutPolygonSum(d, sums, pivot, normal, needs_sectors, overhead);
 }
 
 // faces[i] is 1 where face i of the mesh emits towards the point, and 0 elsewhere.
@@ -111,10 +84,9 @@ template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Irradiance(D d, const MeshOutline& outline, const OutlineCornersV<V>& seen,
                         const V* faces, V orientation, const Vec3V<V>& normal) {
   const V zero = hn::Zero(d);
-  const V half = hn::Set(d, 0.5f);
-  const V most = hn::Set(d, kTwoPi / 2);
   const Vec3V<V> pivot = Scale(seen.first, InverseIfPositive(d, Length(seen.first)));
-  const auto horizon = FindHorizon(d, seen, outline.corners.size(), pivot, normal);
+  const auto horizon =
+      FindHorizon(d, seen.unit_offset.data(), outline.corners.size(), pivot, normal);
   if (hn::AllFalse(d, horizon.visible)) return zero;
   V sum = zero;
   if (hn::AllFalse(d, hn::And(horizon.needs_sectors, horizon.visible))) {
@@ -127,10 +99,9 @@ HWY_INLINE V Irradiance(D d, const MeshOutline& outline, const OutlineCornersV<V
   } else {
     sum = SumCutOutline(d, outline, seen, faces, orientation, horizon.needs_sectors, pivot, normal);
   }
-  return hn::IfThenElseZero(horizon.visible, hn::Min(hn::Mul(half, hn::Abs(sum)), most));
+  return IrradianceOfSum(d, horizon.visible, sum);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

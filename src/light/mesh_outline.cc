@@ -2,6 +2,7 @@
 #include "light/mesh_outline.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -10,22 +11,6 @@ namespace nacre {
 namespace {
 
 using Corners = std::array<uint32_t, 3>;
-
-// Assigns one index to all vertices at the same position.
-class CornerNumbers {
- public:
-  explicit CornerNumbers(std::vector<Vec3d>* corners) : corners_(*corners) {}
-
-  uint32_t Of(const Vec3d& p) {
-    const auto [entry, is_new] = numbers_.try_emplace(std::tuple(p.x, p.y, p.z), corners_.size());
-    if (is_new) corners_.push_back(p);
-    return static_cast<uint32_t>(entry->second);
-  }
-
- private:
-  std::map<std::tuple<double, double, double>, size_t> numbers_;
-  std::vector<Vec3d>& corners_;
-};
 
 // Pairs up the triangles' edges. Returns false if two triangles have an edge in the same direction.
 bool FindEdges(const std::vector<Corners>& faces, std::vector<OutlineEdge>* edges) {
@@ -99,7 +84,14 @@ bool IsConvexPolygon(const MeshOutline& outline) {
 MeshOutline MakeMeshOutline(std::span<const Vec3d> positions, std::span<const uint32_t> triangles,
                             const Vec3d& origin, bool is_flat) {
   MeshOutline outline;
-  CornerNumbers numbers(&outline.corners);
+  // All vertices at the same position are one corner.
+  std::map<std::tuple<double, double, double>, uint32_t> numbers;
+  const auto corner_at = [&](const Vec3d& p) {
+    const auto next = static_cast<uint32_t>(outline.corners.size());
+    const auto [entry, is_new] = numbers.try_emplace(std::tuple(p.x, p.y, p.z), next);
+    if (is_new) outline.corners.push_back(p);
+    return entry->second;
+  };
   std::vector<Corners> faces;
   faces.reserve(triangles.size() / 3);
   outline.faces.reserve(triangles.size() / 3);
@@ -108,7 +100,7 @@ MeshOutline MakeMeshOutline(std::span<const Vec3d> positions, std::span<const ui
                 &c = positions[triangles[i + 2]];
     const Vec3d cross = (b - a) % (c - a);
     if (!(cross.length() > 0)) continue;
-    faces.push_back({numbers.Of(a), numbers.Of(b), numbers.Of(c)});
+    faces.push_back({corner_at(a), corner_at(b), corner_at(c)});
     outline.faces.push_back({faces.back()[0], cross});
   }
   const bool known = FindEdges(faces, &outline.edges) && CountPieces(outline) == 1 &&

@@ -5,7 +5,6 @@
 // equals the sum of the irradiances of all triangles that face the point.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>

@@ -14,8 +14,7 @@
 #include "light/triangle_light-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <class D, class V = hn::Vec<D>>
@@ -136,53 +135,84 @@ HWY_INLINE void AddEdge(D d, const Vec3V<V>& corner, const Vec3V<V>& pivot, cons
   sums->leaves = Select(ends, to_b, sums->leaves);
 }
 
+// A light relative to a surface's horizon: `visible` if any of it is above the horizon;
+// `needs_sectors` if the horizon clips it or it is low over the horizon, so that its irradiance
+// needs SectorIrradiance.
+template <class M>
+struct HorizonV {
+  M visible, needs_sectors;
+};
+
+// Of the light whose corners, on the unit sphere, are at these offsets from the pivot.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE auto FindHorizon(D d, const Vec3V<V>* unit_offsets, size_t count, const Vec3V<V>& pivot,
+                            const Vec3V<V>& normal) {
+  const V zero = hn::Zero(d);
+  V size2 = zero, highest = zero, lowest = zero;
+  for (size_t i = 0; i < count; ++i) {
+    const V height = FusedDot(normal, Add(pivot, unit_offsets[i]));
+    size2 = hn::Max(size2, FusedDot(unit_offsets[i], unit_offsets[i]));
+    highest = hn::Max(highest, height);
+    lowest = hn::Min(lowest, height);
+  }
+  const V highest2 = hn::Mul(highest, highest);
+  const auto low = hn::Or(hn::Lt(hn::Mul(highest2, highest2), size2), hn::Lt(lowest, zero));
+  return HorizonV<hn::Mask<D>>{hn::Gt(highest, zero), low};
+}
+
+// The sum over a polygon of which the horizon may cut off a part. `overhead` is 1 where the normal
+// meets the polygon, else 0.
+template <class D, class M, class V = hn::Vec<D>>
+HWY_INLINE V CutPolygonSum(D d, const EdgeSumsV<V>& sums, const Vec3V<V>& pivot,
+                           const Vec3V<V>& normal, M needs_sectors, V overhead) {
+  const V closed = hn::Add(sums.chords, EdgeIrradiance(d, pivot, sums.leaves, sums.enters, normal));
+  const auto by_sectors = hn::And(needs_sectors, hn::Eq(overhead, hn::Zero(d)));
+  return hn::IfThenElse(by_sectors, sums.sectors, closed);
+}
+
+// The irradiance, from the sum over the edges. For a needle next to the point that is pure rounding
+// error, and is clamped to the irradiance of the hemisphere.
+template <class D, class M, class V = hn::Vec<D>>
+HWY_INLINE V IrradianceOfSum(D d, M visible, V sum) {
+  const V most = hn::Set(d, kTwoPi / 2);
+  return hn::IfThenElseZero(visible, hn::Min(hn::Mul(hn::Set(d, 0.5f), hn::Abs(sum)), most));
+}
+
 template <size_t kCount, class D, class V = hn::Vec<D>>
 HWY_INLINE V PolygonIrradiance(D d, const Vec3V<V>& corner,
                                const std::array<Vec3V<V>, kCount>& from_corner,
                                const Vec3V<V>& normal) {
   const V zero = hn::Zero(d);
-  const V half = hn::Set(d, 0.5f);
-  const V most = hn::Set(d, kTwoPi / 2);  // a needle next to the point gives pure rounding error
   const Vec3V<V> pivot = Scale(corner, InverseIfPositive(d, Length(corner)));
   // Only the sign is needed. It is divided by a power of two, because products with the volume of a
   // polygon whose size is 1e-10 of its distance would underflow.
   const V triple = TripleProduct(corner, from_corner[1], from_corner[2]);
   const V orientation = hn::Mul(triple, PowerOfTwo(d, hn::Abs(triple)).inverse);
   std::array<Vec3V<V>, kCount> unit_offsets;
-  V size2 = zero, highest = zero, lowest = zero, overhead = hn::Set(d, 1.0f);
+  V overhead = hn::Set(d, 1.0f);
   for (size_t i = 0; i < kCount; ++i) {
     const Vec3V<V> edge = Sub(from_corner[(i + 1) % kCount], from_corner[i]);
     unit_offsets[i] = UnitDifference(d, corner, from_corner[i]);
-    const V height = FusedDot(normal, Add(pivot, unit_offsets[i]));
-    size2 = hn::Max(size2, FusedDot(unit_offsets[i], unit_offsets[i]));
-    highest = hn::Max(highest, height);
-    lowest = hn::Min(lowest, height);
     const V side = TripleProduct(normal, Add(corner, from_corner[i]), edge);
     overhead = hn::IfThenElseZero(hn::Gt(hn::Mul(orientation, side), zero), overhead);
   }
-  const V highest2 = hn::Mul(highest, highest);
-  const auto is_low = hn::Lt(hn::Mul(highest2, highest2), size2);
-  const auto is_cut = hn::Lt(lowest, zero);
-  const auto needs_sectors = hn::Or(is_low, is_cut);
-  const auto visible = hn::And(hn::Gt(hn::Abs(orientation), zero), hn::Gt(highest, zero));
-  if (hn::AllFalse(d,
-                   hn::And(needs_sectors, visible))) {  // wholly above the horizon, and far from it
+  const auto horizon = FindHorizon(d, unit_offsets.data(), kCount, pivot, normal);
+  const auto visible = hn::And(hn::Gt(hn::Abs(orientation), zero), horizon.visible);
+  if (hn::AllFalse(d, hn::And(horizon.needs_sectors, visible))) {  // far above the horizon
     V sum = zero;
     for (size_t i = 0; i < kCount; ++i) {
       sum = hn::Add(
           sum, EdgeIrradiance(d, pivot, unit_offsets[i], unit_offsets[(i + 1) % kCount], normal));
     }
-    return hn::IfThenElseZero(visible, hn::Min(hn::Mul(half, hn::Abs(sum)), most));
+    return IrradianceOfSum(d, visible, sum);
   }
   const Vec3V<V> none{zero, zero, zero};
   EdgeSumsV<V> sums{zero, zero, none, none};
   for (size_t i = 0; i < kCount; ++i) {
     AddEdge(d, corner, pivot, from_corner[i], from_corner[(i + 1) % kCount], normal, &sums);
   }
-  const V closed = hn::Add(sums.chords, EdgeIrradiance(d, pivot, sums.leaves, sums.enters, normal));
-  const auto by_sectors = hn::And(needs_sectors, hn::Eq(overhead, zero));
-  const V sum = hn::IfThenElse(by_sectors, sums.sectors, closed);
-  return hn::IfThenElseZero(visible, hn::Min(hn::Mul(half, hn::Abs(sum)), most));
+  return IrradianceOfSum(d, visible,
+                         CutPolygonSum(d, sums, pivot, normal, horizon.needs_sectors, overhead));
 }
 
 template <class D, class V = hn::Vec<D>>
@@ -202,7 +232,6 @@ HWY_INLINE V Irradiance(D d, const TriangleLightV<V>& given, const Vec3V<V>& nor
   return PolygonIrradiance(d, light.corner, from_corner, normal);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -12,8 +12,7 @@
 #include "light/punctual.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // 1 / (constant + linear d + quadratic d^2), or 0 at the light itself.
@@ -54,7 +53,6 @@ HWY_INLINE V SpotFactor(D d, const ConeTerms<double>& cone, V t, V one_minus_cos
       hn::Mul(edge, Exp2(d, hn::Mul(constant(cone.exponent), hn::IfThenElseZero(positive, log2)))));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

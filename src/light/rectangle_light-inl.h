@@ -11,8 +11,7 @@
 #include "light/area_sample-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 struct RectangleShape;
@@ -55,11 +54,6 @@ HWY_INLINE V SolidAngle(D d, const RectangleViewV<V>& view) {
   };
   const V sum = hn::Add(half(p10), half(p01));
   return hn::IfThenElseZero(hn::Gt(determinant, hn::Zero(d)), hn::Add(sum, sum));
-}
-
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V SolidAngle(D d, const RectangleLightV<V>& light) {
-  return SolidAngle(d, ViewOf(d, ScaleToUnit(d, light).light));
 }
 
 // The scalar twin explains the names. The result is undefined where view.z is 0.
@@ -168,7 +162,6 @@ HWY_INLINE V LightPdf(D d, const RectangleLightV<V>& light, const Vec3V<V>& dire
   return PdfScaled(d, ScaleToUnit(d, light).light, direction);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

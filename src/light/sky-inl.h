@@ -12,8 +12,7 @@
 #include "light/sky.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <class D, class V = hn::Vec<D>>
@@ -56,7 +55,6 @@ HWY_INLINE V Irradiance(D d, const QuadraticSkyTerms<float>& sky, const Vec3V<V>
   return hn::MulAdd(c, slope, hn::Set(d, kPi * (sky.a0 + sky.a2 / 4)));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

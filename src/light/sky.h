@@ -3,7 +3,6 @@
 // struct holds one colour channel. SIMD twin: sky-inl.h.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/vec.h"

@@ -10,10 +10,10 @@
 
 #include "base/basis-inl.h"
 #include "light/area_sample-inl.h"
+#include "light/sphere_light.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <class V>
@@ -22,13 +22,8 @@ struct SphereLightV {
   V radius;
 };
 
-template <class V>
-struct SphereConeV {
-  V distance, sin, one_minus_cos;
-};
-
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE SphereConeV<V> ConeOf(D d, const SphereLightV<V>& light) {
+HWY_INLINE SphereCone<V> ConeOf(D d, const SphereLightV<V>& light) {
   const V one = hn::Set(d, 1.0f);
   const V distance = Length(light.centre);
   const auto outside = hn::Gt(distance, light.radius);
@@ -40,7 +35,7 @@ HWY_INLINE SphereConeV<V> ConeOf(D d, const SphereLightV<V>& light) {
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V SolidAngle(D d, const SphereLightV<V>& light) {
-  const SphereConeV<V> cone = ConeOf(d, light);
+  const SphereCone<V> cone = ConeOf(d, light);
   return hn::IfThenElse(hn::Lt(cone.distance, light.radius), hn::Set(d, 2 * kTwoPi),
                         hn::Mul(hn::Set(d, kTwoPi), cone.one_minus_cos));
 }
@@ -68,7 +63,7 @@ HWY_INLINE AreaSampleV<V> SampleLight(D d, const SphereLightV<V>& light, V u0, V
   const V zero = hn::Zero(d);
   const V one = hn::Set(d, 1.0f);
   const V two = hn::Set(d, 2.0f);
-  const SphereConeV<V> cone = ConeOf(d, light);
+  const SphereCone<V> cone = ConeOf(d, light);
   const SinCosV<V> phi = SinCosTurns(d, u1);
   const V m = cone.one_minus_cos;
   const V x = hn::Mul(u0, m);
@@ -92,7 +87,7 @@ HWY_INLINE AreaSampleV<V> SampleLight(D d, const SphereLightV<V>& light, V u0, V
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V LightPdf(D d, const SphereLightV<V>& light, const Vec3V<V>& direction) {
   const V zero = hn::Zero(d);
-  const SphereConeV<V> cone = ConeOf(d, light);
+  const SphereCone<V> cone = ConeOf(d, light);
   const Vec3V<V> across = FusedCross(direction, light.centre);
   const auto hit = hn::And(hn::Gt(FusedDot(direction, light.centre), zero),
                            hn::Ge(hn::Mul(light.radius, light.radius), FusedDot(across, across)));
@@ -101,7 +96,49 @@ HWY_INLINE V LightPdf(D d, const SphereLightV<V>& light, const Vec3V<V>& directi
   return hn::IfThenElse(hn::Lt(cone.distance, light.radius), hn::Set(d, 1 / (2 * kTwoPi)), outside);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+// For c in (-1, 1). The result is finite, but meaningless, for other c.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V IrradianceOfClippedSphere(D d, V sin, V c) {
+  const V one = hn::Set(d, 1.0f);
+  const V half = hn::Set(d, 0.5f);
+  const V cos = hn::Sqrt(hn::Mul(hn::Sub(one, sin), hn::Add(one, sin)));
+  const V k = hn::Sqrt(hn::Max(hn::Mul(hn::Sub(one, c), hn::Add(one, c)), hn::Zero(d)));
+  const V azimuth = Atan2Upper(d, k, hn::Neg(hn::Mul(c, cos)));
+  const V sin3 = hn::Mul(hn::Mul(sin, sin), sin);
+  const V k_sin = hn::Mul(k, sin);
+  const V near =
+      hn::MulAdd(hn::Mul(sin3, c), azimuth, hn::NegMulAdd(k_sin, cos, Atan2Upper(d, k_sin, cos)));
+  const auto is_near = hn::Lt(cos, half);
+  const V inverse = hn::Div(one, hn::IfThenElse(is_near, one, cos));
+  const V k_cos = hn::Mul(k, inverse);
+  const V size = hn::Mul(k_cos, sin);
+  const V from_horizon = AtanRemainder(d, size);
+  const V high = hn::Mul(
+      sin3, hn::MulAdd(c, azimuth,
+                       hn::Mul(k_cos, hn::NegMulAdd(hn::Mul(k_cos, k_cos), from_horizon, one))));
+  const auto is_low = hn::Lt(c, hn::Neg(half));
+  const V inverse_c = hn::Div(one, hn::IfThenElse(is_low, c, hn::Neg(one)));
+  const V of_rim = AtanRemainder(d, hn::Neg(hn::Mul(k_cos, inverse_c)));
+  const V difference = hn::Sub(hn::Mul(of_rim, hn::Mul(inverse_c, inverse_c)), from_horizon);
+  const V low = hn::Mul(hn::Mul(hn::Mul(size, size), size), difference);
+  return hn::IfThenElse(is_near, near, hn::IfThenElse(is_low, low, high));
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V Irradiance(D d, const SphereLightV<V>& light, const Vec3V<V>& normal) {
+  const V zero = hn::Zero(d);
+  const V one = hn::Set(d, 1.0f);
+  const V pi = hn::Set(d, kTwoPi / 2);
+  const SphereCone<V> cone = ConeOf(d, light);
+  const V c = hn::Mul(FusedDot(normal, light.centre), InverseIfPositive(d, light.radius));
+  const V whole = hn::Mul(hn::Mul(pi, hn::Mul(cone.sin, cone.sin)), hn::Mul(cone.sin, c));
+  const V clipped = hn::Max(IrradianceOfClippedSphere(d, cone.sin, c), zero);
+  const V outside =
+      hn::IfThenElseZero(hn::Gt(c, hn::Neg(one)), hn::IfThenElse(hn::Ge(c, one), whole, clipped));
+  const V got = hn::IfThenElse(hn::Lt(cone.distance, light.radius), pi, outside);
+  return hn::IfThenElseZero(hn::Gt(light.radius, zero), got);
+}
+
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// light/sphere_light.h: sampling a sphere as a light. SIMD twin: sphere_light-inl.h.
+// light/sphere_light.h: a sphere as a light: sampling and irradiance. SIMD twin:
+// sphere_light-inl.h.
 //
 // From outside, directions are uniform in the cone that the sphere subtends. From inside of a
 // sphere that emits on both sides they are uniform over all directions, and cos_light is negative.
@@ -10,6 +11,7 @@
 #include <cmath>
 
 #include "base/basis.h"
+#include "base/trig.h"
 #include "light/area_sample.h"
 
 namespace nacre {
@@ -72,11 +74,8 @@ AreaSample<Real> SampleLight(const SphereLight<Real>& light, Real u0, Real u1) {
   const SphereCone<Real> cone = ConeOf(light);
   const Real m = cone.one_minus_cos;
   const Real x = u0 * m;  // 1 - cos of the sample's angle from the axis
-  const Real sin = std::sqrt(x * (2 - x));
-  const Real phi = 2 * static_cast<Real>(M_PI) * u1;
   AreaSample<Real> sample;
-  sample.to_light = BasisAbout(light.centre / cone.distance)
-                        .ToWorld({sin * std::cos(phi), sin * std::sin(phi), 1 - x});
+  sample.to_light = DirectionAround(light.centre / cone.distance, x, u1);
   // Half the chord in units of the centre's distance: sin^2 of the cone minus that of the sample.
   const Real half_chord = std::sqrt(m * (1 - u0) * (2 - m * (1 + u0)));
   // The product of both intersections' distances, distance^2 - radius^2, over the farther one.
@@ -95,6 +94,46 @@ Real LightPdf(const SphereLight<Real>& light, const Imath::Vec3<Real>& direction
   const bool hit = (direction ^ light.centre) > 0 &&
                    (direction % light.centre).length2() <= light.radius * light.radius;
   return hit ? 1 / solid_angle : 0;
+}
+
+// The irradiance of a surface under the sphere. Snyder 1996, "Area Light Sources for Real-Time
+// Graphics": with s the sine of the sphere's angular radius, t the angle from the normal to its
+// centre and c = cos(t) / s its centre's height over the horizon in radii, it is pi s^2 cos(t) if
+// the sphere is wholly above the horizon, else
+//   s^2 cos(t) acos(-cot(t) cot(asin s)) - s k cos(asin s) + atan(k tan(asin s)),  k^2 = 1 - c^2.
+// Its terms are of the order s and cancel to s^3, and next to c = -1 to (1 + c)^2.5 of that. The
+// forms below are rearranged so that nothing cancels.
+
+// The irradiance of a sphere that the horizon clips: c in (-1, 1).
+template <typename Real>
+Real IrradianceOfClippedSphere(Real sin, Real c) {
+  const Real cos = std::sqrt((1 - sin) * (1 + sin));
+  const Real k = std::sqrt((1 - c) * (1 + c));
+  if (cos < static_cast<Real>(0.5)) {  // too near for anything to cancel
+    return sin * sin * sin * c * std::atan2(k, -c * cos) - k * sin * cos + std::atan2(k * sin, cos);
+  }
+  const Real tan = sin / cos;
+  const Real from_horizon = AtanRemainder(k * tan);
+  if (c > static_cast<Real>(-0.5)) {
+    const Real k_cos = k / cos;
+    return sin * sin * sin *
+           (c * std::atan2(k, -c * cos) + k_cos * (1 - k_cos * k_cos * from_horizon));
+  }
+  // The first terms of both arc tangents cancel against the other terms, and are left out.
+  const Real size = k * tan;
+  return size * size * size * (AtanRemainder(-k / (c * cos)) / (c * c) - from_horizon);
+}
+
+template <typename Real>
+Real Irradiance(const SphereLight<Real>& light, const Imath::Vec3<Real>& normal) {
+  const Real pi = static_cast<Real>(M_PI);
+  if (!(light.radius > 0)) return 0;
+  if (IsInside(light)) return pi;
+  const Real c = (normal ^ light.centre) / light.radius;
+  if (c <= -1) return 0;
+  const Real sin = ConeOf(light).sin;
+  if (c >= 1) return pi * sin * sin * sin * c;
+  return IrradianceOfClippedSphere(sin, c);
 }
 
 }  // namespace nacre

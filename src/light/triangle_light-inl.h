@@ -11,8 +11,7 @@
 #include "light/area_sample-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 struct TriangleShape;
@@ -158,7 +157,6 @@ HWY_INLINE V LightPdf(D d, const TriangleLightV<V>& given, const Vec3V<V>& direc
   return hn::IfThenElseZero(hit, hn::IfThenElse(small, by_area, InverseIfPositive(d, solid_angle)));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

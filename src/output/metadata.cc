@@ -92,6 +92,17 @@ uint64_t HashPlanned(const FramePlan& plan, PreparedScene* prepared) {
   return hash;
 }
 
+// The name of a setting as an attribute: max_error becomes nacre:maxError.
+std::string AttributeOf(std::string_view setting) {
+  std::string name = "nacre:";
+  bool begins_word = false;
+  for (const char c : setting) {
+    if (c != '_') name += begins_word ? static_cast<char>(c - 'a' + 'A') : c;
+    begins_word = c == '_';
+  }
+  return name;
+}
+
 }  // namespace
 
 ExrHeader MakeExrHeader(const FramePlan& plan, bool reproducible, const std::string& tile,
@@ -115,10 +126,8 @@ ExrHeader MakeExrHeader(const FramePlan& plan, bool reproducible, const std::str
       fmt::format("size={}x{} spp={} filter={} filter_width={} seed={} shadows={}", image.width,
                   image.height, image.spp, FilterName(image.filter), image.filter.width, image.seed,
                   image.shadows ? "on" : "off");
-  if (plan.adaptive.max_error > 0) {
-    attributes["nacre:maxError"] = static_cast<float>(plan.adaptive.max_error);
-    attributes["nacre:maxSamples"] = plan.adaptive.max_samples;
-  }
+  for (const auto& [name, value] : plan.changed_settings) attributes[AttributeOf(name)] = value;
+  if (plan.adaptive.max_error > 0) attributes["nacre:maxSamples"] = plan.adaptive.max_samples;
   if (!tile.empty()) attributes[kTileAttribute] = tile;
   if (!reproducible) attributes[kRenderTimeAttribute] = 0.0f;
   return header;

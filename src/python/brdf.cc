@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "python/brdf.h"
-
+// python/brdf.cc: the Python bindings of reflection models, which work on arrays.
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <vector>
 
-#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
-#include "python/guard.h"
-#include "python/planes.h"
-#include "python/scene.h"
-#include "python/sealed.h"
+#include "python/module.h"
 
 namespace nacre_python {
 namespace {
@@ -134,11 +129,8 @@ void BindBrdfs(py::module_* module) {
       .def("evaluate",
            [](const nacre::Brdf& brdf, const Planes& n, const Planes& v, const Planes& l) {
              const nacre::Directions directions = DirectionsOf(n, v, l);
-             nacre::ExactReflections result;
-             {
-               const py::gil_scoped_release release;
-               result = brdf.Evaluate(directions);
-             }
+             const nacre::ExactReflections result =
+                 Unlocked([&] { return brdf.Evaluate(directions); });
              return py::make_tuple(ArrayOf(result.diffuse), ArrayOf(result.specular));
            })
       .def("shade", &ShadeRows)
@@ -146,23 +138,14 @@ void BindBrdfs(py::module_* module) {
            [](const nacre::Brdf& brdf, const Planes& n, const Planes& v, const Planes& points) {
              const nacre::Directions directions = DirectionsOf(n, v, v);
              RequireShape(points, 2, directions.count);
-             std::array<std::vector<double>, 3> result;
-             {
-               const py::gil_scoped_release release;
-               const double* const u = points.data();
-               result = brdf.Sample(directions, u, u + directions.count);
-             }
-             return ArrayOf(result);
+             const double* const u = points.data();
+             return ArrayOf(
+                 Unlocked([&] { return brdf.Sample(directions, u, u + directions.count); }));
            })
       .def("pdf",
            [](const nacre::Brdf& brdf, const Planes& n, const Planes& v, const Planes& l) {
              const nacre::Directions directions = DirectionsOf(n, v, l);
-             std::vector<double> result;
-             {
-               const py::gil_scoped_release release;
-               result = brdf.Pdf(directions);
-             }
-             return ArrayOf(result);
+             return ArrayOf(Unlocked([&] { return brdf.Pdf(directions); }));
            })
       .def("albedo",
            [](const nacre::Brdf& brdf, const std::vector<double>& n_dot_v) {
@@ -178,11 +161,7 @@ void BindBrdfs(py::module_* module) {
            })
       .def("terms", [](const nacre::Brdf& brdf, const Planes& n, const Planes& v, const Planes& l) {
         const nacre::Directions directions = DirectionsOf(n, v, l);
-        nacre::MicrofacetTerms terms;
-        {
-          const py::gil_scoped_release release;
-          terms = brdf.Terms(directions);
-        }
+        const nacre::MicrofacetTerms terms = Unlocked([&] { return brdf.Terms(directions); });
         return py::make_tuple(ArrayOf(terms.d), ArrayOf(terms.g), ArrayOf(terms.f),
                               ArrayOf(terms.lambda_view), ArrayOf(terms.lambda_light));
       });

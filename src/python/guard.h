@@ -182,6 +182,13 @@ class Running {
   std::list<const std::function<void()>*>::iterator place_;
 };
 
+// Calls work() without the interpreter lock.
+template <class Work>
+auto Unlocked(const Work& work) {
+  const py::gil_scoped_release release;
+  return work();
+}
+
 // Calls body() on another thread, without the interpreter lock, while this thread checks for
 // signals. The first signal whose handler throws (Ctrl-C) calls stop(), and its exception is thrown
 // after body() has returned. `body` may acquire the lock.

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "python/image.h"
-
+// python/image.cc: converts images between Python, where all channels are one array, and the public
+// API.
 #include <algorithm>
 #include <cstring>
 #include <map>
 
-#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
-#include "python/guard.h"
-#include "python/text.h"
+#include "python/module.h"
 
 namespace nacre_python {
 namespace {
@@ -177,12 +175,7 @@ nacre::Image FromPython(const py::object& image) {
 
 void BindImages(py::module_* module) {
   module->def("read", [](const std::string& path) {
-    nacre::Image image;
-    {
-      const py::gil_scoped_release release;
-      image = nacre::Read(path);
-    }
-    return ToPython(std::move(image));
+    return ToPython(Unlocked([&] { return nacre::Read(path); }));
   });
   module->def("write", [](const py::object& image, const std::string& path, bool half_floats,
                           const std::string& compression, bool small, const std::string& tonemap,
@@ -194,12 +187,7 @@ void BindImages(py::module_* module) {
   module->def("tone_map", [](const py::object& image, const std::string& layer,
                              const std::string& tonemap, double exposure) {
     const nacre::Image own = FromPython(image);
-    nacre::Picture picture;
-    {
-      const py::gil_scoped_release release;
-      picture = nacre::ToneMap(own, {layer, tonemap, exposure});
-    }
-    return PixelsOf(picture);
+    return PixelsOf(Unlocked([&] { return nacre::ToneMap(own, {layer, tonemap, exposure}); }));
   });
   module->def("encode_png",
               [](const Bytes& pixels) { return FileOf(nacre::EncodePng(PictureOf(pixels))); });
@@ -209,25 +197,20 @@ void BindImages(py::module_* module) {
   module->def("heat_map", [](const py::object& image, const py::object& reference,
                              const std::string& layer, bool relative, double low, double high) {
     const nacre::Image got = FromPython(image), expected = FromPython(reference);
-    nacre::Picture picture;
-    {
-      const py::gil_scoped_release release;
-      picture = nacre::HeatMap(got, expected, {layer, relative, low, high});
-    }
-    return PixelsOf(picture);
+    return PixelsOf(Unlocked([&] {
+      return nacre::HeatMap(got, expected, {layer, relative, low, high});
+    }));
   });
   module->def("compare",
               [](const py::object& image, const py::object& reference,
                  const std::vector<std::string>& layers, double max_abs, double max_rel,
                  double exceeding_fraction, double max_rmse, bool perceptual, bool crop) {
                 const nacre::Image got = FromPython(image), expected = FromPython(reference);
-                nacre::Comparison comparison;
-                {
-                  const py::gil_scoped_release release;
-                  comparison = nacre::Compare(
+                const nacre::Comparison comparison = Unlocked([&] {
+                  return nacre::Compare(
                       got, expected,
                       {layers, max_abs, max_rel, exceeding_fraction, max_rmse, perceptual, crop});
-                }
+                });
                 py::list measured;
                 for (const nacre::LayerMetrics& layer : comparison.layers)
                   measured.append(ToDict(layer));

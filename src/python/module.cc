@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // python/module.cc: the extension module _nacre, on which the package nacre is built. It is not an
 // interface for users.
+#include "python/module.h"
+
 #include <utility>
 
-#include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <unistd.h>
-
-#include "nacre.h"
-#include "python/brdf.h"
-#include "python/guard.h"
-#include "python/image.h"
-#include "python/scene.h"
-#include "python/text.h"
 
 namespace nacre_python {
 namespace {

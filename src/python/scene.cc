@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "python/scene.h"
-
+// python/scene.cc: the Python bindings of scenes, sessions and renders.
 #include <chrono>
 #include <memory>
 
-#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
-#include "python/image.h"
-#include "python/sealed.h"
-#include "python/user_brdf.h"
+#include "python/module.h"
 
 namespace nacre_python {
 namespace {
@@ -69,6 +65,7 @@ nacre::RenderSettings SettingsOf(const py::dict& dict) {
   settings.layers = dict["layers"].cast<std::vector<std::string>>();
   settings.threads = dict["threads"].cast<int>();
   settings.intersector = dict["intersector"].cast<std::string>();
+  settings.others = ParametersOf(dict["others"].cast<Members>());
   return settings;
 }
 
@@ -89,14 +86,12 @@ py::dict ToDict(const nacre::RenderStats& stats) {
   return dict;
 }
 
-struct Rendered {
-  nacre::Image image;
+// The image that render() makes, with its statistics. A signal calls stop().
+py::object RenderWith(const std::function<void()>& stop,
+                      const std::function<nacre::Image(nacre::RenderStats*)>& render) {
   nacre::RenderStats stats;
-};
-
-py::object Finish(Rendered&& rendered) {
-  py::object image = ToPython(std::move(rendered.image));
-  image.attr("stats") = ToDict(rendered.stats);
+  py::object image = ToPython(Interruptibly(stop, [&] { return render(&stats); }));
+  image.attr("stats") = ToDict(stats);
   return image;
 }
 
@@ -106,13 +101,9 @@ py::object Render(const Scene& scene, const py::dict& dict, const py::object& on
   settings.on_progress = Progress(on_progress);
   settings.cancel = &stopped;
   const Use use(&scene.users, Use::kShared, "Scene");
-  return Finish(Interruptibly([&] { stopped = true; },
-                              [&] {
-                                Rendered rendered;
-                                rendered.image =
-                                    nacre::Render(scene.scene, settings, &rendered.stats);
-                                return rendered;
-                              }));
+  return RenderWith(
+      [&] { stopped = true; },
+      [&](nacre::RenderStats* stats) { return nacre::Render(scene.scene, settings, stats); });
 }
 
 class Session {
@@ -165,13 +156,10 @@ class Session {
       };
     }
     try {
-      return Finish(Interruptibly([&] { cancelled_ = true; },
-                                  [&] {
-                                    Rendered rendered;
-                                    rendered.image = session_->RenderProgressively(settings, shown,
-                                                                                   &rendered.stats);
-                                    return rendered;
-                                  }));
+      return RenderWith([&] { cancelled_ = true; },
+                        [&](nacre::RenderStats* stats) {
+                          return session_->RenderProgressively(settings, shown, stats);
+                        });
     } catch (...) {
       cancelled_ = false;  // the request has been served
       throw;
@@ -201,6 +189,7 @@ class Session {
 }  // namespace
 
 void BindScenes(py::module_* module) {
+  module->def("named_settings", &nacre::NamedSettings);
   py::class_<Scene> scene(*module, "Scene");
   scene.def_static("empty",
                    [] {
@@ -208,14 +197,13 @@ void BindScenes(py::module_* module) {
                    })
       .def_static("from_file",
                   [](const std::string& path) {
-                    const py::gil_scoped_release release;
-                    return Scene{nacre::Scene::FromFile(path), {}};
+                    return Scene{Unlocked([&] { return nacre::Scene::FromFile(path); }), {}};
                   })
-      .def_static("from_json",
-                  [](const std::string& text, const std::string& folder) {
-                    const py::gil_scoped_release release;
-                    return Scene{nacre::Scene::FromJson(text, folder), {}};
-                  })
+      .def_static(
+          "from_json",
+          [](const std::string& text, const std::string& folder) {
+            return Scene{Unlocked([&] { return nacre::Scene::FromJson(text, folder); }), {}};
+          })
       .def_static("from_bytes",
                   [](const py::bytes& bytes) {
                     const std::string text = bytes;

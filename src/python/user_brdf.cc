@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "python/user_brdf.h"
-
+// python/user_brdf.cc: uses Python functions as reflection models.
 #include <array>
 #include <cstring>
 #include <memory>
 #include <optional>
 
-#include "python/guard.h"
-#include "python/planes.h"
+#include "python/module.h"
 
 namespace nacre_python {
 namespace {

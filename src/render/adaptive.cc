@@ -5,11 +5,7 @@
 #include <array>
 #include <span>
 
-#include "render/cell_film.h"
 #include "render/convergence.h"
-#include "render/dust.h"
-#include "render/evidence.h"
-#include "render/footprint.h"
 #include "render/rare_features.h"
 #include "sampling/hash.h"
 
@@ -20,19 +16,17 @@ namespace {
 // the order of the additions, and with it their rounding, is the same everywhere.
 constexpr int kChunk = 16;
 
-using SampleEntry = CellState::SampleEntry;
-
 // Makes the film positions of samples [first, first + count) of each entry of the list, entry by
 // entry. There is one sampler per replicate.
 void MakeListSamples(const PixelSampler* samplers, const Window& cell,
                      std::span<const SampleEntry> list, int first, int count, TileWork* s,
-                     CellState* c) {
-  c->pixels.clear();
+                     std::vector<SampledPixel>* pixels) {
+  pixels->clear();
   for (const SampleEntry& entry : list) {
     const FilmPixel pixel = PixelOf(cell, entry.pixel);
-    c->pixels.push_back({pixel.x, pixel.y, entry.replicate});
+    pixels->push_back({pixel.x, pixel.y, entry.replicate});
   }
-  SamplePixelList(samplers, c->pixels, first, count, s->samples.film.x.data(),
+  SamplePixelList(samplers, *pixels, first, count, s->samples.film.x.data(),
                   s->samples.film.y.data());
   s->samples.film.count = list.size() * static_cast<size_t>(count);
 }
@@ -47,12 +41,12 @@ std::array<PixelRun, kBlockSide> BlockRows(const Window& block) {
 
 // Makes the film position of one sample of each entry, if the list consists of whole blocks.
 void MakeBlockSamples(const PixelSampler* samplers, const Window& cell,
-                      std::span<const SampleEntry> list, int index, TileWork* s, CellState* c) {
+                      std::span<const SampleEntry> list, int index, TileWork* s, PixelBatch* room) {
   for (size_t ray = 0; ray < list.size(); ray += kBlockPixels) {
     const Window block = BlockWindow(cell, list[ray].pixel / kBlockPixels);
     const PixelSampler& sampler = samplers[list[ray].replicate];
-    PreparePixels(sampler, BlockRows(block), &c->block);
-    SamplePixels(sampler, c->block, index, 1, s->samples.film.x.data() + ray,
+    PreparePixels(sampler, BlockRows(block), room);
+    SamplePixels(sampler, *room, index, 1, s->samples.film.x.data() + ray,
                  s->samples.film.y.data() + ray);
   }
   s->samples.film.count = list.size();
@@ -110,11 +104,12 @@ void UpdateExtremes(double value, double* lowest, double* second_lowest, double*
 }
 
 // Updates the extremes with one sample of each of a block's pixels.
-void UpdateBlockExtremes(const double* values, int channel, uint32_t pixel, CellState* c) {
-  double* __restrict const lowest = c->lowest[channel] + pixel;
-  double* __restrict const second_lowest = c->second_lowest[channel] + pixel;
-  double* __restrict const second_highest = c->second_highest[channel] + pixel;
-  double* __restrict const highest = c->highest[channel] + pixel;
+void UpdateBlockExtremes(const double* values, int channel, uint32_t pixel,
+                         CellEvidence* evidence) {
+  double* __restrict const lowest = evidence->lowest[channel] + pixel;
+  double* __restrict const second_lowest = evidence->second_lowest[channel] + pixel;
+  double* __restrict const second_highest = evidence->second_highest[channel] + pixel;
+  double* __restrict const highest = evidence->highest[channel] + pixel;
   for (size_t k = 0; k < kBlockPixels; ++k) {
     UpdateExtremes(values[k], lowest + k, second_lowest + k, second_highest + k, highest + k);
   }
@@ -122,15 +117,17 @@ void UpdateBlockExtremes(const double* values, int channel, uint32_t pixel, Cell
 
 // Updates the extremes with `count` samples of one pixel.
 void UpdatePixelExtremes(const double* values, size_t count, int channel, uint32_t pixel,
-                         CellState* c) {
-  double lowest = c->lowest[channel][pixel], second_lowest = c->second_lowest[channel][pixel];
-  double second_highest = c->second_highest[channel][pixel], highest = c->highest[channel][pixel];
+                         CellEvidence* evidence) {
+  double lowest = evidence->lowest[channel][pixel],
+         second_lowest = evidence->second_lowest[channel][pixel];
+  double second_highest = evidence->second_highest[channel][pixel],
+         highest = evidence->highest[channel][pixel];
   for (size_t i = 0; i < count; ++i)
     UpdateExtremes(values[i], &lowest, &second_lowest, &second_highest, &highest);
-  c->lowest[channel][pixel] = lowest;
-  c->second_lowest[channel][pixel] = second_lowest;
-  c->second_highest[channel][pixel] = second_highest;
-  c->highest[channel][pixel] = highest;
+  evidence->lowest[channel][pixel] = lowest;
+  evidence->second_lowest[channel][pixel] = second_lowest;
+  evidence->second_highest[channel][pixel] = second_highest;
+  evidence->highest[channel][pixel] = highest;
 }
 
 void MarkHits(const TileWork& s, std::vector<double>* hits) {
@@ -141,63 +138,76 @@ void MarkHits(const TileWork& s, std::vector<double>* hits) {
 // The sums of an averaged layer's channel, by replicate. Beauty and coverage are summed for each
 // replicate, because the differences between replicates tell when a pixel has converged; other
 // layers have one sum.
-void FindSums(LayerKind layer, int channel, double* film_sum, CellState* c,
+void FindSums(LayerKind layer, int channel, double* film_sum, CellSamples* samples,
               double* (&sums)[kReplicates]) {
   for (size_t r = 0; r < kReplicates; ++r) {
-    sums[r] = layer == LayerKind::kBeauty  ? c->replicate[r][channel]
-              : layer == LayerKind::kAlpha ? c->replicate[r][kAlphaSum]
+    sums[r] = layer == LayerKind::kBeauty  ? samples->sums[r][channel]
+              : layer == LayerKind::kAlpha ? samples->sums[r][kAlphaSum]
                                            : film_sum;
   }
 }
 
-void AddListSamples(const FramePlan& plan, const Window& cell, std::span<const SampleEntry> list,
-                    TileWork* work, CellState* c) {
-  TileWork& s = *work;
-  const size_t count = s.samples.weights.size();
-  if (count == 1 && c->outlined != 0) MarkHits(s, &c->hits);
-  size_t sum = 0;
+// Calls use(layer, background, values) for each averaged layer, whose values are those of the
+// batch, by ray.
+template <class Use>
+void ForEachAveragedLayer(const FramePlan& plan, TileWork* work, const Use& use) {
   size_t light_layer = 0;
   for (const Layer& layer : plan.film.layers) {
     if (!IsAveraged(layer.kind)) continue;
-    const bool beauty = layer.kind == LayerKind::kBeauty;
     const Rgb background = BackgroundOf(layer, plan.film);
-    Soa3<double>& values =
-        GatherLayer(plan.film, layer, light_layer, background, BatchOf(plan, s), &s.layer_room);
+    use(layer, background,
+        GatherLayer(plan.film, layer, light_layer, background, BatchOf(plan, *work),
+                    &work->layer_room));
+    if (layer.kind == LayerKind::kLight) ++light_layer;
+  }
+}
+
+void AddListSamples(const FramePlan& plan, const Window& cell, std::span<const SampleEntry> list,
+                    TileWork* work, CellRoom* room) {
+  TileWork& s = *work;
+  CellState& c = room->state;
+  OutlinePixels& outlines = c.outlines;
+  const size_t count = s.samples.weights.size();
+  if (count == 1 && outlines.blocks != 0) MarkHits(s, &room->hits);
+  size_t sum = 0;
+  const auto add = [&](const Layer& layer, const Rgb& background, Soa3<double>& values) {
+    const bool beauty = layer.kind == LayerKind::kBeauty;
     for (int channel = 0; channel < FloatChannels(layer.kind); ++channel, ++sum) {
-      WeighDust(background[channel], list, count, *c, ChannelOf(values, channel).data());
+      WeighDust(background[channel], list, count, c.dust, ChannelOf(values, channel).data());
       const double* value = ChannelOf(values, channel).data();
       double* sums[kReplicates];
-      FindSums(layer.kind, channel, s.film.sums[sum].data(), c, sums);
+      FindSums(layer.kind, channel, s.film.sums[sum].data(), &c.samples, sums);
       if (count == 1) {
         // The list consists of whole blocks, whose pixels are contiguous in the sums as well.
         for (size_t i = 0; i < list.size(); i += kBlockPixels, value += kBlockPixels) {
           const uint32_t pixel = list[i].pixel;
           AddBlock(value, s.samples.weights[0], sums[list[i].replicate] + pixel);
-          if (beauty) UpdateBlockExtremes(value, channel, pixel, c);
-          if (!beauty || (c->outlined >> pixel / kBlockPixels & 1) == 0) continue;
-          ExtendHitRanges(value, c->hits.data() + i, c->hit_low[channel] + pixel,
-                          c->hit_high[channel] + pixel);
+          if (beauty) UpdateBlockExtremes(value, channel, pixel, &c.evidence);
+          if (!beauty || !HasOutlines(outlines, pixel / kBlockPixels)) continue;
+          ExtendHitRanges(value, room->hits.data() + i, outlines.hit_low[channel] + pixel,
+                          outlines.hit_high[channel] + pixel);
         }
         continue;
       }
       for (const SampleEntry& entry : list) {
         sums[entry.replicate][entry.pixel] += SumOfChunk(value, s.samples.weights.data(), count);
-        if (beauty) UpdatePixelExtremes(value, count, channel, entry.pixel, c);
+        if (beauty) UpdatePixelExtremes(value, count, channel, entry.pixel, &c.evidence);
         value += count;
       }
     }
-    if (layer.kind == LayerKind::kLight) ++light_layer;
-  }
+  };
+  ForEachAveragedLayer(plan, &s, add);
   AddNearest(
       plan.film, BatchOf(plan, s),
       [&](uint32_t ray) { return PixelOf(cell, list[ray / count].pixel); }, &s.layer_room, &s.film);
 }
 
 // Takes the samples of a level for all active pixels, in batches.
-void AddLevel(const FramePlan& plan, const Window& cell, size_t level, TileWork* s, CellState* c,
+void AddLevel(const FramePlan& plan, const Window& cell, size_t level, TileWork* s, CellRoom* room,
               StageClock* clock, RenderStats* stats) {
-  const AdaptivePlan::Level& l = plan.adaptive.levels[level];
-  const auto& samplers = plan.adaptive.patterns[l.pattern];
+  CellState& c = room->state;
+  const SampleLevels::Level& l = plan.adaptive.sampling.levels[level];
+  const auto& samplers = plan.adaptive.sampling.patterns[l.pattern];
   const int end = l.first + l.count;
   const int count = std::min(l.count, kChunk);
   const bool by_blocks = level < kCommonLevels && l.count == 1;
@@ -210,53 +220,54 @@ void AddLevel(const FramePlan& plan, const Window& cell, size_t level, TileWork*
     size_t listed = 0;
     const auto flush = [&] {
       if (listed == 0) return;
-      const std::span<const SampleEntry> list(c->sample_list.data(), listed);
+      const std::span<const SampleEntry> list(room->list.data(), listed);
       if (by_blocks) {
-        MakeBlockSamples(samplers.data(), cell, list, first, s, c);
+        MakeBlockSamples(samplers.data(), cell, list, first, s, &room->block);
       } else {
-        MakeListSamples(samplers.data(), cell, list, first, count, s, c);
+        MakeListSamples(samplers.data(), cell, list, first, count, s, &room->pixels);
       }
-      MoveToDust(plan, cell, list, static_cast<size_t>(count), &s->samples.film, c);
+      MoveToDust(plan, cell, list, static_cast<size_t>(count), &s->samples.film, &c.dust);
       if (plan.sampling.numbered) {
         NumberListSamples(samplers.data(), cell, list, first, count, &EnsureNumbers(&s->samples));
       }
       ShadeSamples(plan, s, clock, stats);
-      AddListSamples(plan, cell, list, s, c);
+      AddListSamples(plan, cell, list, s, room);
       clock->Charge(Stage::kFilm);
       listed = 0;
     };
     // A group is a whole block in the common levels, else a single pixel. It is listed for all
     // replicates in turn.
     const size_t group = by_blocks ? kBlockPixels : 1;
-    for (size_t i = 0; i < c->active.size(); i += group) {
+    for (size_t i = 0; i < c.active.size(); i += group) {
       for (uint32_t replicate = 0; replicate < kReplicates; ++replicate) {
-        for (size_t k = i; k < i + group; ++k) c->sample_list[listed++] = {c->active[k], replicate};
+        for (size_t k = i; k < i + group; ++k) room->list[listed++] = {c.active[k], replicate};
         if (listed == capacity) flush();
       }
     }
     flush();
   }
-  for (const uint32_t pixel : c->active) c->samples[pixel] += static_cast<uint32_t>(l.count);
+  for (const uint32_t pixel : c.active) c.samples.count[pixel] += static_cast<uint32_t>(l.count);
 }
 
 // Lists the pixels of the blocks whose bits are set.
-void ListPixels(uint32_t blocks, std::vector<uint32_t>* pixels) {
-  pixels->clear();
+std::vector<uint32_t> ListPixels(uint32_t blocks) {
+  std::vector<uint32_t> pixels;
+  pixels.reserve(kCellPixels);
   for (; blocks != 0; blocks &= blocks - 1) {
     const auto first = static_cast<uint32_t>(__builtin_ctz(blocks)) * uint32_t{kBlockPixels};
-    for (uint32_t i = 0; i < kBlockPixels; ++i) pixels->push_back(first + i);
+    for (uint32_t i = 0; i < kBlockPixels; ++i) pixels.push_back(first + i);
   }
+  return pixels;
 }
 
 // Takes one sample through the centre of each pixel of the blocks whose bits are set in `blocks`.
 // Returns, as bits, the blocks of `edge_free` that need no more samples. The film gets their
 // values, and the positions, depths and ids of all `blocks`.
 uint32_t AddCenters(const FramePlan& plan, const Window& cell, uint32_t blocks, uint32_t edge_free,
-                    TileWork* work, CellState* c, StageClock* clock, RenderStats* stats) {
+                    TileWork* work, StageClock* clock, RenderStats* stats) {
   if (blocks == 0) return 0;
   TileWork& s = *work;
-  ListPixels(blocks, &c->active);
-  const std::vector<uint32_t>& pixels = c->active;
+  const std::vector<uint32_t> pixels = ListPixels(blocks);
   for (size_t i = 0; i < pixels.size(); ++i) {
     const FilmPixel pixel = PixelOf(cell, pixels[i]);
     s.samples.film.x[i] = pixel.x + 0.5;
@@ -273,12 +284,7 @@ uint32_t AddCenters(const FramePlan& plan, const Window& cell, uint32_t blocks, 
     hit_of_ray[s.surfaces.hits.ray[i]] = static_cast<uint32_t>(i);
   uint32_t smooth = 0;
   size_t sum = 0;
-  size_t light_layer = 0;
-  for (const Layer& layer : plan.film.layers) {
-    if (!IsAveraged(layer.kind)) continue;
-    Soa3<double>& values =
-        GatherLayer(plan.film, layer, light_layer, BackgroundOf(layer, plan.film), BatchOf(plan, s),
-                    &s.layer_room);
+  const auto add = [&](const Layer& layer, const Rgb&, const Soa3<double>& values) {
     if (layer.kind == LayerKind::kBeauty) {
       for (size_t i = 0; i < pixels.size(); i += kBlockPixels) {
         const uint32_t bit = 1u << pixels[i] / kBlockPixels;
@@ -292,8 +298,8 @@ uint32_t AddCenters(const FramePlan& plan, const Window& cell, uint32_t blocks, 
         std::copy_n(value + i, kBlockPixels, s.film.sums[sum].data() + pixels[i]);
       }
     }
-    if (layer.kind == LayerKind::kLight) ++light_layer;
-  }
+  };
+  ForEachAveragedLayer(plan, &s, add);
   AddNearest(
       plan.film, BatchOf(plan, s), [&](uint32_t ray) { return PixelOf(cell, pixels[ray]); },
       &s.layer_room, &s.film);
@@ -304,43 +310,39 @@ uint32_t AddCenters(const FramePlan& plan, const Window& cell, uint32_t blocks, 
 // Gives every pixel whose coverage is known one hit before its first sample, because all samples of
 // a barely covered pixel may miss. Only the mean of its hits is used, so that it does no harm to
 // choose a point in the middle of the covered part.
-void AddCoveredHits(const FramePlan& plan, const Window& cell, TileWork* work, CellState* c,
+void AddCoveredHits(const FramePlan& plan, const Window& cell, TileWork* work, CellRoom* room,
                     StageClock* clock, RenderStats* stats) {
-  if (c->covered_points.empty()) return;
+  OutlinePixels& outlines = room->state.outlines;
+  const std::vector<OutlinePixels::CoveredPoint>& points = outlines.covered_points;
+  if (points.empty()) return;
   TileWork& s = *work;
-  for (size_t i = 0; i < c->covered_points.size(); ++i) {
-    s.samples.film.x[i] = c->covered_points[i].x;
-    s.samples.film.y[i] = c->covered_points[i].y;
+  for (size_t i = 0; i < points.size(); ++i) {
+    s.samples.film.x[i] = points[i].x;
+    s.samples.film.y[i] = points[i].y;
   }
-  s.samples.film.count = c->covered_points.size();
+  s.samples.film.count = points.size();
   ShadeSamples(plan, &s, clock, stats);
-  MarkHits(s, &c->hits);
+  MarkHits(s, &room->hits);
   size_t sum = 0;
-  size_t light_layer = 0;
-  for (const Layer& layer : plan.film.layers) {
-    if (!IsAveraged(layer.kind)) continue;
+  const auto add = [&](const Layer& layer, const Rgb& background, Soa3<double>& values) {
     const bool beauty = layer.kind == LayerKind::kBeauty;
-    const Rgb background = BackgroundOf(layer, plan.film);
-    Soa3<double>& values =
-        GatherLayer(plan.film, layer, light_layer, background, BatchOf(plan, s), &s.layer_room);
     for (int channel = 0; channel < FloatChannels(layer.kind); ++channel, ++sum) {
       const double* const value = ChannelOf(values, channel).data();
       double* sums[kReplicates];
-      FindSums(layer.kind, channel, s.film.sums[sum].data(), c, sums);
-      for (size_t i = 0; i < c->covered_points.size(); ++i) {
-        if (c->hits[i] == 0) continue;
-        const uint32_t pixel = c->covered_points[i].pixel;
+      FindSums(layer.kind, channel, s.film.sums[sum].data(), &room->state.samples, sums);
+      for (size_t i = 0; i < points.size(); ++i) {
+        if (room->hits[i] == 0) continue;
+        const uint32_t pixel = points[i].pixel;
         // It replaces a miss by a hit, so that the number of samples stays the same.
         sums[0][pixel] += value[i] - background[channel];
-        if (beauty) c->hit_low[channel][pixel] = c->hit_high[channel][pixel] = value[i];
+        if (beauty) outlines.hit_low[channel][pixel] = outlines.hit_high[channel][pixel] = value[i];
       }
     }
-    if (layer.kind == LayerKind::kLight) ++light_layer;
-  }
+  };
+  ForEachAveragedLayer(plan, &s, add);
   AddNearest(
-      plan.film, BatchOf(plan, s),
-      [&](uint32_t ray) { return PixelOf(cell, c->covered_points[ray].pixel); }, &s.layer_room,
-      &s.film);
+      plan.film, BatchOf(plan, s), [&](uint32_t ray) { return PixelOf(cell, points[ray].pixel); },
+      &s.layer_room, &s.film);
   clock->Charge(Stage::kFilm);
 }
 
@@ -356,9 +358,9 @@ uint32_t BlocksOf(const Window& cell, const Window& part) {
 }  // namespace
 
 void RenderCell(const FramePlan& plan, const Window& cell, const Window& part, TileWork* work,
-                CellState* cell_scratch, Strip* strip, StageClock* clock, RenderStats* stats) {
+                CellRoom* room, Strip* strip, StageClock* clock, RenderStats* stats) {
   TileWork& s = *work;
-  CellState& c = *cell_scratch;
+  CellState& c = room->state;
   FindTileShapes(plan.hits, cell, &s.shapes);
   clock->Charge(Stage::kIntersect);
   if (!ShowsAnything(plan, s.shapes)) {
@@ -368,34 +370,35 @@ void RenderCell(const FramePlan& plan, const Window& cell, const Window& part, T
     return;
   }
   StartTile(plan.film, cell, kBatchCapacity, &s.film);
-  std::fill_n(c.samples, kCellPixels, 0u);
+  std::fill_n(c.samples.count, kCellPixels, 0u);
   clock->Charge(Stage::kFilm);
   // All blocks within the frame, whatever part is rendered, because pixels depend on their
   // neighbours.
   const uint32_t blocks = BlocksOf(cell, plan.frame);
-  c.projections = ProjectSpheres(plan.camera, s.shapes.spheres);
-  const uint32_t edge_free = FindEdgeFreeBlocks(plan, cell, blocks, &s, &c);
+  const CellProjections projections = ProjectSpheres(plan.camera, s.shapes.spheres);
+  c.edges = FindEdges(plan, cell, blocks, s.shapes.spheres, projections, &room->footprint);
   clock->Charge(Stage::kIntersect);
   const bool all_centers = s.film.nearest_distance2.size() > 0;
   const uint32_t smooth =
-      AddCenters(plan, cell, all_centers ? blocks : edge_free, edge_free, &s, &c, clock, stats);
+      AddCenters(plan, cell, all_centers ? blocks : c.edges.none, c.edges.none, &s, clock, stats);
   const uint32_t sampled = blocks & ~smooth;
-  ClearReplicates(sampled, &c);
-  ListPixels(sampled, &c.active);
-  FindDust(plan, cell, s.shapes, &c);
-  FindOutlinePixels(plan, cell, &c);
-  ClearEvidence(&c);
-  FindRareFeatures(plan, cell, &s, &c, clock, stats);
-  AddCoveredHits(plan, cell, &s, &c, clock, stats);
-  for (size_t level = 0; level < plan.adaptive.levels.size() && !c.active.empty(); ++level) {
-    AddLevel(plan, cell, level, &s, &c, clock, stats);
+  ClearReplicates(sampled, &c.samples);
+  c.active = ListPixels(sampled);
+  FindDust(plan, cell, s.shapes, &c.dust);
+  FindOutlinePixels(plan, cell, c.active, projections, c.dust, &c.outlines);
+  ClearEvidence(&c.evidence);
+  FindRareFeatures(plan, cell, c.dust, &s, &c.known, clock, stats);
+  AddCoveredHits(plan, cell, &s, room, clock, stats);
+  for (size_t level = 0; level < plan.adaptive.sampling.levels.size() && !c.active.empty();
+       ++level) {
+    AddLevel(plan, cell, level, &s, room, clock, stats);
     DropConverged(plan, level, &c);
     clock->Charge(Stage::kFilm);
   }
   stats->unsettled_pixels += CountUnsettled(plan, cell, part, &c);
-  stats->pixel_samples.Add(CountSamples(cell, part, c));
-  AddReplicates(sampled, c, &s.film);
-  ResolveCell(plan, cell, part, s.film, c, strip);
+  stats->pixel_samples.Add(CountSamples(cell, part, c.samples));
+  AddReplicates(sampled, c.samples, &s.film);
+  ResolveCell(plan, cell, part, s.film, c.samples, c.outlines, strip);
   clock->Charge(Stage::kFilm);
 }
 

@@ -20,12 +20,25 @@
 // estimate the radiance of the covered part.
 #pragma once
 
+#include <vector>
+
 #include "render/cell_state.h"
 
 namespace nacre {
 
+// What one worker knows about a cell, and its buffers, reused from cell to cell.
+struct CellRoom {
+  CellState state;
+  FootprintRoom footprint;
+  // Of the samples of one batch.
+  std::vector<double> hits = std::vector<double>(kBatchCapacity);  // 1 for rays that hit, else 0
+  std::vector<SampledPixel> pixels;
+  std::vector<SampleEntry> list = std::vector<SampleEntry>(kBatchCapacity);
+  PixelBatch block{kBlockPixels};
+};
+
 // Renders a cell of the frame, and writes its pixels that lie in `part` to the strip.
 void RenderCell(const FramePlan& plan, const Window& cell, const Window& part, TileWork* work,
-                CellState* cell_scratch, Strip* strip, StageClock* clock, RenderStats* stats);
+                CellRoom* room, Strip* strip, StageClock* clock, RenderStats* stats);
 
 }  // namespace nacre

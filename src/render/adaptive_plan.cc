@@ -7,7 +7,6 @@
 #include <variant>
 
 #include "base/overloaded.h"
-#include "render/white_level.h"
 #include "sampling/hash.h"
 #include "shading/user_model.h"
 
@@ -38,6 +37,8 @@ double NarrowestLobe(const ShadingMaterial& material) {
   return std::min(narrowest, of_model);
 }
 
+bool HasBothSigns(const PixelFilter& filter) { return !MakeFilterSampler(filter).negative.empty(); }
+
 // The second moment of |filter| along one axis, in pixels squared. The mean over a pixel differs
 // from the value at its centre by half of that times the second derivative.
 double SecondMoment(const PixelFilter& filter) {
@@ -62,14 +63,10 @@ bool HasHardCone(const Scene& scene) {
 
 }  // namespace
 
-AdaptivePlan PlanAdaptiveLevels(const Scene& scene, std::span<const ShadingMaterial> materials,
-                                double max_error, int max_samples) {
-  AdaptivePlan plan;
-  plan.max_error = max_error;
-  plan.white = WhiteLevel(scene);
-  plan.max_samples = max_samples;
+SampleLevels PlanSampleLevels(const Scene& scene, int max_samples) {
+  SampleLevels plan;
   const PixelFilter& filter = scene.image.filter;
-  const bool both_signs = !MakeFilterSampler(filter).negative.empty();
+  const bool both_signs = HasBothSigns(filter);
   const auto add_pattern = [&](int samples) {
     auto& pattern = plan.patterns.emplace_back();
     for (size_t r = 0; r < kReplicates; ++r) {
@@ -91,20 +88,27 @@ AdaptivePlan PlanAdaptiveLevels(const Scene& scene, std::span<const ShadingMater
     total += count;
   }
   if (!both_signs) add_pattern(total);
+  return plan;
+}
+
+bool CentersMaySuffice(const Scene& scene) {
   // With lights that are sampled, one sample of a pixel is noisy however smooth the surface is.
   const bool sampled =
       std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
         return !IsPunctual(light) && !std::holds_alternative<AmbientLight>(light.kind);
       });
-  plan.footprints = !both_signs && !HasHardCone(scene) && !sampled;
-  plan.filter_radius = std::max(filter.width / 2, 0.5);
-  // The error is half the second moment where the picture is smooth, and up to three times that
-  // where its slope changes within a pixel, as where a surface turns away from a light (for a box:
-  // 1/8 of the change of slope instead of 1/24).
-  plan.center_error = 1.5 * SecondMoment(filter);
-  for (const ShadingMaterial& material : materials)
-    plan.lobe_widths.push_back(NarrowestLobe(material));
-  return plan;
+  return !HasBothSigns(scene.image.filter) && !HasHardCone(scene) && !sampled;
+}
+
+// The error is half the second moment where the picture is smooth, and up to three times that where
+// its slope changes within a pixel, as where a surface turns away from a light (for a box: 1/8 of
+// the change of slope instead of 1/24).
+double CenterError(const PixelFilter& filter) { return 1.5 * SecondMoment(filter); }
+
+std::vector<double> LobeWidths(std::span<const ShadingMaterial> materials) {
+  std::vector<double> widths(materials.size());
+  std::transform(materials.begin(), materials.end(), widths.begin(), NarrowestLobe);
+  return widths;
 }
 
 }  // namespace nacre

@@ -21,7 +21,7 @@ inline constexpr int kReplicates = 4;
 // A light that causes highlights: a point, the bounding ball of a light with an extent, or a sun of
 // a sky.
 struct HighlightLight {
-  size_t number;     // punctual lights first, then those with an extent, as in DirectPlan
+  size_t number;     // punctual lights first, then those with an extent, as in LightsPlan
   bool directional;  // its light is parallel
   Vec3d position;    // relative to the camera; of a directional light the unit direction to it
   double radius;     // 0 for a punctual light; in radians for a directional one
@@ -41,22 +41,33 @@ struct Glint {
 
 struct TexelMaps;  // texel_maps.h
 
-struct AdaptivePlan {
-  double max_error = 0;  // relative, see ErrorBound; 0: all pixels take the same samples
-  double white = 0;      // WhiteLevel
-  double brightest = 0;  // BrightestObject
-  int max_samples = 0;   // of a pixel; levels double, so that it may be up to twice as many
-  // Samples are taken level by level; each level doubles the samples of each replicate. For most
-  // filters a level continues one pattern, every prefix of which is as well distributed as a
-  // pattern of that length, so that the error falls as with uniform sampling. The weights of a
-  // filter with negative lobes depend on the number of samples, so each level has a pattern of its
-  // own.
+// Samples are taken level by level; each level doubles the samples of each replicate. For most
+// filters a level continues one pattern, every prefix of which is as well distributed as a pattern
+// of that length, so that the error falls as with uniform sampling. The weights of a filter with
+// negative lobes depend on the number of samples, so each level has a pattern of its own.
+struct SampleLevels {
   struct Level {
     size_t pattern;
     int first, count;  // samples of the pattern
   };
   std::vector<Level> levels;
   std::vector<std::array<PixelSampler, kReplicates>> patterns;
+};
+
+// What causes highlights.
+struct HighlightCauses {
+  std::vector<HighlightLight> lights;  // all but skies
+  // The half-width of each material's narrowest lobe, in radians: of the half vector's angle or,
+  // for Phong, of the angle from the mirrored direction, which is twice as wide (highlights.cc).
+  std::vector<double> lobe_widths;
+};
+
+struct AdaptivePlan {
+  double max_error = 0;  // relative, see ErrorBound; 0: all pixels take the same samples
+  double white = 0;      // WhiteLevel
+  double brightest = 0;  // BrightestObject
+  int max_samples = 0;   // of a pixel; levels double, so that it may be up to twice as many
+  SampleLevels sampling;
   // Whether blocks may stop at the centres of their pixels (footprint.h).
   bool footprints = false;
   // Half the side, in pixels, of the square that a box filter averages, if the coverage of pixels
@@ -67,18 +78,22 @@ struct AdaptivePlan {
   double filter_radius = 0.5;  // in pixels from a pixel's centre
   // The error of taking a pixel's centre for its mean, as a multiple of the second differences.
   double center_error = 0;
-  // The half-width of each material's narrowest lobe, in radians: of the half vector's angle or,
-  // for Phong, of the angle from the mirrored direction, which is twice as wide (highlights.cc).
-  std::vector<double> lobe_widths;
-  std::vector<HighlightLight> lights;  // all but skies
+  HighlightCauses highlights;
   SmallTriangles small_triangles;
   std::vector<Glint> mesh_glints;               // by ascending y
   std::shared_ptr<const TexelMaps> texel_maps;  // null: there are none
 };
 
-// Makes the levels, and all that depends only on the image's settings and the materials.
-// `max_samples` is AdaptivePlan::max_samples; `materials` are those of the scene, in its order.
-AdaptivePlan PlanAdaptiveLevels(const Scene& scene, std::span<const ShadingMaterial> materials,
-                                double max_error, int max_samples);
+// `max_samples` is AdaptivePlan::max_samples.
+SampleLevels PlanSampleLevels(const Scene& scene, int max_samples);
+
+// Whether the filter and the lights allow that blocks stop at the centres of their pixels.
+bool CentersMaySuffice(const Scene& scene);
+
+// AdaptivePlan::center_error.
+double CenterError(const PixelFilter& filter);
+
+// HighlightCauses::lobe_widths of the scene's materials, in its order.
+std::vector<double> LobeWidths(std::span<const ShadingMaterial> materials);
 
 }  // namespace nacre

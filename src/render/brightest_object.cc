@@ -59,7 +59,7 @@ double BrightestUnder(const SampledLight& light) {
 
 }  // namespace
 
-double BrightestObject(const Scene& scene, const DirectPlan& direct, double white) {
+double BrightestObject(const Scene& scene, const LightsPlan& lights, double white) {
   if (white < kNoBound) return white;
   for (const Material& material : scene.materials) {
     if (material.user) return kNoBound;  // it may gain energy
@@ -72,7 +72,7 @@ double BrightestObject(const Scene& scene, const DirectPlan& direct, double whit
     }
   }
   const double reflectance = MaxReflectance(scene);
-  for (const PlannedSampledLight& light : direct.sampled_lights) {
+  for (const PlannedSampledLight& light : lights.sampled) {
     brightest += reflectance * BrightestUnder(light.light);
   }
   return brightest;

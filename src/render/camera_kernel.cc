@@ -7,7 +7,7 @@
 #define HWY_TARGET_INCLUDE "render/camera_kernel.cc"
 #include "hwy/foreach_target.h"
 
-#include "base/geometry-inl.h"
+#include "base/vec3-inl.h"
 #include "visibility/projected_sphere_test.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -35,31 +35,31 @@ void ForEachBlock(uint32_t blocks, const Body& body) {
 
 }  // namespace
 
-void ClearReplicates(uint32_t blocks, CellState* c) {
+void ClearReplicates(uint32_t blocks, CellSamples* samples) {
   ForEachBlock(blocks, [&](size_t first) {
-    for (auto& replicate : c->replicate) {
+    for (auto& replicate : samples->sums) {
       for (auto& channel : replicate) std::fill_n(channel + first, kBlockPixels, 0.0);
     }
   });
 }
 
-void AddReplicates(uint32_t blocks, const CellState& c, TileFilm* film) {
+void AddReplicates(uint32_t blocks, const CellSamples& samples, TileFilm* film) {
   ForEachBlock(blocks, [&](size_t first) {
     for (size_t channel = 0; channel < 4; ++channel) {
       double* const sums = film->sums[channel].data() + first;
-      for (const auto& replicate : c.replicate) {
+      for (const auto& replicate : samples.sums) {
         for (size_t i = 0; i < kBlockPixels; ++i) sums[i] += replicate[channel][first + i];
       }
     }
   });
 }
 
-PixelSampleCounts CountSamples(const Window& cell, const Window& part, const CellState& c) {
+PixelSampleCounts CountSamples(const Window& cell, const Window& part, const CellSamples& samples) {
   PixelSampleCounts counts;
   for (uint32_t i = 0; i < kCellPixels; ++i) {
     const FilmPixel at = PixelOf(cell, i);
     if (Intersect({at.x, at.y, at.x + 1, at.y + 1}, part).empty()) continue;
-    counts.Add(std::max(1u, kReplicates * c.samples[i]), 1);  // at least the centre
+    counts.Add(std::max(1u, kReplicates * samples.count[i]), 1);  // at least the centre
   }
   return counts;
 }
@@ -68,16 +68,17 @@ PixelSampleCounts CountSamples(const Window& cell, const Window& part, const Cel
 // its n samples hit, their sum holds the background n - h times, so the pixel is s / h times the
 // sum plus 1 - s n / h times the background. Other pixels are the mean of all samples.
 void ResolveCell(const FramePlan& plan, const Window& cell, const Window& part,
-                 const TileFilm& film, const CellState& c, Strip* strip) {
+                 const TileFilm& film, const CellSamples& samples, const OutlinePixels& outlines,
+                 Strip* strip) {
   double of_sum[kCellPixels], of_background[kCellPixels];
   const double* const hits = film.sums[kAlphaSum].data();
   for (size_t i = 0; i < kCellPixels; ++i) {
-    const double samples = double{kReplicates} * c.samples[i];
-    of_sum[i] = c.samples[i] == 0 ? 1 : 1 / samples;
+    const double count = double{kReplicates} * samples.count[i];
+    of_sum[i] = samples.count[i] == 0 ? 1 : 1 / count;
     of_background[i] = 0;
-    if (c.samples[i] == 0 || c.coverage[i] < 0) continue;
-    of_sum[i] = hits[i] > 0 ? c.coverage[i] / hits[i] : 0;
-    of_background[i] = 1 - of_sum[i] * samples;
+    if (samples.count[i] == 0 || outlines.coverage[i] < 0) continue;
+    of_sum[i] = hits[i] > 0 ? outlines.coverage[i] / hits[i] : 0;
+    of_background[i] = 1 - of_sum[i] * count;
   }
   std::vector<double> backgrounds;  // of the averaged channels
   for (const Layer& layer : plan.film.layers) {

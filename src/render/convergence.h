@@ -10,10 +10,6 @@ namespace nacre {
 // samples of the levels before the last of these are added by whole blocks.
 inline constexpr size_t kCommonLevels = 3;
 
-// Before the first sample: finds the active pixels that outlines of spheres may cross, and the
-// coverage of those that show a single outline in front of the background.
-void FindOutlinePixels(const FramePlan& plan, const Window& cell, CellState* cell_scratch);
-
 // After a level: removes the pixels that have converged from the active ones. After a block's
 // common levels the block is removed if all of its pixels are within their tolerances; later,
 // single pixels whose neighbours are not far from their tolerances either.

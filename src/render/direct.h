@@ -8,8 +8,8 @@
 
 namespace nacre {
 
-// Fills batch.radiance except `sky`. `numbers` are those of the batch's samples; they may be null
-// if the plan has no sampled lights.
+// Fills batch.radiance of the lit hits, except `sky`. `numbers` are those of the batch's samples;
+// they may be null if the plan has no sampled lights.
 void ShadeDirect(const DirectBatch& batch, const SampleNumbers* numbers);
 
 // Fills radiance->sky for the camera rays through `film`, if the plan has a sky and any of the rays

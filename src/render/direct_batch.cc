@@ -25,14 +25,15 @@ void HideUnreflectedLight(const DirectBatch& batch) {
 }
 
 void AddToLightLayer(const DirectBatch& batch, const ReflectedRadiance& of_light, int layer) {
-  const Soa3<float>& shown = batch.plan.diffuse_light_layers ? of_light.diffuse : of_light.sum;
+  const Soa3<float>& shown =
+      batch.plan.lights.diffuse_light_layers ? of_light.diffuse : of_light.sum;
   AddSoa(shown, batch.lit(), &batch.radiance.per_light[static_cast<size_t>(layer)]);
 }
 
 void AddRadiance(const DirectBatch& batch, const ReflectedRadiance& of_light) {
   ReflectedRadiance& total = batch.radiance.total;
   AddSoa(of_light.sum, batch.lit(), &total.sum);
-  if (!batch.plan.components) return;
+  if (!batch.plan.lights.components) return;
   AddSoa(of_light.diffuse, batch.lit(), &total.diffuse);
   AddSoa(of_light.specular, batch.lit(), &total.specular);
 }

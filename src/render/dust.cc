@@ -17,8 +17,6 @@ constexpr double kMostShare = 0.9;
 // whole.
 constexpr uint32_t kMostPatches = 128;
 
-using DustPatch = CellState::DustPatch;
-
 // A convex polygon on the film, in pixels.
 using Polygon = std::vector<Vec2d>;
 
@@ -96,23 +94,23 @@ class DustFinder {
   bool Any() const { return !all_.empty(); }
 
   // Stores the patches of the pixels, and the shares of the pixels that they cover.
-  void Finish(CellState* c) {
+  void Finish(CellDust* dust) {
     std::stable_sort(all_.begin(), all_.end(),
                      [](const auto& a, const auto& b) { return a.pixel < b.pixel; });
-    c->patches.clear();
+    dust->patches.clear();
     size_t next = 0;
     for (uint32_t pixel = 0; pixel < kCellPixels; ++pixel) {
-      c->first_patch[pixel] = static_cast<uint32_t>(c->patches.size());
+      dust->first_patch[pixel] = static_cast<uint32_t>(dust->patches.size());
       const size_t first = next;
       double area = 0;
       for (; next < all_.size() && all_[next].pixel == pixel; ++next) area += all_[next].patch.area;
       const double share = area / (4 * half_side_ * half_side_);
       if (counts_[pixel] > kMostPatches || share > kMostShare) continue;
-      for (size_t i = first; i < next; ++i) c->patches.push_back(all_[i].patch);
-      c->sampled_share[pixel] = share;
-      c->has_dust = true;
+      for (size_t i = first; i < next; ++i) dust->patches.push_back(all_[i].patch);
+      dust->sampled_share[pixel] = share;
+      dust->any = true;
     }
-    c->first_patch[kCellPixels] = static_cast<uint32_t>(c->patches.size());
+    dust->first_patch[kCellPixels] = static_cast<uint32_t>(dust->patches.size());
   }
 
  private:
@@ -150,6 +148,12 @@ class DustFinder {
   Polygon whole_, in_row_, in_pixel_, room_;  // buffers
 };
 
+// The patches that the samples of a pixel are spread over; none for most pixels.
+std::span<const DustPatch> PatchesOf(const CellDust& dust, uint32_t pixel) {
+  const uint32_t first = dust.first_patch[pixel];
+  return {dust.patches.data() + first, dust.first_patch[pixel + 1] - first};
+}
+
 // Whether the point lies in the patch, up to rounding.
 bool Holds(const DustPatch& patch, const Vec2d& point) {
   constexpr double kRounding = 1e-9;
@@ -169,9 +173,9 @@ Vec2d PointOf(const DustPatch& patch, const Vec2d& u) {
 
 }  // namespace
 
-void FindDust(const FramePlan& plan, const Window& cell, const TileShapes& shapes, CellState* c) {
-  std::fill_n(c->sampled_share, kCellPixels, 1.0);
-  c->has_dust = false;
+void FindDust(const FramePlan& plan, const Window& cell, const TileShapes& shapes, CellDust* dust) {
+  std::fill_n(dust->sampled_share, kCellPixels, 1.0);
+  dust->any = false;
   const double half_side = plan.adaptive.dust_half_side;
   const SmallTriangles& triangles = plan.adaptive.small_triangles;
   if (half_side == 0 || (shapes.triangles && !triangles.no_others)) return;
@@ -186,20 +190,19 @@ void FindDust(const FramePlan& plan, const Window& cell, const TileShapes& shape
   ForEachNarrowTriangle(
       triangles, plan.surfaces.primitives, projector, cell,
       [&](uint32_t, const FilmTriangle& corners) { finder.AddTriangle(corners); });
-  if (finder.Any()) finder.Finish(c);
+  if (finder.Any()) finder.Finish(dust);
 }
 
-void MoveToDust(const FramePlan& plan, const Window& cell,
-                std::span<const CellState::SampleEntry> list, size_t count, FilmBatch* film,
-                CellState* c) {
-  if (!c->has_dust) return;
+void MoveToDust(const FramePlan& plan, const Window& cell, std::span<const SampleEntry> list,
+                size_t count, FilmBatch* film, CellDust* dust) {
+  if (!dust->any) return;
   const double half_side = plan.adaptive.dust_half_side;
   for (size_t entry = 0; entry < list.size(); ++entry) {
-    const std::span<const DustPatch> patches = PatchesOf(*c, list[entry].pixel);
+    const std::span<const DustPatch> patches = PatchesOf(*dust, list[entry].pixel);
     if (patches.empty()) continue;
     const FilmPixel pixel = PixelOf(cell, list[entry].pixel);
     const Vec2d middle(pixel.x + 0.5, pixel.y + 0.5);
-    const double share = c->sampled_share[list[entry].pixel];
+    const double share = dust->sampled_share[list[entry].pixel];
     for (size_t ray = entry * count; ray < (entry + 1) * count; ++ray) {
       const Vec2d u((film->x[ray] - middle.x) / (2 * half_side) + 0.5,
                     (film->y[ray] - middle.y) / (2 * half_side) + 0.5);
@@ -216,22 +219,22 @@ void MoveToDust(const FramePlan& plan, const Window& cell,
       for (size_t i = 0; i < patches.size(); ++i) {
         patches_here += i != chosen && Holds(patches[i], point);
       }
-      c->sample_share[ray] = share / patches_here;
+      dust->sample_share[ray] = share / patches_here;
       film->x[ray] = point.x;
       film->y[ray] = point.y;
     }
   }
 }
 
-void WeighDust(double background, std::span<const CellState::SampleEntry> list, size_t count,
-               const CellState& c, double* values) {
-  if (!c.has_dust) return;
+void WeighDust(double background, std::span<const SampleEntry> list, size_t count,
+               const CellDust& dust, double* values) {
+  if (!dust.any) return;
   for (size_t entry = 0; entry < list.size(); ++entry) {
-    if (c.sampled_share[list[entry].pixel] == 1) continue;
-    const bool empty = PatchesOf(c, list[entry].pixel).empty();
+    if (dust.sampled_share[list[entry].pixel] == 1) continue;
+    const bool empty = PatchesOf(dust, list[entry].pixel).empty();
     for (size_t ray = entry * count; ray < (entry + 1) * count; ++ray) {
       values[ray] =
-          empty ? background : background + c.sample_share[ray] * (values[ray] - background);
+          empty ? background : background + dust.sample_share[ray] * (values[ray] - background);
     }
   }
 }

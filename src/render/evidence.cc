@@ -27,36 +27,36 @@ struct PixelEvidence {
 };
 
 // Whether a rare feature may be hidden in the pixel.
-bool MayHideFeatures(const CellState& c, uint32_t pixel) {
-  if (c.sampled_share[pixel] < 1) return c.sampled_share[pixel] > 0;
-  return (c.only_outlines >> pixel / kBlockPixels & 1) == 0;
+bool MayHideFeatures(const CellDust& dust, const BlockEdges& edges, uint32_t pixel) {
+  if (dust.sampled_share[pixel] < 1) return dust.sampled_share[pixel] > 0;
+  return (edges.only_outlines >> pixel / kBlockPixels & 1) == 0;
 }
 
-double MeanOf(const CellState& c, uint32_t pixel, size_t channel) {
+double SamplesTaken(const CellSamples& samples, uint32_t pixel) {
+  return double{kReplicates} * samples.count[pixel];
+}
+
+double MeanOf(const CellSamples& samples, uint32_t pixel, size_t channel) {
   double sum = 0;
-  for (const auto& replicate : c.replicate) sum += replicate[channel][pixel];
-  return sum / (double{kReplicates} * c.samples[pixel]);
+  for (const auto& replicate : samples.sums) sum += replicate[channel][pixel];
+  return sum / SamplesTaken(samples, pixel);
 }
 
-HitKind Classify(const CellState& c, uint32_t pixel) {
+HitKind Classify(const CellSamples& samples, uint32_t pixel) {
   double hits = 0;
-  for (const auto& replicate : c.replicate) hits += replicate[kAlphaSum][pixel];
-  const double samples = double{kReplicates} * c.samples[pixel];
+  for (const auto& replicate : samples.sums) hits += replicate[kAlphaSum][pixel];
+  const double count = SamplesTaken(samples, pixel);
   // Sums of weights have rounding errors.
-  if (std::abs(hits) < 1e-6 * samples) return kMisses;
-  return std::abs(hits - samples) < 1e-6 * samples ? kHits : kMixed;
+  if (std::abs(hits) < 1e-6 * count) return kMisses;
+  return std::abs(hits - count) < 1e-6 * count ? kHits : kMixed;
 }
 
-double SamplesTaken(const CellState& c, uint32_t pixel) {
-  return double{kReplicates} * c.samples[pixel];
-}
-
-double ToleranceOf(const CellState& c, uint32_t pixel) {
-  return c.intervals[pixel / kBlockPixels].tolerance[pixel % kBlockPixels];
+double ToleranceOf(const CellIntervals& intervals, uint32_t pixel) {
+  return intervals[pixel / kBlockPixels].tolerance[pixel % kBlockPixels];
 }
 
 // The range of the means of the pixel and its neighbours in the cell.
-PixelRange RangeOfMeans(const CellState& c, uint32_t pixel, size_t channel) {
+PixelRange RangeOfMeans(const CellSamples& samples, uint32_t pixel, size_t channel) {
   const FilmPixel at = PixelOf({}, pixel);
   PixelRange range{std::numeric_limits<double>::infinity(),
                    -std::numeric_limits<double>::infinity()};
@@ -64,8 +64,8 @@ PixelRange RangeOfMeans(const CellState& c, uint32_t pixel, size_t channel) {
     for (int column = std::max(at.x - 1, 0); column <= std::min(at.x + 1, kCellSize - 1);
          ++column) {
       const uint32_t other = PixelAt(column, row);
-      if (c.samples[other] == 0) continue;
-      const double mean = MeanOf(c, other, channel);
+      if (samples.count[other] == 0) continue;
+      const double mean = MeanOf(samples, other, channel);
       range.low = std::min(range.low, mean);
       range.high = std::max(range.high, mean);
     }
@@ -75,24 +75,26 @@ PixelRange RangeOfMeans(const CellState& c, uint32_t pixel, size_t channel) {
 
 // Whether the contrast of the pixel's samples is more than twice that of the means around it. At an
 // edge between two areas of the picture it is not, because both sides appear among the neighbours.
-bool IsIsolated(const CellState& c, uint32_t pixel, size_t channel, double contrast) {
-  const PixelRange means = RangeOfMeans(c, pixel, channel);
+bool IsIsolated(const CellSamples& samples, uint32_t pixel, size_t channel, double contrast) {
+  const PixelRange means = RangeOfMeans(samples, pixel, channel);
   return 2 * (means.high - means.low) < contrast;
 }
 
-PixelEvidence EvidenceOf(const CellState& c, uint32_t pixel) {
-  PixelEvidence evidence{pixel, Classify(c, pixel), 0, 0, false};
+PixelEvidence EvidenceOf(const CellSamples& samples, const CellEvidence& of, uint32_t pixel) {
+  PixelEvidence evidence{pixel, Classify(samples, pixel), 0, 0, false};
   size_t widest = 0;
   for (size_t channel = 0; channel < 3; ++channel) {
-    const double lowest = c.lowest[channel][pixel], second_lowest = c.second_lowest[channel][pixel];
-    const double second_highest = c.second_highest[channel][pixel],
-                 highest = c.highest[channel][pixel];
+    const double lowest = of.lowest[channel][pixel];
+    const double second_lowest = of.second_lowest[channel][pixel];
+    const double second_highest = of.second_highest[channel][pixel];
+    const double highest = of.highest[channel][pixel];
     evidence.single = std::max({evidence.single, second_lowest - lowest, highest - second_highest});
     if (!(highest - lowest > evidence.contrast)) continue;
     evidence.contrast = highest - lowest;
     widest = channel;
   }
-  evidence.isolated = evidence.contrast > 0 && IsIsolated(c, pixel, widest, evidence.contrast);
+  evidence.isolated =
+      evidence.contrast > 0 && IsIsolated(samples, pixel, widest, evidence.contrast);
   return evidence;
 }
 
@@ -109,16 +111,16 @@ bool IsInner(uint32_t pixel) {
 }
 
 // Whether all rare features of the pixel that matter are known beforehand.
-bool IsExplained(const CellState& c, uint32_t pixel) {
-  return c.required_samples[pixel] > 0 && !c.has_other_texels[pixel];
+bool IsExplained(const KnownFeatures& known, const CellEvidence& evidence, uint32_t pixel) {
+  return evidence.required_samples[pixel] > 0 && !known.has_other_texels[pixel];
 }
 
 // The error of the pixel's mean if no sample has hit this rare feature. It counts only as far as it
 // is darker or brighter than everything around it; otherwise it is part of an edge.
-double MissingContrast(const CellState& c, const CellState::RarePart& rare) {
+double MissingContrast(const CellSamples& samples, const RarePart& rare) {
   double contrast = 0;
   for (size_t channel = 0; channel < 3; ++channel) {
-    const PixelRange around = RangeOfMeans(c, rare.pixel, channel);
+    const PixelRange around = RangeOfMeans(samples, rare.pixel, channel);
     const double radiance = rare.radiance[static_cast<int>(channel)];
     contrast = std::max(
         {contrast, radiance - rare.share * around.high, rare.share * around.low - radiance});
@@ -128,43 +130,49 @@ double MissingContrast(const CellState& c, const CellState::RarePart& rare) {
 
 // The rare features of one pixel matter together. Features that contribute less than an equal share
 // of half the tolerance are left out: all of these together cannot matter.
-void RequireSamplesOfParts(std::span<const CellState::RarePart> of_pixel, CellState* c) {
-  const uint32_t pixel = of_pixel[0].pixel;
-  const double tolerance = ToleranceOf(*c, pixel);
-  double all = 0;
-  for (const auto& rare : of_pixel) all += MissingContrast(*c, rare);
-  if (!(2 * all > tolerance)) return;
+double SamplesForParts(std::span<const RarePart> of_pixel, const CellSamples& samples,
+                       double sampled_share, double tolerance) {
+  double all = 0, required = 0;
+  for (const RarePart& rare : of_pixel) all += MissingContrast(samples, rare);
+  if (!(2 * all > tolerance)) return 0;
   const auto count = static_cast<double>(of_pixel.size());
-  for (const auto& rare : of_pixel) {
-    if (!(2 * count * MissingContrast(*c, rare) > tolerance)) continue;
-    c->required_samples[pixel] =
-        std::max(c->required_samples[pixel], kExpectedHits * c->sampled_share[pixel] / rare.share);
+  for (const RarePart& rare : of_pixel) {
+    if (!(2 * count * MissingContrast(samples, rare) > tolerance)) continue;
+    required = std::max(required, kExpectedHits * sampled_share / rare.share);
   }
+  return required;
 }
 
 // Sets required_samples of the pixels that have samples.
-void FindKnownFeatures(CellState* c) {
+void RequireKnownFeatures(const EvidenceInputs& from, const CellIntervals& intervals,
+                          double* required_samples) {
   for (uint32_t pixel = 0; pixel < kCellPixels; ++pixel) {
-    const bool matters = 2 * c->rare_radiance[pixel] > ToleranceOf(*c, pixel);
-    c->required_samples[pixel] = matters ? c->rare_samples[pixel] : 0;
+    const bool matters = 2 * from.known.radiance[pixel] > ToleranceOf(intervals, pixel);
+    required_samples[pixel] = matters ? from.known.samples[pixel] : 0;
   }
-  const auto& all = c->rare_parts;
+  const std::vector<RarePart>& all = from.known.parts;
   for (size_t first = 0, end = 0; first < all.size(); first = end) {
     const uint32_t pixel = all[first].pixel;
     while (end < all.size() && all[end].pixel == pixel) ++end;
-    if (c->samples[pixel] > 0) RequireSamplesOfParts({all.data() + first, end - first}, c);
+    if (from.samples.count[pixel] == 0) continue;
+    required_samples[pixel] =
+        std::max(required_samples[pixel],
+                 SamplesForParts({all.data() + first, end - first}, from.samples,
+                                 from.dust.sampled_share[pixel], ToleranceOf(intervals, pixel)));
   }
 }
 
 // Pools the evidence of all pixels except those of the kind `left_out` and those whose rare
 // features are known: a known feature is known in every pixel that has it.
-Pool MakePool(const CellState& c, const std::vector<PixelEvidence>& all, HitKind left_out) {
+Pool MakePool(const KnownFeatures& known, const CellEvidence& evidence,
+              const CellIntervals& intervals, const std::vector<PixelEvidence>& all,
+              HitKind left_out) {
   Pool pool;
   size_t inner = 0, witnesses = 0;
   for (const PixelEvidence& e : all) {
-    if (e.kind == left_out || !IsInner(e.pixel) || IsExplained(c, e.pixel)) continue;
+    if (e.kind == left_out || !IsInner(e.pixel) || IsExplained(known, evidence, e.pixel)) continue;
     ++inner;
-    if (!e.isolated || e.single <= ToleranceOf(c, e.pixel)) continue;
+    if (!e.isolated || e.single <= ToleranceOf(intervals, e.pixel)) continue;
     pool.contrast += e.single;
     ++witnesses;
   }
@@ -184,41 +192,45 @@ double RequiredSamples(const Pool& pool, double tolerance, double samples) {
   return std::max(std::log(affected / kAllowedShare), 0.0) / least;
 }
 
-void RejectInterval(uint32_t pixel, CellState* c) {
-  c->intervals[pixel / kBlockPixels].narrow &= ~(1u << pixel % kBlockPixels);
+void RejectInterval(uint32_t pixel, CellIntervals* intervals) {
+  (*intervals)[pixel / kBlockPixels].narrow &= ~(1u << pixel % kBlockPixels);
 }
 
 }  // namespace
 
-void ClearEvidence(CellState* c) {
+void ClearEvidence(CellEvidence* evidence) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  for (auto* low : {c->lowest, c->second_lowest})
+  for (auto* low : {evidence->lowest, evidence->second_lowest})
     std::fill_n(&low[0][0], 3 * kCellPixels, kInfinity);
-  for (auto* high : {c->highest, c->second_highest})
+  for (auto* high : {evidence->highest, evidence->second_highest})
     std::fill_n(&high[0][0], 3 * kCellPixels, -kInfinity);
 }
 
-void RequireEvidence(CellState* c) {
-  FindKnownFeatures(c);
+void RequireEvidence(const EvidenceInputs& from, CellEvidence* evidence, CellIntervals* intervals) {
+  RequireKnownFeatures(from, *intervals, evidence->required_samples);
   std::vector<PixelEvidence> all;
-  for (const uint32_t pixel : c->active) {
-    if (MayHideFeatures(*c, pixel)) all.push_back(EvidenceOf(*c, pixel));
+  for (const uint32_t pixel : from.active) {
+    if (!MayHideFeatures(from.dust, from.edges, pixel)) continue;
+    all.push_back(EvidenceOf(from.samples, *evidence, pixel));
   }
   // Pixels that miss are judged by misses and mixed pixels, all others by hits and mixed pixels.
   std::array<Pool, 3> pools;
-  pools[kMisses] = MakePool(*c, all, kHits);
-  pools[kHits] = MakePool(*c, all, kMisses);
+  pools[kMisses] = MakePool(from.known, *evidence, *intervals, all, kHits);
+  pools[kHits] = MakePool(from.known, *evidence, *intervals, all, kMisses);
   pools[kMixed] = pools[kHits];
   for (const PixelEvidence& e : all) {
     const Pool& pool = pools[e.kind];
-    const double tolerance = ToleranceOf(*c, e.pixel), samples = SamplesTaken(*c, e.pixel);
+    const double tolerance = ToleranceOf(*intervals, e.pixel);
+    const double samples = SamplesTaken(from.samples, e.pixel);
     const bool enough_for_pixel =
-        c->coverage[e.pixel] >= 0 || samples * tolerance >= kByChance * e.contrast;
+        from.outlines.coverage[e.pixel] >= 0 || samples * tolerance >= kByChance * e.contrast;
     const bool enough_for_cell = samples >= RequiredSamples(pool, tolerance, samples);
-    if (!enough_for_pixel || !enough_for_cell) RejectInterval(e.pixel, c);
+    if (!enough_for_pixel || !enough_for_cell) RejectInterval(e.pixel, intervals);
   }
-  for (const uint32_t pixel : c->active) {
-    if (SamplesTaken(*c, pixel) < c->required_samples[pixel]) RejectInterval(pixel, c);
+  for (const uint32_t pixel : from.active) {
+    if (SamplesTaken(from.samples, pixel) < evidence->required_samples[pixel]) {
+      RejectInterval(pixel, intervals);
+    }
   }
 }
 

@@ -26,7 +26,13 @@
 // region that is rendered.
 #pragma once
 
-#include "render/cell_state.h"
+#include <span>
+#include <vector>
+
+#include "render/cell_film.h"
+#include "render/dust.h"
+#include "render/footprint.h"
+#include "render/outline_pixels.h"
 
 namespace nacre {
 
@@ -42,11 +48,47 @@ inline constexpr double kByChance = 1.80;
 // sum of the fourth powers of the Poisson probabilities).
 inline constexpr double kExpectedHits = 2 * kReplicates;
 
-// Must be called before a cell's first sample.
-void ClearEvidence(CellState* cell_scratch);
+// A rare feature of a pixel whose radiance is known: triangles of one material (rare_triangles.h),
+// or texels that look alike (rare_texels.h).
+struct RarePart {
+  uint32_t pixel;
+  double share;  // of the pixel's samples that hit it
+  Rgb radiance;  // what it adds to the pixel, that is, its radiance times the share
+};
 
-// Must be called after a level: clears BlockIntervals::narrow of active pixels that do not have
-// enough samples for it.
-void RequireEvidence(CellState* cell_scratch);
+// The rare features of a cell's pixels that are known before the first sample (rare_features.h).
+struct KnownFeatures {
+  // By pixel, for small spheres and highlights: how many samples are needed to hit them, and an
+  // upper bound of what they add to the pixel's radiance.
+  double samples[kCellPixels], radiance[kCellPixels];
+  std::vector<RarePart> parts;         // by pixel
+  bool has_other_texels[kCellPixels];  // texels that matter and are not in `parts`
+};
+
+struct CellEvidence {
+  // The two least and the two greatest of all samples of a pixel, misses included.
+  double lowest[3][kCellPixels], second_lowest[3][kCellPixels];
+  double second_highest[3][kCellPixels], highest[3][kCellPixels];
+  // How many samples a pixel needs to find the rare features that matter, judged by its samples so
+  // far; 0 if none do.
+  double required_samples[kCellPixels];
+};
+
+// Must be called before a cell's first sample.
+void ClearEvidence(CellEvidence* evidence);
+
+// What evidence is judged by.
+struct EvidenceInputs {
+  std::span<const uint32_t> active;  // pixels
+  const CellSamples& samples;
+  const BlockEdges& edges;
+  const OutlinePixels& outlines;
+  const CellDust& dust;
+  const KnownFeatures& known;
+};
+
+// Must be called after a level: sets required_samples, and clears BlockIntervals::narrow of active
+// pixels that do not have enough samples for it.
+void RequireEvidence(const EvidenceInputs& from, CellEvidence* evidence, CellIntervals* intervals);
 
 }  // namespace nacre

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "hit/batch.h"
 
@@ -42,44 +43,52 @@ std::vector<ChannelSpec> StripChannels(const std::vector<Layer>& layers, PixelTy
   return channels;
 }
 
-void PlanLayers(const Scene& scene, const RenderSettings& settings, FilmPlan* plan,
-                Explanation* why) {
-  plan->layers = ParseLayers(settings.layers, scene);
-  for (const Layer& layer : plan->layers) {
-    for (const ChannelSpec& channel : LayerChannels(layer, PixelType::kFloat)) {
-      plan->channels.push_back(IsAveraged(layer.kind)             ? ChannelKind::kAveraged
-                               : channel.type == PixelType::kUint ? ChannelKind::kId
-                                                                  : ChannelKind::kNearest);
-    }
-  }
+std::vector<Layer> PlanLayers(const Scene& scene, const RenderSettings& settings,
+                              Explanation* why) {
+  std::vector<Layer> layers = ParseLayers(settings.layers, scene);
   std::string names;
-  for (size_t i = 2; i < plan->layers.size(); ++i) {
-    names += (names.empty() ? "" : ", ") + plan->layers[i].name;
+  for (size_t i = 2; i < layers.size(); ++i) {
+    names += (names.empty() ? "" : ", ") + layers[i].name;
   }
   why->items.push_back(
       {"layers", !names.empty(), names.empty() ? "only beauty and alpha are rendered" : names});
+  return layers;
 }
 
-bool ShowsNearest(const FilmPlan& plan) {
-  return std::any_of(plan.channels.begin(), plan.channels.end(),
-                     [](ChannelKind kind) { return kind != ChannelKind::kAveraged; });
+bool ShowsNearest(const std::vector<Layer>& layers) {
+  return std::any_of(layers.begin(), layers.end(),
+                     [](const Layer& layer) { return !IsAveraged(layer.kind); });
 }
 
-void PlanSums(const Scene& scene, const RenderSettings& settings, const PixelSampler& sampler,
-              FilmPlan* plan, Explanation* why) {
-  plan->spp = scene.image.spp;
-  plan->weight = 0;
-  for (int i = 0; i < plan->spp; ++i) plan->weight += SampleWeight(sampler, i);
-  const char* const reason = settings.max_error > 0     ? "pixels take as many samples as they need"
-                             : plan->spp > 1            ? "a pixel takes several samples"
-                             : settings.general_path    ? "the general path is asked for"
-                             : ShowsNearest(*plan)      ? "some layers are not averages"
-                             : plan->sky                ? "every pixel shows the sky or a hit"
-                             : !HasUnitWeights(sampler) ? "samples have weights"
-                                                        : nullptr;
-  plan->one_sample = reason == nullptr;
-  why->items.push_back({"sums of samples", !plan->one_sample,
-                        plan->one_sample ? "a pixel's only sample is its value" : reason});
+FilmPlan PlanFilm(const Scene& scene, const RenderSettings& settings, std::vector<Layer> layers,
+                  const CameraFrame& camera, const LightsPlan& lights, const PixelSampler& sampler,
+                  Explanation* why) {
+  FilmPlan plan;
+  plan.layers = std::move(layers);
+  for (const Layer& layer : plan.layers) {
+    for (const ChannelSpec& channel : LayerChannels(layer, PixelType::kFloat)) {
+      plan.channels.push_back(IsAveraged(layer.kind)             ? ChannelKind::kAveraged
+                              : channel.type == PixelType::kUint ? ChannelKind::kId
+                                                                 : ChannelKind::kNearest);
+    }
+  }
+  plan.camera = camera;
+  plan.spp = scene.image.spp;
+  plan.weight = 0;
+  for (int i = 0; i < plan.spp; ++i) plan.weight += SampleWeight(sampler, i);
+  plan.background = lights.background;
+  plan.sky = lights.sky.has_value();
+  const char* const reason = settings.max_error > 0  ? "pixels take as many samples as they need"
+                             : plan.spp > 1          ? "a pixel takes several samples"
+                             : settings.general_path ? "the general path is asked for"
+                             : ShowsNearest(plan.layers) ? "some layers are not averages"
+                             : plan.sky                  ? "every pixel shows the sky or a hit"
+                             : !HasUnitWeights(sampler)  ? "samples have weights"
+                                                         : nullptr;
+  plan.one_sample = reason == nullptr;
+  why->items.push_back({"sums of samples", !plan.one_sample,
+                        plan.one_sample ? "a pixel's only sample is its value" : reason});
+  return plan;
 }
 
 void StartStrip(const FilmPlan& plan, const Window& window, Image* image, Strip* strip) {

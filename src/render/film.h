@@ -13,6 +13,7 @@
 #include "render/explanation.h"
 #include "render/film_kernel.h"
 #include "render/layers.h"
+#include "render/lights_plan.h"
 #include "render/settings.h"
 #include "sampling/pixel_sampler.h"
 
@@ -29,14 +30,13 @@ struct FilmPlan {
   bool one_sample = false;  // the only sample of a pixel is its value: there are no sums
 };
 
-// Plans the layers, which other stages' plans depend on. Throws Error (usage) for a layer that the
-// scene does not have.
-void PlanLayers(const Scene& scene, const RenderSettings& settings, FilmPlan* plan,
-                Explanation* why);
+// Returns FilmPlan::layers, which other stages' plans depend on, too. Throws Error (usage) for a
+// layer that the scene does not have.
+std::vector<Layer> PlanLayers(const Scene& scene, const RenderSettings& settings, Explanation* why);
 
-// Then decides whether samples are summed. All other members of the plan must be set.
-void PlanSums(const Scene& scene, const RenderSettings& settings, const PixelSampler& sampler,
-              FilmPlan* plan, Explanation* why);
+FilmPlan PlanFilm(const Scene& scene, const RenderSettings& settings, std::vector<Layer> layers,
+                  const CameraFrame& camera, const LightsPlan& lights, const PixelSampler& sampler,
+                  Explanation* why);
 
 // The sampled pixels of a tile, one array per channel, row by row. Averaged channels are summed in
 // double and rounded to float once, however many samples there are and however their weights
@@ -84,7 +84,7 @@ std::vector<ChannelSpec> StripChannels(const std::vector<Layer>& layers, PixelTy
 void StartStrip(const FilmPlan& plan, const Window& window, Image* image, Strip* strip);
 
 // Whether some layers hold the value of one sample, not an average.
-bool ShowsNearest(const FilmPlan& plan);
+bool ShowsNearest(const std::vector<Layer>& layers);
 
 // Clears the channels of a tile. `capacity` is the largest number of pixels of any tile that this
 // film is used for, at most kBatchCapacity.

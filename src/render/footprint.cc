@@ -52,9 +52,9 @@ bool MissesSphere(const FramePlan& plan, const Footprint& f, const FootprintCone
 
 // Counts, for each block, the corners of its footprint that hit. The projection of a sphere is
 // convex: if all four corners hit the same sphere, it covers the block.
-void CountCornerHits(const FramePlan& plan, const Window& cell, const TileWork& work,
-                     CellState* cell_scratch, int (&counts)[kCellBlocks]) {
-  FilmBatch& corners = cell_scratch->corners;
+void CountCornerHits(const FramePlan& plan, const Window& cell, const TileCandidates& spheres,
+                     FootprintRoom* room, int (&counts)[kCellBlocks]) {
+  FilmBatch& corners = room->corners;
   for (size_t block = 0; block < kCellBlocks; ++block) {
     const Footprint f = FootprintOf(BlockWindow(cell, block), plan.adaptive.filter_radius);
     const double x[4] = {f.x0, f.x1, f.x0, f.x1};
@@ -63,17 +63,16 @@ void CountCornerHits(const FramePlan& plan, const Window& cell, const TileWork& 
     std::copy_n(y, 4, corners.y.data() + 4 * block);
   }
   corners.count = 4 * kCellBlocks;
-  HitBatch& hits = cell_scratch->corner_hits.batch;
-  plan.hits.intersector->HitsInTile(work.shapes.spheres, corners,
-                                    {&hits, &cell_scratch->corner_hits.directions, false, false});
+  HitBatch& hits = room->corner_hits.batch;
+  plan.hits.shapes.intersector->HitsInTile(spheres, corners,
+                                           {&hits, &room->corner_hits.directions, false, false});
   for (size_t i = 0; i < hits.count; ++i) ++counts[hits.ray[i] / 4];
 }
 
 // Whether no light's shadow can fall on the sphere.
 bool IsUnshadowed(const FramePlan& plan, uint32_t sphere) {
-  return std::all_of(
-      plan.direct.lights.begin(), plan.direct.lights.end(),
-      [&](const PlannedPunctualLight& light) { return NeverShadowed(light, sphere); });
+  return std::all_of(plan.direct.shadows.punctual.begin(), plan.direct.shadows.punctual.end(),
+                     [&](const LightShadows& light) { return NeverShadowed(light, sphere); });
 }
 
 // Whether the spheres may intersect, in a curve that is an edge but no outline.
@@ -143,13 +142,13 @@ bool ResolvesLobe(const Soa3<float>& normals, const uint32_t* hits, double width
 
 }  // namespace
 
-uint32_t FindEdgeFreeBlocks(const FramePlan& plan, const Window& cell, uint32_t blocks,
-                            TileWork* work, CellState* cell_scratch) {
-  cell_scratch->only_outlines = 0;
-  if (!plan.adaptive.footprints || !cell_scratch->projections) return 0;
+BlockEdges FindEdges(const FramePlan& plan, const Window& cell, uint32_t blocks,
+                     const TileCandidates& spheres, const CellProjections& projections,
+                     FootprintRoom* room) {
+  BlockEdges edges;
+  if (!plan.adaptive.footprints || !projections) return edges;
   int corners[kCellBlocks] = {};
-  CountCornerHits(plan, cell, *work, cell_scratch, corners);
-  uint32_t edge_free = 0;
+  CountCornerHits(plan, cell, spheres, room, corners);
   std::vector<const TileCandidate*> visible;
   for (uint32_t left = blocks; left != 0; left &= left - 1) {
     const auto block = static_cast<size_t>(__builtin_ctz(left));
@@ -157,15 +156,15 @@ uint32_t FindEdgeFreeBlocks(const FramePlan& plan, const Window& cell, uint32_t 
     const Footprint f = FootprintOf(BlockWindow(cell, block), plan.adaptive.filter_radius);
     const FootprintCone cone = BoundingCone(plan.camera, f);
     visible.clear();
-    for (const SphereProjection& projection : *cell_scratch->projections) {
+    for (const SphereProjection& projection : *projections) {
       if (!MissesSphere(plan, f, cone, projection)) visible.push_back(projection.candidate);
     }
     if (!HasOnlyOutlines(plan, visible)) continue;
-    cell_scratch->only_outlines |= bit;
+    edges.only_outlines |= bit;
     const bool covered = visible.size() == 1 && corners[block] == 4 && !visible[0]->around_camera;
-    if ((visible.empty() && corners[block] == 0) || covered) edge_free |= bit;
+    if ((visible.empty() && corners[block] == 0) || covered) edges.none |= bit;
   }
-  return edge_free;
+  return edges;
 }
 
 bool IsSmooth(const FramePlan& plan, size_t first_ray, const Soa3<double>& values,
@@ -177,7 +176,7 @@ bool IsSmooth(const FramePlan& plan, size_t first_ray, const Soa3<double>& value
          HasSmallCurvature(plan.adaptive, values.y.data() + first_ray) &&
          HasSmallCurvature(plan.adaptive, values.z.data() + first_ray) &&
          ResolvesLobe(work.surfaces.surface.normal, hits,
-                      plan.adaptive.lobe_widths[material.index]);
+                      plan.adaptive.highlights.lobe_widths[material.index]);
 }
 
 }  // namespace nacre

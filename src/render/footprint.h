@@ -2,15 +2,28 @@
 // render/footprint.h: finds the blocks of pixels that need only one sample per pixel.
 #pragma once
 
-#include "render/cell_state.h"
+#include "render/cell.h"
 
 namespace nacre {
 
-// Returns, as bits, those of `blocks` that have no edge: with the filter's radius around them they
-// lie wholly on one sphere or beside all spheres. Sets cell_scratch->only_outlines. Reads the
-// cell's spheres, work->shapes.spheres and cell_scratch->projections.
-uint32_t FindEdgeFreeBlocks(const FramePlan& plan, const Window& cell, uint32_t blocks,
-                            TileWork* work, CellState* cell_scratch);
+// Blocks, as bits.
+struct BlockEdges {
+  // Have no edge: with the filter's radius around them they lie wholly on one sphere or beside all
+  // spheres.
+  uint32_t none = 0;
+  uint32_t only_outlines = 0;  // have no edges but outlines of spheres
+};
+
+// Buffers of FindEdges.
+struct FootprintRoom {
+  FilmBatch corners;
+  CameraHits corner_hits;
+};
+
+// Finds the edges of `blocks` among the cell's spheres.
+BlockEdges FindEdges(const FramePlan& plan, const Window& cell, uint32_t blocks,
+                     const TileCandidates& spheres, const CellProjections& projections,
+                     FootprintRoom* room);
 
 // Whether, in a block without edges, the values at the centres of the pixels are within the
 // tolerance of the pixels' means: second differences are small, and no lobe is so narrow that it

@@ -26,7 +26,7 @@ std::optional<Forecast> ForecastRender(const FramePlan& plan, const RenderSettin
   if (count < kLeastCells) return std::nullopt;
   struct Room {
     TileWork work;
-    CellState cell;
+    CellRoom cell;
   };
   std::mutex mutex;
   std::vector<std::unique_ptr<Room>> rooms;  // those that no thread uses

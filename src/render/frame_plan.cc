@@ -19,6 +19,7 @@
 #include "render/shadow_origins.h"
 #include "render/shadow_plan.h"
 #include "render/texel_maps.h"
+#include "render/white_level.h"
 
 namespace nacre {
 namespace {
@@ -33,56 +34,52 @@ Rgb SumAmbient(const Scene& scene) {
 
 // Why pixels that lie outside the outlines of all spheres are sampled nevertheless; null if they
 // are not. (Tiles in which triangles may be visible always sample all pixels.)
-const char* WhyEveryPixel(const FramePlan& plan, const RenderSettings& settings) {
-  return settings.max_error > 0       ? "adaptive sampling makes its own samples"
-         : !plan.hits.trace_by_bins   ? "which pixels these are is not known without bins"
-         : plan.direct.sky            ? "they see the sky"
-         : plan.scene->image.spp == 1 ? "the only sample of a pixel is at its centre"
-         : ShowsNearest(plan.film)    ? "some layers show the hit nearest to the pixel's centre"
-         : settings.general_path      ? "the general path is asked for"
-                                      : nullptr;
+const char* WhyEveryPixel(const Scene& scene, const RenderSettings& settings,
+                          const TracePlan& trace, const LightsPlan& lights,
+                          const std::vector<Layer>& layers) {
+  return settings.max_error > 0  ? "adaptive sampling makes its own samples"
+         : !trace.by_bins        ? "which pixels these are is not known without bins"
+         : lights.sky            ? "they see the sky"
+         : scene.image.spp == 1  ? "the only sample of a pixel is at its centre"
+         : ShowsNearest(layers)  ? "some layers show the hit nearest to the pixel's centre"
+         : settings.general_path ? "the general path is asked for"
+                                 : nullptr;
 }
 
-void PlanShadowOrigins(const Scene& scene, DirectPlan* plan, Explanation* why) {
-  const auto casts = [](const auto& light) { return light.shadow_rays; };
-  const bool shadows = std::any_of(plan->lights.begin(), plan->lights.end(), casts) ||
-                       std::any_of(plan->sampled_lights.begin(), plan->sampled_lights.end(), casts);
-  plan->offset_shadow_origins = shadows && OffsetsShadowOrigins(scene);
-  why->items.push_back({"smooth terminator", plan->offset_shadow_origins,
-                        plan->offset_shadow_origins
-                            ? "shadow rays of smooth normals start on the curved surface"
-                        : shadows ? "no mesh has smooth normals and asks for it"
-                                  : "there are no shadow rays"});
-}
-
-AdaptivePlan PlanAdaptiveSampling(const FramePlan& plan, const RenderSettings& settings,
+AdaptivePlan PlanAdaptiveSampling(const Scene& scene, const RenderSettings& settings,
+                                  const Window& window, const CameraFrame& camera, bool binned,
+                                  const SurfacePlan& surfaces, const LightsPlan& lights,
                                   Explanation* why) {
-  const Scene& scene = *plan.scene;
-  AdaptivePlan adaptive =
-      PlanAdaptiveLevels(scene, plan.surfaces.materials, settings.max_error, settings.max_samples);
-  adaptive.brightest = BrightestObject(scene, plan.direct, adaptive.white);
+  AdaptivePlan adaptive;
+  if (!(settings.max_error > 0)) return adaptive;
+  const PixelFilter& filter = scene.image.filter;
+  adaptive.max_error = settings.max_error;
+  adaptive.max_samples = settings.max_samples;
+  adaptive.sampling = PlanSampleLevels(scene, settings.max_samples);
+  adaptive.filter_radius = std::max(filter.width / 2, 0.5);
+  adaptive.center_error = CenterError(filter);
+  adaptive.white = WhiteLevel(scene);
+  adaptive.brightest = BrightestObject(scene, lights, adaptive.white);
   // Between pixel centres a texture may show anything, and so may a function of the caller's, which
   // may have edges of its own, as a toon shader has, and highlights of any width. Triangles are not
   // binned, so their edges are not known.
-  adaptive.footprints = adaptive.footprints && plan.hits.binned && scene.meshes.empty() &&
-                        !plan.surfaces.splits && !plan.surfaces.textured &&
-                        !Has(plan.surfaces.prepared->any, MaterialTrait::kUserModel);
-  adaptive.texel_maps = FindTexelMaps(scene, plan.direct, settings.max_error);
-  adaptive.lights = FindHighlightLights(scene, plan.direct);
-  adaptive.mesh_glints = FindMeshGlints(scene, plan.surfaces, adaptive, plan.camera, plan.window,
+  adaptive.footprints = CentersMaySuffice(scene) && binned && scene.meshes.empty() &&
+                        !surfaces.splits && !surfaces.textured &&
+                        !Has(surfaces.prepared->any, MaterialTrait::kUserModel);
+  adaptive.texel_maps = FindTexelMaps(scene, lights, settings.max_error);
+  adaptive.highlights = {FindHighlightLights(scene, lights), LobeWidths(surfaces.materials)};
+  adaptive.mesh_glints = FindMeshGlints(scene, surfaces, adaptive.highlights, camera, window,
                                         kCellSize + adaptive.filter_radius + kMaxRareWidth,
                                         kMaxRareWidth * kMaxRareWidth, settings.threads);
   // The bins extend one pixel beyond the cell, because the pixels around a triangle tell whether it
   // is part of an edge or a rare feature.
   if (!scene.meshes.empty()) {
-    adaptive.small_triangles =
-        BinSmallTriangles(plan.surfaces.primitives, MakeProjector(plan.camera), plan.window,
-                          adaptive.filter_radius + 1, settings.threads);
+    adaptive.small_triangles = BinSmallTriangles(surfaces.primitives, MakeProjector(camera), window,
+                                                 adaptive.filter_radius + 1, settings.threads);
   }
-  const PixelFilter& filter = scene.image.filter;
   const bool is_box = filter.kind == FilterKind::kBox && filter.width <= 1;
   if (is_box && adaptive.footprints) adaptive.box_half_side = filter.width / 2;
-  if (filter.kind == FilterKind::kBox && plan.hits.binned && !plan.direct.sky) {
+  if (filter.kind == FilterKind::kBox && binned && !lights.sky) {
     adaptive.dust_half_side = filter.width / 2;
   }
   why->substitutions.push_back(
@@ -106,17 +103,14 @@ AdaptivePlan PlanAdaptiveSampling(const FramePlan& plan, const RenderSettings& s
   return adaptive;
 }
 
-// Lights that are shown have materials of their own, which are made with their shapes.
-PartVersions VersionsOfLights(const FramePlan& plan, const PreparedScene& prepared) {
-  return prepared.versions.Of(plan.with_lights ? SceneParts(ScenePart::kLights) : SceneParts());
-}
-
-std::shared_ptr<const PreparedMaterials> MaterialsOf(const FramePlan& plan, bool in_ambient,
-                                                     int threads, PreparedScene* prepared) {
-  const Scene& scene = *plan.scene;
-  const MaterialsKey key{plan.with_lights ? prepared->shapes_made : 0,
-                         VersionsOfLights(plan, *prepared), in_ambient, scene.materials.data(),
-                         scene.materials.size()};
+std::shared_ptr<const PreparedMaterials> MaterialsOf(const Scene& scene, bool with_lights,
+                                                     bool in_ambient, int threads,
+                                                     PreparedScene* prepared) {
+  // Lights that are shown have materials of their own, which are made with their shapes.
+  const MaterialsKey key{
+      with_lights ? prepared->shapes_made : 0,
+      prepared->versions.Of(with_lights ? SceneParts(ScenePart::kLights) : SceneParts()),
+      in_ambient, scene.materials.data(), scene.materials.size()};
   auto& kept = prepared->materials;
   const auto changed = prepared->versions.MaterialsSince(prepared->materials_prepared);
   if (!changed) kept.Forget();
@@ -133,14 +127,14 @@ std::shared_ptr<const PreparedMaterials> MaterialsOf(const FramePlan& plan, bool
   return kept.value;
 }
 
-const std::vector<bool>& UsedMaterials(const FramePlan& plan, const PreparedMaterials& materials,
+const std::vector<bool>& UsedMaterials(const Scene& scene, const PreparedMaterials& materials,
                                        PreparedScene* prepared) {
   const bool splits = Has(materials.any, MaterialTrait::kSplit);
   const ViewKey key{
       prepared->shapes_made,
       prepared->versions.Of(splits ? SceneParts(ScenePart::kMaterials) : SceneParts()),
-      {static_cast<double>(plan.scene->materials.size()), splits ? 1.0 : 0.0}};
-  return prepared->used_materials.Get(key, [&] { return FindUsedMaterials(*plan.scene, splits); });
+      {static_cast<double>(scene.materials.size()), splits ? 1.0 : 0.0}};
+  return prepared->used_materials.Get(key, [&] { return FindUsedMaterials(scene, splits); });
 }
 
 }  // namespace
@@ -152,57 +146,66 @@ FramePlan MakePlan(const Scene& scene, const RenderSettings& settings) {
 }
 
 FramePlan MakePlan(const Scene& given, const RenderSettings& settings, PreparedScene* prepared) {
-  FramePlan plan;
-  plan.with_lights = AddVisibleLights(given, prepared);
-  const Scene& scene = plan.with_lights ? plan.with_lights->scene : given;
-  plan.scene = &scene;
-  plan.frame = {0, 0, scene.image.width, scene.image.height};
-  plan.window = FrameWindow(plan.frame, settings);
-  plan.camera = MakeCameraFrame(scene.camera, scene.image.width, scene.image.height);
-  Explanation* const why = &plan.why;
-  PixelSampler sampler = MakePixelSampler(scene.image.filter, scene.image.spp, scene.image.seed);
-
   // Called between steps that may take long.
   const auto stop_if_cancelled = [&] { ThrowIfCancelled(settings.cancel); };
+  Explanation why;
+  std::shared_ptr<const SceneWithLights> with_lights = AddVisibleLights(given, prepared);
+  const Scene& scene = with_lights ? with_lights->scene : given;
+  const Window frame{0, 0, scene.image.width, scene.image.height};
+  const Window window = FrameWindow(frame, settings);
+  const CameraFrame camera = MakeCameraFrame(scene.camera, scene.image.width, scene.image.height);
+  const PixelSampler sampler =
+      MakePixelSampler(scene.image.filter, scene.image.spp, scene.image.seed);
   stop_if_cancelled();
-  PlanLayers(scene, settings, &plan.film, why);
+  const std::vector<Layer> layers = PlanLayers(scene, settings, &why);
   const Rgb ambient = SumAmbient(scene);
   const std::shared_ptr<const PreparedMaterials> materials =
-      MaterialsOf(plan, !IsBlack(ambient), settings.threads, prepared);
-  const std::vector<bool>& used = UsedMaterials(plan, *materials, prepared);
-  plan.direct =
-      PlanLights(scene, settings, plan.film.layers, plan.with_lights.get(), prepared, why);
+      MaterialsOf(scene, with_lights != nullptr, !IsBlack(ambient), settings.threads, prepared);
+  const std::vector<bool>& used = UsedMaterials(scene, *materials, prepared);
+  const TracedShapes shapes = PrepareShapes(scene, settings, camera, prepared);
   stop_if_cancelled();
-  plan.hits = PlanHits(scene, settings, plan.window, plan.camera, sampler, prepared, why);
+  LightsPlan lights =
+      PlanLights(scene, settings, layers, with_lights.get(), shapes, &prepared->tables, &why);
   stop_if_cancelled();
-  const bool tree_for_shadows =
-      PlanShadows(scene, settings, plan.hits, prepared, &plan.direct, why);
+  TracePlan trace = PlanTrace(scene, settings, shapes, window, sampler, prepared, &why);
+  stop_if_cancelled();
+  ShadowPlan shadows = PlanShadows(scene, settings, shapes, lights, prepared, &why);
   if (settings.on_plan_progress) settings.on_plan_progress(0.8);
   stop_if_cancelled();
-  BuildTrees(tree_for_shadows, settings, &plan.hits, why);
+  BuildTrees(shapes, trace, shadows.tree, settings, &why);
   stop_if_cancelled();
-  plan.surfaces =
-      PlanSurfaces(scene, settings, plan.camera, ambient, materials, used, &prepared->tables, why);
-  plan.sampling = PlanSampling(
-      scene, settings, std::move(sampler),
-      {!plan.direct.sampled_lights.empty(), plan.surfaces.textured, WhyEveryPixel(plan, settings)},
-      why);
-  PlanFarLights(scene, settings, &plan.direct, why);
-  if (settings.max_error > 0) plan.adaptive = PlanAdaptiveSampling(plan, settings, why);
-  if (!scene.meshes.empty() && plan.hits.intersector != nullptr) {
-    PlanShadowOrigins(scene, &plan.direct, why);
-    plan.planning = ShadeMeshes(scene, settings, plan.surfaces, &plan.direct, why);
-  }
-  plan.film.camera = plan.camera;
-  plan.film.background = plan.direct.background;
-  plan.film.sky = plan.direct.sky.has_value();
-  PlanSums(scene, settings, plan.sampling.sampler, &plan.film, why);
-  PlanPositions(scene, settings, {plan.surfaces, plan.direct, plan.film}, &plan.hits, why);
-  NoteMaterials({scene, *materials, used}, !plan.direct.sampled_lights.empty(), &why->notes);
+  SurfacePlan surfaces =
+      PlanSurfaces(scene, settings, camera, ambient, materials, used, &prepared->tables, &why);
+  const bool sampled_lights = !lights.sampled.empty();
+  SamplingPlan sampling = PlanSampling(
+      scene, settings, sampler,
+      {sampled_lights, surfaces.textured, WhyEveryPixel(scene, settings, trace, lights, layers)},
+      &why);
+  AdaptivePlan adaptive =
+      PlanAdaptiveSampling(scene, settings, window, camera, trace.binned, surfaces, lights, &why);
+  const bool offset_origins = PlanShadowOrigins(scene, shapes, shadows, &why);
+  DirectPlan direct{shapes, std::move(lights), std::move(shadows), offset_origins};
+  ShadedMeshes meshes = ShadeMeshes(scene, settings, surfaces, direct, &why);
+  FilmPlan film = PlanFilm(scene, settings, layers, camera, direct.lights, sampler, &why);
+  HitArrays hit_arrays = PlanHitArrays(settings, trace, surfaces, direct, layers, &why);
+  NoteMaterials({scene, *materials, used}, sampled_lights, &why.notes);
   if (settings.max_error > 0) {
-    NoteNarrowLobes({scene, *materials, used}, settings.max_samples, &why->notes);
+    NoteNarrowLobes({scene, *materials, used}, settings.max_samples, &why.notes);
   }
-  return plan;
+  return {.scene = &scene,
+          .with_lights = std::move(with_lights),
+          .frame = frame,
+          .window = window,
+          .camera = camera,
+          .changed_settings = ChangedSettings(settings),
+          .sampling = std::move(sampling),
+          .hits = {shapes, std::move(trace), std::move(hit_arrays)},
+          .surfaces = std::move(surfaces),
+          .direct = std::move(direct),
+          .meshes = std::move(meshes),
+          .film = std::move(film),
+          .adaptive = std::move(adaptive),
+          .why = std::move(why)};
 }
 
 std::string ExplainPlan(const FramePlan& plan, const RenderStats* stats) {

@@ -6,12 +6,16 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "render/adaptive_plan.h"
 #include "render/direct_plan.h"
 #include "render/explanation.h"
 #include "render/film.h"
 #include "render/hits_plan.h"
+#include "render/mesh_shading.h"
 #include "render/prepared_scene.h"
 #include "render/samples.h"
 #include "render/settings.h"
@@ -20,22 +24,23 @@
 
 namespace nacre {
 
-// The plans of all stages. Comments name what each plan is made from; MakePlan makes them in an
-// order in which each finds what it needs.
+// The plans of all stages. MakePlan says what each is made from.
 struct FramePlan {
   const Scene* scene = nullptr;
   std::shared_ptr<const SceneWithLights> with_lights;  // owns `scene` if lights are visible
   Window frame;                                        // all pixels: 0, 0, width, height
   Window window;                                       // the pixels to render
   CameraFrame camera{};
-  FilmPlan film;          // layers, image settings, sampler, camera; sky and background of `direct`
-  HitsPlan hits;          // shapes, camera, image settings; shadows and readers of hits
-  SurfacePlan surfaces;   // materials, textures, ambient lights, shapes; camera for footprints
-  DirectPlan direct;      // lights, layers, shapes, camera; `hits` for shadows
-  SamplingPlan sampling;  // image settings; whether lights are sampled and materials textured
-  AdaptivePlan adaptive;  // max_error; all of the above
+  // What metadata says of the settings.
+  std::vector<std::pair<std::string_view, SettingValue>> changed_settings;
+  SamplingPlan sampling;
+  HitsPlan hits;
+  SurfacePlan surfaces;
+  DirectPlan direct;
+  ShadedMeshes meshes;
+  FilmPlan film;
+  AdaptivePlan adaptive;  // max_error is 0 without adaptive sampling
   Explanation why;        // of all stages
-  RenderStats planning;   // cost of shading vertices and triangles while the plan was made
 };
 
 // `scene` must be valid (scene/validate.h) and outlive the plan. Throws Error: usage for a layer or

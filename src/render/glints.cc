@@ -86,7 +86,7 @@ void AddGlint(const FramePlan& plan, const Projector& projector, const TileCandi
   if (!(depth > 0)) return;
   const FilmPoint peak = ProjectPoint(projector, place);
   const uint32_t material = MaterialAt(plan.surfaces, candidate.primitive, peak.x).index;
-  const double lobe = HalfVectorWidth(plan.surfaces, plan.adaptive, material);
+  const double lobe = HalfVectorWidth(plan.surfaces, plan.adaptive.highlights, material);
   if (lobe == kInfiniteDistance) return;
   // How fast the angle between the normal and the half vector grows per unit length on the sphere.
   // The normal turns by 1 / radius; the half vector turns the opposite way, because the directions
@@ -128,12 +128,12 @@ void AddGlints(const FramePlan& plan, const Projector& projector, const TileCand
   if (candidate.around_camera) return;
   const TraceSphere& sphere = candidate.sphere;
   if (!plan.surfaces.splits) {
-    const double width = HalfVectorWidth(plan.surfaces, plan.adaptive,
+    const double width = HalfVectorWidth(plan.surfaces, plan.adaptive.highlights,
                                          MaterialAt(plan.surfaces, candidate.primitive, 0).index);
-    if (width == kInfiniteDistance || (width == 0 && plan.direct.sampled_lights.empty())) return;
+    if (width == kInfiniteDistance || (width == 0 && plan.direct.lights.sampled.empty())) return;
     if (HasOnlyWideHighlights(projector, sphere, width, std::sqrt(max_area))) return;
   }
-  for (const HighlightLight& light : plan.adaptive.lights) {
+  for (const HighlightLight& light : plan.adaptive.highlights.lights) {
     AddGlint(plan, projector, candidate, light, max_area, glints);
   }
 }

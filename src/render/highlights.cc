@@ -63,9 +63,9 @@ void AddSuns(const ShadingSky& sky, std::vector<HighlightLight>* suns) {
 
 }  // namespace
 
-std::vector<HighlightLight> FindHighlightLights(const Scene& scene, const DirectPlan& direct) {
+std::vector<HighlightLight> FindHighlightLights(const Scene& scene, const LightsPlan& plan) {
   std::vector<HighlightLight> lights;
-  for (const PlannedPunctualLight& planned : direct.lights) {
+  for (const PlannedPunctualLight& planned : plan.punctual) {
     const auto& kind = scene.lights[planned.index].kind;
     if (const auto* sun = std::get_if<DirectionalLight>(&kind)) {
       lights.push_back({lights.size(), true, -sun->direction_of_travel.normalized(), 0});
@@ -76,7 +76,7 @@ std::vector<HighlightLight> FindHighlightLights(const Scene& scene, const Direct
     lights.push_back({lights.size(), false, position - scene.camera.position, 0});
   }
   size_t number = lights.size();
-  for (const PlannedSampledLight& planned : direct.sampled_lights) {
+  for (const PlannedSampledLight& planned : plan.sampled) {
     const SampledLight& light = planned.light;
     if (IsSky(light)) continue;
     const Vec3d diagonal = light.edge_x + light.edge_y;  // of rectangles
@@ -86,16 +86,16 @@ std::vector<HighlightLight> FindHighlightLights(const Scene& scene, const Direct
   return lights;
 }
 
-std::vector<HighlightLight> FindSuns(const DirectPlan& direct) {
+std::vector<HighlightLight> FindSuns(const std::vector<PlannedSampledLight>& lights) {
   std::vector<HighlightLight> suns;
-  for (const PlannedSampledLight& planned : direct.sampled_lights) {
+  for (const PlannedSampledLight& planned : lights) {
     const SampledLight& light = planned.light;
     if (light.form == SampledForm::kPictureSky) AddSuns(light.sky, &suns);
   }
   return suns;
 }
 
-double HalfVectorWidth(const SurfacePlan& surfaces, const AdaptivePlan& adaptive,
+double HalfVectorWidth(const SurfacePlan& surfaces, const HighlightCauses& causes,
                        uint32_t material) {
   const ShadingMaterial& prepared = surfaces.materials[material];
   if (HasDeltaLobe(prepared) || std::any_of(prepared.coats.begin(), prepared.coats.end(),
@@ -104,7 +104,7 @@ double HalfVectorWidth(const SurfacePlan& surfaces, const AdaptivePlan& adaptive
   }
   const auto* phong = std::get_if<PhongFamilyModel>(&prepared.model);
   const bool mirrored = phong != nullptr && phong->model != PhongModel::kBlinnPhong;
-  return adaptive.lobe_widths[material] * (mirrored ? 0.5 : 1);
+  return causes.lobe_widths[material] * (mirrored ? 0.5 : 1);
 }
 
 }  // namespace nacre

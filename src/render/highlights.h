@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "render/adaptive_plan.h"
-#include "render/direct_plan.h"
+#include "render/lights_plan.h"
 #include "render/surfaces.h"
 
 namespace nacre {
@@ -15,10 +15,10 @@ namespace nacre {
 inline constexpr double kInfiniteDistance = std::numeric_limits<double>::infinity();
 
 // All lights except ambient ones and skies.
-std::vector<HighlightLight> FindHighlightLights(const Scene& scene, const DirectPlan& direct);
+std::vector<HighlightLight> FindHighlightLights(const Scene& scene, const LightsPlan& plan);
 
 // The suns of skies that are pictures: their brightest small parts, at most four of each.
-std::vector<HighlightLight> FindSuns(const DirectPlan& direct);
+std::vector<HighlightLight> FindSuns(const std::vector<PlannedSampledLight>& lights);
 
 // How far the extent of the light, seen from this distance, turns the half vector, in radians.
 inline double HalfVectorTurn(const HighlightLight& light, double distance) {
@@ -28,7 +28,7 @@ inline double HalfVectorTurn(const HighlightLight& light, double distance) {
 // The half-width of the material's narrowest lobe, in radians of the angle between normal and half
 // vector; infinite if there is no lobe. A Phong lobe is defined around the mirror direction, which
 // turns twice as fast as the normal.
-double HalfVectorWidth(const SurfacePlan& surfaces, const AdaptivePlan& adaptive,
+double HalfVectorWidth(const SurfacePlan& surfaces, const HighlightCauses& causes,
                        uint32_t material);
 
 }  // namespace nacre

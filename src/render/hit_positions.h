@@ -9,15 +9,9 @@
 
 namespace nacre {
 
-// The stages that read hits after they are found.
-struct HitReaders {
-  const SurfacePlan& surfaces;
-  const DirectPlan& direct;
-  const FilmPlan& film;
-};
-
-// Sets which optional arrays hits have: `exact_directions`, `all_positions`, `may_be_shadowed`.
-void PlanPositions(const Scene& scene, const RenderSettings& settings, const HitReaders& readers,
-                   HitsPlan* plan, Explanation* why);
+// `direct` and `layers` are what reads the hits of the surfaces.
+HitArrays PlanHitArrays(const RenderSettings& settings, const TracePlan& trace,
+                        const SurfacePlan& surfaces, const DirectPlan& direct,
+                        const std::vector<Layer>& layers, Explanation* why);
 
 }  // namespace nacre

@@ -27,8 +27,8 @@ RayDepth DepthOf(const RayBatch& rays, size_t ray, const Vec3d& position) {
 void TraceByTree(const HitsPlan& plan, const FilmBatch& film, bool positions, TraceRoom* room,
                  CameraHits* hits) {
   RayBatch& rays = room->rays;
-  MakeCameraRays(plan.camera, film.x.data(), film.y.data(), film.count, &rays);
-  plan.intersector->Closest(rays, &room->closest);
+  MakeCameraRays(plan.shapes.camera, film.x.data(), film.y.data(), film.count, &rays);
+  plan.shapes.intersector->Closest(rays, &room->closest);
   size_t count = 0;
   for (size_t ray = 0; ray < rays.count; ++ray) {
     if (room->closest.primitive[ray] == kNoPrimitive) continue;
@@ -36,15 +36,16 @@ void TraceByTree(const HitsPlan& plan, const FilmBatch& film, bool positions, Tr
   }
   hits->batch.count = 0;
   if (count == 0) return;
-  plan.intersector->Refine(rays, room->closest, room->hit_rays.data(), count,
-                           {&hits->batch, &hits->directions, plan.exact_directions, positions});
+  plan.shapes.intersector->Refine(
+      rays, room->closest, room->hit_rays.data(), count,
+      {&hits->batch, &hits->directions, plan.arrays.exact_directions, positions});
 }
 
 // Finds the nearest triangles in front of the hits on spheres, or behind them by no more than the
 // rounding error.
 void FindNearerTriangles(const HitsPlan& plan, const FilmBatch& film, const HitBatch& on_spheres,
                          TraceRoom* room) {
-  MakeCameraRays(plan.camera, film.x.data(), film.y.data(), film.count, &room->rays);
+  MakeCameraRays(plan.shapes.camera, film.x.data(), film.y.data(), film.count, &room->rays);
   std::fill(room->closest.t.begin(), room->closest.t.end(),
             std::numeric_limits<double>::infinity());
   for (size_t i = 0; i < on_spheres.count; ++i) {
@@ -52,7 +53,7 @@ void FindNearerTriangles(const HitsPlan& plan, const FilmBatch& film, const HitB
     const RayDepth depth = DepthOf(room->rays, ray, VectorAt(on_spheres.position, i));
     room->closest.t[ray] = depth.t + depth.error;
   }
-  plan.intersector->NearerTriangles(room->rays, &room->closest);
+  plan.shapes.intersector->NearerTriangles(room->rays, &room->closest);
 }
 
 // Whether hit i on a sphere is in front of the triangle that its ray hits at t, or at the same
@@ -63,7 +64,7 @@ bool SphereHitIsFirst(const HitsPlan& plan, const RayBatch& rays, const HitBatch
   const size_t ray = on_spheres.ray[i];
   const RayDepth depth = DepthOf(rays, ray, VectorAt(on_spheres.position, i));
   if (t < depth.t - depth.error) return false;
-  return plan.intersector->SphereIsFirst(on_spheres.primitive[i], rays, ray, t);
+  return plan.shapes.intersector->SphereIsFirst(on_spheres.primitive[i], rays, ray, t);
 }
 
 template <class T>
@@ -91,7 +92,7 @@ void JoinHits(const HitsPlan& plan, TraceRoom::Triangles* triangles, CameraHits*
   CameraHits& to = triangles->joined;
   size_t i = 0, j = 0, count = 0;
   const auto put = [&](const CameraHits& from, size_t k) {
-    CopyHit(from, k, plan.exact_directions, count++, &to);
+    CopyHit(from, k, plan.arrays.exact_directions, count++, &to);
   };
   while (i < spheres.count || j < on_triangles.batch.count) {
     if (i < spheres.count && triangles->hides_sphere[i] != 0) {
@@ -106,7 +107,7 @@ void JoinHits(const HitsPlan& plan, TraceRoom::Triangles* triangles, CameraHits*
   to.batch.count = count;
   to.batch.one_primitive = false;
   for (size_t k = count; k < RoundUp(count, kBatchPadding); ++k) {
-    CopyHit(to, count - 1, plan.exact_directions, k, &to);
+    CopyHit(to, count - 1, plan.arrays.exact_directions, k, &to);
   }
   std::swap(hits->batch, to.batch);
   std::swap(hits->directions, to.directions);
@@ -128,9 +129,9 @@ void AddTriangles(const HitsPlan& plan, const FilmBatch& film, TraceRoom* room, 
     if (on_sphere) triangles.hides_sphere[i++] = on_triangle ? 1 : 0;
   }
   if (count == 0) return;
-  plan.intersector->Refine(
+  plan.shapes.intersector->Refine(
       room->rays, room->closest, room->hit_rays.data(), count,
-      {&triangles.hits.batch, &triangles.hits.directions, plan.exact_directions});
+      {&triangles.hits.batch, &triangles.hits.directions, plan.arrays.exact_directions});
   JoinHits(plan, &triangles, hits);
 }
 
@@ -140,12 +141,12 @@ void TraceCamera(const HitsPlan& plan, const TileShapes& shapes, const FilmBatch
                  TraceRoom* room, CameraHits* hits) {
   hits->batch.count = 0;
   hits->has_positions = shapes.positions;
-  hits->has_exact_directions = plan.exact_directions;
+  hits->has_exact_directions = plan.arrays.exact_directions;
   if (!shapes.any) return;
-  if (!plan.trace_by_bins) return TraceByTree(plan, film, shapes.positions, room, hits);
-  plan.intersector->HitsInTile(
+  if (!plan.trace.by_bins) return TraceByTree(plan, film, shapes.positions, room, hits);
+  plan.shapes.intersector->HitsInTile(
       shapes.spheres, film,
-      {&hits->batch, &hits->directions, plan.exact_directions, shapes.positions});
+      {&hits->batch, &hits->directions, plan.arrays.exact_directions, shapes.positions});
   if (shapes.triangles) AddTriangles(plan, film, room, hits);
 }
 

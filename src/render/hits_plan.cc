@@ -73,6 +73,16 @@ ViewKey KeyOfSurfaces(const Scene& scene, const PreparedScene& prepared) {
   return key;
 }
 
+// A key of results that also depend on the view: the intersector itself depends only on the shapes.
+ViewKey KeyOfView(const PreparedScene& prepared, uint64_t made, std::vector<double> numbers) {
+  return ViewKey{made, prepared.versions.Of(ScenePart::kCamera | ScenePart::kImage),
+                 std::move(numbers)};
+}
+
+void Report(const RenderSettings& settings, double done) {
+  if (settings.on_plan_progress) settings.on_plan_progress(done);
+}
+
 // Returns the intersector of an earlier plan where that can follow the camera, or a few spheres
 // that have changed; else a new one.
 std::shared_ptr<Intersector> FindIntersector(const Scene& scene, const RenderSettings& settings,
@@ -107,38 +117,39 @@ std::shared_ptr<Intersector> FindIntersector(const Scene& scene, const RenderSet
 
 }  // namespace
 
-HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Window& window,
-                  const CameraFrame& camera, const PixelSampler& sampler, PreparedScene* prepared,
-                  Explanation* why) {
-  HitsPlan plan;
-  plan.primitives = NumberPrimitives(scene);
-  plan.camera = camera;
-  if (scene.spheres.empty() && CountTriangles(scene) == 0) {
+TracedShapes PrepareShapes(const Scene& scene, const RenderSettings& settings,
+                           const CameraFrame& camera, PreparedScene* prepared) {
+  TracedShapes shapes;
+  shapes.primitives = NumberPrimitives(scene);
+  shapes.camera = camera;
+  shapes.camera_extent = SumOfAbs(scene.camera.position);
+  if (scene.spheres.empty() && CountTriangles(scene) == 0) return shapes;
+  shapes.eye_outside =
+      prepared->eye_outside.Get(KeyOfView(*prepared, prepared->shapes_made, {}),
+                                [&] { return EyeIsOutside(scene, settings.threads); });
+  shapes.intersector = FindIntersector(scene, settings, prepared);
+  Report(settings, 0.15);
+  return shapes;
+}
+
+TracePlan PlanTrace(const Scene& scene, const RenderSettings& settings, const TracedShapes& shapes,
+                    const Window& window, const PixelSampler& sampler, PreparedScene* prepared,
+                    Explanation* why) {
+  TracePlan plan;
+  if (shapes.intersector == nullptr) {
     why->items.push_back(
         {"intersector", false, "the scene has no shapes: every pixel is background"});
     return plan;
   }
-  const auto report = [&](double done) {
-    if (settings.on_plan_progress) settings.on_plan_progress(done);
-  };
-  // A key of results that also depend on the view: the intersector itself depends only on the
-  // shapes.
-  const auto view = [&](uint64_t made, std::vector<double> numbers) {
-    return ViewKey{made, prepared->versions.Of(ScenePart::kCamera | ScenePart::kImage),
-                   std::move(numbers)};
-  };
-  const ViewKey of_shapes = view(prepared->shapes_made, {});
-  plan.eye_outside =
-      prepared->eye_outside.Get(of_shapes, [&] { return EyeIsOutside(scene, settings.threads); });
-  plan.intersector = FindIntersector(scene, settings, prepared);
-  const bool nested = plan.intersector->SpheresAreNested();
+  const CameraFrame& camera = shapes.camera;
+  const bool nested = shapes.intersector->SpheresAreNested();
   const char* const tree_asked_for = TreeAskedFor(settings.intersector);
   const bool may_tile = tree_asked_for == nullptr && !scene.spheres.empty() && !nested;
-  report(0.15);
   const double sample_margin = std::max(scene.image.filter.width / 2 - 0.5, 0.0);
   const bool adaptive = settings.max_error > 0;
-  plan.mesh_windows = prepared->mesh_windows.Get(
-      of_shapes, [&] { return FindMeshWindows(scene, camera, sample_margin); });
+  plan.mesh_windows =
+      prepared->mesh_windows.Get(KeyOfView(*prepared, prepared->shapes_made, {}),
+                                 [&] { return FindMeshWindows(scene, camera, sample_margin); });
   plan.tile_rays = adaptive ? TileRays::kAny : TileRays::kSamples;
   // Adaptive sampling reads footprints and outlines from the bins even if a BVH traces the rays,
   // because bits must not depend on the intersector. It bins the whole frame, because they must not
@@ -148,9 +159,9 @@ HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Wind
   const bool centers = sampler.centered && !adaptive;
   const double margin = centers ? kPixelCenterMargin : sample_margin;
   const ViewKey bins =
-      view(prepared->intersectors_made,
-           {static_cast<double>(binned.x0), static_cast<double>(binned.y0),
-            static_cast<double>(binned.x1), static_cast<double>(binned.y1), margin});
+      KeyOfView(*prepared, prepared->intersectors_made,
+                {static_cast<double>(binned.x0), static_cast<double>(binned.y0),
+                 static_cast<double>(binned.x1), static_cast<double>(binned.y1), margin});
   CameraWork work;
   bool tree_pays_off = false;
   if (may_tile && !adaptive && settings.intersector == IntersectorChoice::kAuto &&
@@ -158,17 +169,17 @@ HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Wind
     work = EstimateCameraWork(scene, camera, window);
     work.to_bin = !prepared->camera_bins.IsUpToDate(bins);
     double& lost = prepared->lost_to_tiles.Get({prepared->shapes_made, {}, {}}, [] { return 0.0; });
-    tree_pays_off = TreePaysOff(work, plan.intersector->HasTree(), &lost);
+    tree_pays_off = TreePaysOff(work, shapes.intersector->HasTree(), &lost);
   }
   const bool want_tiles = may_tile && !tree_pays_off;
   if (want_tiles || adaptive) {
     plan.binned = prepared->camera_bins.Get(
-        bins, [&] { return plan.intersector->BinForCamera(camera, binned, margin); });
-    plan.trace_by_bins = want_tiles && plan.binned;
+        bins, [&] { return shapes.intersector->BinForCamera(camera, binned, margin); });
+    plan.by_bins = want_tiles && plan.binned;
   }
   why->items.push_back(
-      {"intersector tiles, for camera rays", plan.trace_by_bins,
-       plan.trace_by_bins ? "spheres binned to 16x16 pixels need no tree: " + DescribeShapes(scene)
+      {"intersector tiles, for camera rays", plan.by_bins,
+       plan.by_bins ? "spheres binned to 16x16 pixels need no tree: " + DescribeShapes(scene)
        : tree_pays_off
            ? fmt::format("a ray passes about {:.3g} spheres: in such a cloud a tree is faster",
                          work.depth)
@@ -176,22 +187,23 @@ HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Wind
        : scene.spheres.empty() ? "there are no spheres"
        : nested                ? kNestedSpheres
                                : tree_asked_for});
-  report(0.4);
+  Report(settings, 0.4);
   return plan;
 }
 
-void BuildTrees(bool for_shadows, const RenderSettings& settings, HitsPlan* plan,
-                Explanation* why) {
-  if (plan->intersector == nullptr) return;
-  const Scene& scene = *plan->primitives.scene;
-  const bool triangles_apart = plan->trace_by_bins && CountTriangles(scene) > 0;
-  if (!plan->trace_by_bins || for_shadows) plan->intersector->BuildTree(settings.cancel);
-  if (triangles_apart) plan->intersector->BuildTriangleTree(settings.cancel);
-  const bool used = !plan->trace_by_bins || triangles_apart || for_shadows;
-  const char* const kind = !plan->intersector->HasShells() ? "Embree's, "
+void BuildTrees(const TracedShapes& shapes, const TracePlan& trace, bool for_shadows,
+                const RenderSettings& settings, Explanation* why) {
+  Intersector* const intersector = shapes.intersector.get();
+  if (intersector == nullptr) return;
+  const Scene& scene = *shapes.primitives.scene;
+  const bool triangles_apart = trace.by_bins && CountTriangles(scene) > 0;
+  if (!trace.by_bins || for_shadows) intersector->BuildTree(settings.cancel);
+  if (triangles_apart) intersector->BuildTriangleTree(settings.cancel);
+  const bool used = !trace.by_bins || triangles_apart || for_shadows;
+  const char* const kind = !intersector->HasShells()   ? "Embree's, "
                            : CountTriangles(scene) > 0 ? "of shells, Embree's of the triangles, "
                                                        : "of shells, ";
-  const std::string use = !plan->trace_by_bins ? "for all rays: " + DescribeShapes(scene)
+  const std::string use = !trace.by_bins ? "for all rays: " + DescribeShapes(scene)
                           : triangles_apart && for_shadows
                               ? "for camera rays to triangles, and for shadow rays"
                           : triangles_apart ? "for camera rays to triangles"

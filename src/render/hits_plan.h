@@ -18,34 +18,53 @@
 
 namespace nacre {
 
-struct HitsPlan {
+// The scene's shapes, and what finds those that rays hit: camera rays and shadow rays.
+struct TracedShapes {
   PrimitiveNumbers primitives;
   CameraFrame camera{};
+  double camera_extent = 0;                  // ShadowRayBatch::camera_extent
   std::shared_ptr<Intersector> intersector;  // null: there is nothing to hit
-  std::vector<Window> mesh_windows;          // where in the frame meshes may be visible
-  bool binned = false;                       // spheres are binned for camera rays
-  bool trace_by_bins = false;                // camera rays use these bins, not a BVH
+  bool eye_outside = false;                  // no camera ray starts inside a sphere
+};
+
+// How camera rays find the shapes.
+struct TracePlan {
+  std::vector<Window> mesh_windows;  // where in the frame meshes may be visible
+  bool binned = false;               // spheres are binned for camera rays
+  bool by_bins = false;              // camera rays use these bins, not a BVH
   TileRays tile_rays = TileRays::kSamples;
-  bool eye_outside = false;       // no camera ray starts inside a sphere
-  bool exact_directions = false;  // hits have HitBatch::normal and HitBatch::to_view
+};
+
+// Which optional arrays hits have (hit_positions.h).
+struct HitArrays {
+  bool exact_directions = false;  // HitBatch::normal and HitBatch::to_view
   // Whether all hits have positions. Otherwise only the hits of tiles that show a sphere with
   // may_be_shadowed have them.
   bool all_positions = true;
   std::vector<uint8_t> may_be_shadowed;  // by sphere
 };
 
+struct HitsPlan {
+  TracedShapes shapes;
+  TracePlan trace;
+  HitArrays arrays;
+};
+
 // The reason to use a BVH if Intersector::SpheresAreNested.
 inline constexpr char kNestedSpheres[] =
     "many spheres lie within one another, where a tree of shells is faster";
 
-// Makes the intersector and the bins for camera rays, but no BVH. `window` holds the pixels of the
-// frame that are rendered.
-HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Window& window,
-                  const CameraFrame& camera, const PixelSampler& sampler, PreparedScene* prepared,
-                  Explanation* why);
+// Makes the intersector, or changes that of an earlier plan, but builds no BVH.
+TracedShapes PrepareShapes(const Scene& scene, const RenderSettings& settings,
+                           const CameraFrame& camera, PreparedScene* prepared);
 
-// Afterwards builds the BVHs that camera rays need and, if `for_shadows`, those that shadow rays
-// need.
-void BuildTrees(bool for_shadows, const RenderSettings& settings, HitsPlan* plan, Explanation* why);
+// Makes the bins for camera rays. `window` holds the pixels of the frame that are rendered.
+TracePlan PlanTrace(const Scene& scene, const RenderSettings& settings, const TracedShapes& shapes,
+                    const Window& window, const PixelSampler& sampler, PreparedScene* prepared,
+                    Explanation* why);
+
+// Builds the BVHs that camera rays need and, if `for_shadows`, those that shadow rays need.
+void BuildTrees(const TracedShapes& shapes, const TracePlan& trace, bool for_shadows,
+                const RenderSettings& settings, Explanation* why);
 
 }  // namespace nacre

@@ -142,8 +142,8 @@ bool IsNearWindow(const Projector& projector, const std::array<Vec3d, 3>& corner
 
 class GlintFinder {
  public:
-  GlintFinder(const SurfacePlan& surfaces, const AdaptivePlan& adaptive, const CameraFrame& camera)
-      : surfaces_(surfaces), adaptive_(adaptive), projector_(MakeProjector(camera)) {}
+  GlintFinder(const SurfacePlan& surfaces, const HighlightCauses& causes, const CameraFrame& camera)
+      : surfaces_(surfaces), causes_(causes), projector_(MakeProjector(camera)) {}
 
   void Find(const TriangleRef& triangle, uint32_t primitive, const Window& window, double margin,
             double max_area, std::vector<Glint>* glints) const {
@@ -156,7 +156,7 @@ class GlintFinder {
     if (!IsNearWindow(projector_, t.corners, window, margin)) return;
     const Vec3d middle = Interpolate(t.corners, {1.0 / 3, 1.0 / 3});
     t.material = MaterialAt(surfaces_, primitive, ProjectPoint(projector_, middle).x).index;
-    t.lobe = HalfVectorWidth(surfaces_, adaptive_, t.material);
+    t.lobe = HalfVectorWidth(surfaces_, causes_, t.material);
     if (t.lobe == kInfiniteDistance) return;
     Vec3d face = FaceNormal(*triangle.mesh, triangle.triangle);
     if (face.dot(projector_.perspective ? middle : projector_.forward) > 0) face = -face;
@@ -168,7 +168,7 @@ class GlintFinder {
     }
     const Vec3d mean = Interpolate(t.normals, {1.0 / 3, 1.0 / 3}).normalized();
     for (const Vec3d& normal : t.normals) turn = std::max(turn, (normal - mean).length());
-    for (const HighlightLight& light : adaptive_.lights) {
+    for (const HighlightLight& light : causes_.lights) {
       if (t.lobe == 0 && light.radius == 0) continue;
       if (MayHavePeak(projector_, t, light, turn)) Add(t, light, max_area, glints);
     }
@@ -213,20 +213,20 @@ class GlintFinder {
   }
 
   const SurfacePlan& surfaces_;
-  const AdaptivePlan& adaptive_;
+  const HighlightCauses& causes_;
   Projector projector_;
 };
 
 }  // namespace
 
 std::vector<Glint> FindMeshGlints(const Scene& scene, const SurfacePlan& surfaces,
-                                  const AdaptivePlan& adaptive, const CameraFrame& camera,
+                                  const HighlightCauses& causes, const CameraFrame& camera,
                                   const Window& window, double margin, double max_area,
                                   int threads) {
   constexpr size_t kAtOnce = 1 << 14;
   std::vector<Glint> glints;
-  if (adaptive.lights.empty()) return glints;
-  const GlintFinder finder(surfaces, adaptive, camera);
+  if (causes.lights.empty()) return glints;
+  const GlintFinder finder(surfaces, causes, camera);
   auto first = static_cast<uint32_t>(scene.spheres.size());
   for (size_t number = 0; number < scene.meshes.size(); ++number) {
     const Mesh& mesh = scene.meshes[number];

@@ -56,21 +56,22 @@ void ForEachArray(BatchRadiance* radiance, const Set& set) {
   }
 }
 
-void InterpolateHit(const DirectBatch& batch, const TriangleRef& triangle,
-                    const MeshRadiance& radiance, size_t hit) {
+void InterpolateHit(const TracedShapes& shapes, const TriangleRef& triangle,
+                    const MeshRadiance& radiance, const Vec3d& position, size_t hit,
+                    BatchRadiance* result) {
   if (triangle.mesh->interpolation == Interpolation::kFlat) {
-    ForEachArray(&batch.radiance, [&](const auto& value, Soa3<float>* to) {
+    ForEachArray(result, [&](const auto& value, Soa3<float>* to) {
       SetVector(value(radiance.sides[0], triangle.triangle), hit, to);
     });
     return;
   }
-  const Corners corners = CornersOf(*batch.plan.primitives.scene, triangle);
-  const Vec3d normal = VisibleNormal(batch.plan.camera, triangle, corners);
+  const Corners corners = CornersOf(*shapes.primitives.scene, triangle);
+  const Vec3d normal = VisibleNormal(shapes.camera, triangle, corners);
   const std::array<uint32_t, 3> sides = {SideOf(triangle, 0, normal), SideOf(triangle, 1, normal),
                                          SideOf(triangle, 2, normal)};
-  const Vec3d weights = BarycentricsAt(corners, VectorAt(batch.hits().position, hit));
+  const Vec3d weights = BarycentricsAt(corners, position);
   const CornerInterpolator interpolator(triangle, radiance, sides, weights);
-  ForEachArray(&batch.radiance, [&](const auto& value, Soa3<float>* to) {
+  ForEachArray(result, [&](const auto& value, Soa3<float>* to) {
     SetVector(interpolator.At(value), hit, to);
   });
 }
@@ -86,20 +87,21 @@ Vec3d VisibleNormal(const CameraFrame& camera, const TriangleRef& triangle,
   return FaceNormal(*triangle.mesh, triangle.triangle) * VisibleSide(camera, corners);
 }
 
-void InterpolateRadiance(const DirectBatch& batch) {
-  for (const MaterialRun& run : batch.surfaces.runs) {
+void InterpolateRadiance(const TracedShapes& shapes, const RadianceOfMeshes& meshes,
+                         const Surfaces& surfaces, BatchRadiance* radiance) {
+  for (const MaterialRun& run : surfaces.runs) {
     if (!run.interpolated) continue;
     for (size_t hit = run.begin; hit < run.end; ++hit) {
-      const TriangleRef triangle = TriangleOf(batch.plan.primitives, batch.hits().primitive[hit]);
-      const std::vector<MeshRadiance>& sets = batch.plan.mesh_radiance[triangle.number];
+      const TriangleRef triangle = TriangleOf(shapes.primitives, surfaces.hits.primitive[hit]);
+      const std::vector<MeshRadiance>& sets = meshes[triangle.number];
       const auto found = std::find_if(sets.begin(), sets.end(), [&](const MeshRadiance& set) {
         return set.material == run.material;
       });
       if (found != sets.end()) {
-        InterpolateHit(batch, triangle, *found, hit);
+        InterpolateHit(shapes, triangle, *found, VectorAt(surfaces.hits.position, hit), hit,
+                       radiance);
       } else {  // SurfacePlan::black: the back of a material that emits in front only
-        ForEachArray(&batch.radiance,
-                     [&](const auto&, Soa3<float>* to) { SetVector(Vec3d(0), hit, to); });
+        ForEachArray(radiance, [&](const auto&, Soa3<float>* to) { SetVector(Vec3d(0), hit, to); });
       }
     }
   }

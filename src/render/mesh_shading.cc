@@ -12,7 +12,6 @@
 #include "base/parallel.h"
 #include "hit/shading_normal.h"
 #include "render/direct.h"
-#include "render/mesh_radiance.h"
 #include "sampling/hash.h"
 
 namespace nacre {
@@ -109,8 +108,8 @@ void AddTo(const Soa3<float>& from, std::vector<Vec3d>* sums) {
 }
 
 // How often each point is shaded: as often as a pixel if there are sampled lights, else once.
-int SamplesOf(const DirectPlan& plan) {
-  return plan.sampled_lights.empty() ? 1 : static_cast<int>(plan.pairs.samples);
+int SamplesOf(const LightsPlan& plan) {
+  return plan.sampled.empty() ? 1 : static_cast<int>(plan.pairs.samples);
 }
 
 void NumberPoints(const Point* points, size_t count, int sample, SampleNumbers* numbers) {
@@ -141,11 +140,11 @@ void ShadePoints(const MeshShading& plans, const Point* points, size_t count, Me
   StageClock clock(nullptr);
   Surfaces& surfaces = room->surfaces;
   const BatchRadiance& radiance = room->radiance;
-  MakeHits(plans.direct.camera, points, count, &surfaces);
+  MakeHits(plans.direct.shapes.camera, points, count, &surfaces);
   surfaces.runs = {{to->material, &plans.surfaces.materials[to->material.index], 0, count, false}};
   PrepareSurfaces(plans.surfaces, &surfaces);
-  Sums sums(count, plans.direct.light_layer_count);
-  const int samples = SamplesOf(plans.direct);
+  Sums sums(count, plans.direct.lights.light_layer_count);
+  const int samples = SamplesOf(plans.direct.lights);
   for (int k = 0; k < samples; ++k) {
     NumberPoints(points, count, k, &room->numbers);
     ShadeDirect({plans.direct, surfaces, room->direct, room->radiance, clock, *stats},
@@ -177,7 +176,7 @@ MeshRadiance ShadeMesh(const MeshShading& plans, const RenderSettings& settings,
     SideRadiance& seen = radiance.sides[side];
     seen.diffuse.resize(size);
     seen.specular.resize(size);
-    seen.lights.assign(plans.direct.light_layer_count, std::vector<Vec3f>(size));
+    seen.lights.assign(plans.direct.lights.light_layer_count, std::vector<Vec3f>(size));
   }
   // A task takes several batches, because its buffers take longer to make than a batch to shade.
   constexpr size_t kTask = 16 * kBatchCapacity;
@@ -203,23 +202,26 @@ std::vector<MaterialId> MaterialsOf(const Scene& scene, const Mesh& mesh) {
 
 }  // namespace
 
-RenderStats ShadeMeshes(const Scene& scene, const RenderSettings& settings,
-                        const SurfacePlan& surfaces, DirectPlan* plan, Explanation* why) {
-  std::vector<std::vector<MeshRadiance>> all(scene.meshes.size());
-  RenderStats stats;
+ShadedMeshes ShadeMeshes(const Scene& scene, const RenderSettings& settings,
+                         const SurfacePlan& surfaces, const DirectPlan& direct, Explanation* why) {
+  const TracedShapes& shapes = direct.shapes;
+  if (scene.meshes.empty() || shapes.intersector == nullptr) return {};
+  ShadedMeshes shaded;
+  shaded.radiance.resize(scene.meshes.size());
   size_t vertices = 0, triangles = 0;
   for (size_t i = 0; i < scene.meshes.size(); ++i) {
     const Mesh& mesh = scene.meshes[i];
     const bool flat = mesh.interpolation == Interpolation::kFlat;
     if (!flat && mesh.interpolation != Interpolation::kGouraud) continue;
     const auto first =
-        static_cast<uint32_t>(scene.spheres.size()) + plan->primitives.mesh_first_triangle[i];
-    const std::vector<Point> points = flat ? FlatPoints(scene, plan->camera, i, first)
-                                           : VertexPoints(scene, plan->camera, i, first);
+        static_cast<uint32_t>(scene.spheres.size()) + shapes.primitives.mesh_first_triangle[i];
+    const std::vector<Point> points = flat ? FlatPoints(scene, shapes.camera, i, first)
+                                           : VertexPoints(scene, shapes.camera, i, first);
     const size_t size = flat ? mesh.triangles.size() / 3 : mesh.positions.size();
     (flat ? triangles : vertices) += points.size();
     for (const MaterialId material : MaterialsOf(scene, mesh)) {
-      all[i].push_back(ShadeMesh({surfaces, *plan}, settings, points, size, material, &stats));
+      shaded.radiance[i].push_back(
+          ShadeMesh({surfaces, direct}, settings, points, size, material, &shaded.stats));
     }
   }
   const bool any = vertices + triangles > 0;
@@ -227,8 +229,8 @@ RenderStats ShadeMeshes(const Scene& scene, const RenderSettings& settings,
       {"shading of vertices and triangles", any,
        any ? fmt::format("{} vertices and {} triangles were shaded once", vertices, triangles)
            : "no mesh is interpolated by Gouraud's method, or flat"});
-  if (any) plan->mesh_radiance = std::move(all);
-  return stats;
+  if (!any) shaded.radiance.clear();
+  return shaded;
 }
 
 }  // namespace nacre

@@ -4,14 +4,18 @@
 #pragma once
 
 #include "render/direct_plan.h"
+#include "render/mesh_radiance.h"
 #include "render/stats.h"
 #include "render/surfaces.h"
 
 namespace nacre {
 
-// Fills plan->mesh_radiance. All other members of the plan must be set. Returns the counts of
-// lights and rays of this shading, which belong to the frame's.
-RenderStats ShadeMeshes(const Scene& scene, const RenderSettings& settings,
-                        const SurfacePlan& surfaces, DirectPlan* plan, Explanation* why);
+struct ShadedMeshes {
+  RadianceOfMeshes radiance;
+  RenderStats stats;  // of this shading: lights and rays, which belong to the frame's
+};
+
+ShadedMeshes ShadeMeshes(const Scene& scene, const RenderSettings& settings,
+                         const SurfacePlan& surfaces, const DirectPlan& direct, Explanation* why);
 
 }  // namespace nacre

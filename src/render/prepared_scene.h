@@ -15,8 +15,8 @@
 #include "base/vec.h"
 #include "render/prepared_materials.h"
 #include "scene/hash.h"
-#include "scene/light_shapes.h"
 #include "scene/parts.h"
+#include "scene/scene_with_lights.h"
 #include "shading/kept_tables.h"
 #include "visibility/intersector.h"
 

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "render/evidence.h"
 #include "render/filter_shares.h"
 #include "render/glints.h"
 #include "render/interval.h"
@@ -133,10 +132,10 @@ void AddShares(const PixelFilter& filter, const Window& cell, const SmallFeature
 
 }  // namespace
 
-void FindRareFeatures(const FramePlan& plan, const Window& cell, TileWork* work, CellState* c,
-                      StageClock* clock, RenderStats* stats) {
-  std::fill_n(c->rare_samples, kCellPixels, 0.0);
-  std::fill_n(c->rare_radiance, kCellPixels, 0.0);
+void FindRareFeatures(const FramePlan& plan, const Window& cell, const CellDust& dust,
+                      TileWork* work, KnownFeatures* known, StageClock* clock, RenderStats* stats) {
+  std::fill_n(known->samples, kCellPixels, 0.0);
+  std::fill_n(known->radiance, kCellPixels, 0.0);
   const TileCandidates& candidates = work->shapes.spheres;
   const Projector projector = MakeProjector(plan.camera);
   std::vector<SmallFeature> features;
@@ -157,15 +156,15 @@ void FindRareFeatures(const FramePlan& plan, const Window& cell, TileWork* work,
       const double share = shares.samples[at.y - cell.y0][at.x - cell.x0];
       const double radiance = shares.radiance[at.y - cell.y0][at.x - cell.x0];
       if (share == 0 || radiance * 2 <= least_tolerance) continue;
-      c->rare_samples[pixel] =
-          std::max(c->rare_samples[pixel], kExpectedHits * c->sampled_share[pixel] / share);
-      c->rare_radiance[pixel] += radiance;
+      known->samples[pixel] =
+          std::max(known->samples[pixel], kExpectedHits * dust.sampled_share[pixel] / share);
+      known->radiance[pixel] += radiance;
     }
   }
-  c->rare_parts.clear();
-  FindRareTriangles(plan, cell, work, c, clock, stats);
-  FindRareTexels(plan, cell, work, c, clock, stats);
-  std::stable_sort(c->rare_parts.begin(), c->rare_parts.end(),
+  known->parts.clear();
+  FindRareTriangles(plan, cell, work, &known->parts, clock, stats);
+  FindRareTexels(plan, cell, work, known, clock, stats);
+  std::stable_sort(known->parts.begin(), known->parts.end(),
                    [](const auto& a, const auto& b) { return a.pixel < b.pixel; });
 }
 

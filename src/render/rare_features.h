@@ -4,13 +4,13 @@
 // highlights (glints.h, mesh_glints.h) that are smaller than a pixel.
 #pragma once
 
-#include "render/cell_state.h"
+#include "render/evidence.h"
 
 namespace nacre {
 
-// Sets cell_scratch->rare_samples, rare_radiance and rare_parts. Reads the cell's spheres,
-// work->shapes.spheres. Traces rays to measure the radiance of highlights and triangles.
-void FindRareFeatures(const FramePlan& plan, const Window& cell, TileWork* work,
-                      CellState* cell_scratch, StageClock* clock, RenderStats* stats);
+// Reads the cell's spheres, work->shapes.spheres. Traces rays to measure the radiance of highlights
+// and triangles.
+void FindRareFeatures(const FramePlan& plan, const Window& cell, const CellDust& dust,
+                      TileWork* work, KnownFeatures* known, StageClock* clock, RenderStats* stats);
 
 }  // namespace nacre

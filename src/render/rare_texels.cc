@@ -242,7 +242,7 @@ class TexelFinder {
 
   // Searches the sky that the pixel shows.
   void SearchSky(int x, int y) {
-    const ShadingSky& sky = plan_.direct.sampled_lights[*plan_.direct.sky].light.sky;
+    const ShadingSky& sky = plan_.direct.lights.sampled[*plan_.direct.lights.sky].light.sky;
     const auto on_map = [&](double dx, double dy) {
       const Vec3d to = RayThrough(plan_.camera, x + 0.5 + dx, y + 0.5 + dy).direction;
       const auto [u, v] =
@@ -298,7 +298,7 @@ class TexelFinder {
       if (!(middle.z > 0 && width > 0)) return;
       lobes_.push_back({middle, (ideal(1) - middle) / kStep, (ideal(2) - middle) / kStep, width});
     };
-    for (const HighlightLight& light : plan_.adaptive.lights) add_lobe(light);
+    for (const HighlightLight& light : plan_.adaptive.highlights.lights) add_lobe(light);
     for (const HighlightLight& sun : maps_.suns) add_lobe(sun);
   }
 
@@ -400,9 +400,9 @@ std::vector<FoundTexels> SearchPixels(const FramePlan& plan, const Window& windo
 
 }  // namespace
 
-void FindRareTexels(const FramePlan& plan, const Window& cell, TileWork* work, CellState* c,
+void FindRareTexels(const FramePlan& plan, const Window& cell, TileWork* work, KnownFeatures* known,
                     StageClock* clock, RenderStats* stats) {
-  std::fill_n(c->has_other_texels, kCellPixels, false);
+  std::fill_n(known->has_other_texels, kCellPixels, false);
   if (plan.adaptive.texel_maps == nullptr) return;
   const Window window = PixelsAround(cell, plan.frame, plan.adaptive.filter_radius);
   const std::vector<FoundTexels> found = SearchPixels(plan, window, work, stats);
@@ -427,13 +427,13 @@ void FindRareTexels(const FramePlan& plan, const Window& cell, TileWork* work, C
     ForEachShare(plan.scene->image.filter, cell, pixel, [&](int column, int row, double share) {
       const double of_texels = share * found[i].cluster.share;
       if (of_texels == 0) return;
-      c->has_other_texels[PixelAt(column, row)] |= found[i].cluster.others;
+      known->has_other_texels[PixelAt(column, row)] |= found[i].cluster.others;
       if (found[i].of_normals) {
         if (of_texels < 0) return;  // the filter has negative lobes
         glints[row][column].squares += of_texels * radiance.length2();
         glints[row][column].radiance += radiance * of_texels;
       } else {
-        c->rare_parts.push_back({PixelAt(column, row), of_texels, radiance * of_texels});
+        known->parts.push_back({PixelAt(column, row), of_texels, radiance * of_texels});
       }
     });
   }
@@ -442,7 +442,7 @@ void FindRareTexels(const FramePlan& plan, const Window& cell, TileWork* work, C
       const auto& [squares, radiance] = glints[row][column];
       // A single feature of this share and radiance has the same mean and variance.
       if (squares > 0) {
-        c->rare_parts.push_back({PixelAt(column, row), radiance.length2() / squares, radiance});
+        known->parts.push_back({PixelAt(column, row), radiance.length2() / squares, radiance});
       }
     }
   }

@@ -12,12 +12,12 @@
 // pixel.
 #pragma once
 
-#include "render/cell_state.h"
+#include "render/evidence.h"
 
 namespace nacre {
 
-// Adds rare texels to cell_scratch->rare_parts, and sets has_other_texels.
-void FindRareTexels(const FramePlan& plan, const Window& cell, TileWork* work,
-                    CellState* cell_scratch, StageClock* clock, RenderStats* stats);
+// Adds rare texels to known->parts, and sets has_other_texels.
+void FindRareTexels(const FramePlan& plan, const Window& cell, TileWork* work, KnownFeatures* known,
+                    StageClock* clock, RenderStats* stats);
 
 }  // namespace nacre

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "render/evidence.h"
 #include "render/filter_shares.h"
 #include "render/interval.h"
 #include "render/probes.h"
@@ -189,8 +188,7 @@ void ProbeAll(const FramePlan& plan, std::vector<Candidate>* candidates, TileWor
 
 // Adds, by pixel, the share and the radiance of the visible candidates, all of one material.
 void AddRareTriangles(const PixelFilter& filter, const Window& cell,
-                      std::span<const Candidate> candidates,
-                      std::vector<CellState::RarePart>* rare) {
+                      std::span<const Candidate> candidates, std::vector<RarePart>* rare) {
   struct Sums {
     double share = 0;
     Rgb radiance{0, 0, 0};
@@ -212,8 +210,8 @@ void AddRareTriangles(const PixelFilter& filter, const Window& cell,
 
 }  // namespace
 
-void FindRareTriangles(const FramePlan& plan, const Window& cell, TileWork* work, CellState* c,
-                       StageClock* clock, RenderStats* stats) {
+void FindRareTriangles(const FramePlan& plan, const Window& cell, TileWork* work,
+                       std::vector<RarePart>* parts, StageClock* clock, RenderStats* stats) {
   std::vector<Candidate> candidates = FindCandidates(plan, cell);
   if (candidates.empty()) return;
   ThinOut(cell, &candidates);
@@ -222,7 +220,7 @@ void FindRareTriangles(const FramePlan& plan, const Window& cell, TileWork* work
     const uint32_t material = candidates[first].piece.material;
     while (end < candidates.size() && candidates[end].piece.material == material) ++end;
     AddRareTriangles(plan.scene->image.filter, cell, {candidates.data() + first, end - first},
-                     &c->rare_parts);
+                     parts);
   }
   clock->Charge(Stage::kSample);
 }

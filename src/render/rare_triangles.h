@@ -9,12 +9,12 @@
 // do not matter (evidence.h).
 #pragma once
 
-#include "render/cell_state.h"
+#include "render/evidence.h"
 
 namespace nacre {
 
-// Adds rare triangles to cell_scratch->rare_parts.
+// Adds rare triangles to `parts`.
 void FindRareTriangles(const FramePlan& plan, const Window& cell, TileWork* work,
-                       CellState* cell_scratch, StageClock* clock, RenderStats* stats);
+                       std::vector<RarePart>* parts, StageClock* clock, RenderStats* stats);
 
 }  // namespace nacre

@@ -21,7 +21,7 @@ namespace {
 // The buffers of one thread, reused from strip to strip: fresh memory costs a page fault per 4 KiB.
 struct Worker {
   TileWork work;
-  std::unique_ptr<CellState> cell;  // of adaptive sampling
+  std::unique_ptr<CellRoom> cell;  // of adaptive sampling
   Strip strip;
   std::vector<uint8_t> blank;  // RenderTile's `blank`, for each tile of the strip
 };
@@ -152,14 +152,14 @@ RenderStats RenderWhole(const FramePlan& plan, const RenderSettings& settings, I
         RenderTile(plan, tile, &worker->work, &strip, &worker->blank[number], clock, stats);
       });
     }
-    if (!worker->cell) worker->cell = std::make_unique<CellState>();
+    if (!worker->cell) worker->cell = std::make_unique<CellRoom>();
     ForEachCell(strip.window, [&](const Window& cell) {
       RenderCell(plan, cell, Intersect(cell, strip.window), &worker->work, worker->cell.get(),
                  &strip, clock, stats);
     });
   };
   RenderStats total = RenderStrips(plan, settings, render_strip, image, sink, settings.on_progress);
-  total.Add(plan.planning);
+  total.Add(plan.meshes.stats);
   if (!adaptive) {
     total.pixel_samples.Add(static_cast<uint32_t>(plan.scene->image.spp),
                             plan.window.pixel_count());
@@ -199,7 +199,7 @@ RenderStats RenderPass(const FramePlan& plan, const RenderSettings& settings, in
   };
   RenderStats total = RenderStrips(plan, settings, render_strip, image, {}, on_progress);
   film->samples = end;
-  if (first == 0) total.Add(plan.planning);
+  if (first == 0) total.Add(plan.meshes.stats);
   total.pixel_samples.Add(static_cast<uint32_t>(end), plan.window.pixel_count());
   return total;
 }

@@ -15,6 +15,7 @@ namespace {
 struct LitBatch {
   const DirectBatch& batch;
   const PlannedSampledLight& planned;
+  const LightShadows& shadows;
   const SampleNumbers& numbers;
   SampledRoom& room;
 
@@ -59,13 +60,13 @@ std::optional<LightPlane> PlaneOf(const SampledLight& light) {
 
 // Whether the triangle lies in the light's plane, within the rounding of both: 2^-44 of their
 // coordinates, as in scene/light_shapes.cc.
-bool LiesInPlane(const DirectPlan& plan, const LightPlane& light, uint32_t primitive) {
-  if (IsSphere(plan.primitives, primitive)) return false;
-  const TriangleRef triangle = TriangleOf(plan.primitives, primitive);
-  const Vec3d& camera = plan.primitives.scene->camera.position;
+bool LiesInPlane(const TracedShapes& shapes, const LightPlane& light, uint32_t primitive) {
+  if (IsSphere(shapes.primitives, primitive)) return false;
+  const TriangleRef triangle = TriangleOf(shapes.primitives, primitive);
+  const Vec3d& camera = shapes.primitives.scene->camera.position;
   for (size_t k = 0; k < 3; ++k) {
     const Vec3d& corner = triangle.mesh->positions[triangle.Vertex(k)];
-    const double extent = SumOfAbs(corner) + SumOfAbs(light.place) + plan.camera_extent;
+    const double extent = SumOfAbs(corner) + SumOfAbs(light.place) + shapes.camera_extent;
     const double distance = std::abs((corner - camera - light.place).dot(light.normal));
     if (!(distance <= 0x1p-44 * extent)) return false;
   }
@@ -82,7 +83,7 @@ void HideLightInPlane(const LitBatch& lit) {
   bool in_plane = false;
   for (size_t i = 0; i < lit.count(); ++i) {
     if (i == 0 || hits.primitive[i] != hits.primitive[i - 1]) {
-      in_plane = LiesInPlane(lit.batch.plan, *light, hits.primitive[i]);
+      in_plane = LiesInPlane(lit.batch.plan.shapes, *light, hits.primitive[i]);
     }
     if (in_plane) lit.light().irradiance[i] = 0;
   }
@@ -105,8 +106,8 @@ void Illuminate(const LitBatch& lit, bool may_be_below_horizon) {
 // Sets light() to 0 at hits in shadow.
 void ApplyShadows(const LitBatch& lit) {
   lit.batch.clock.Charge(Stage::kLight);
-  if (!lit.planned.shadow_rays) return;
-  CastSampledShadows(lit.batch, lit.planned, lit.room.directions);
+  if (!lit.shadows.rays) return;
+  CastSampledShadows(lit.batch, lit.planned, lit.shadows, lit.room.directions);
   lit.batch.clock.Charge(Stage::kShadow);
 }
 
@@ -128,7 +129,7 @@ void AddWeightedRadiance(const LitBatch& lit, const Soa3<float>& part, const Soa
     AddWeighted(part, lit.room.weight.data(), factor, light.color, lit.count(), to);
   };
   add_to(&lit.single().sum);
-  if (lit.batch.plan.components) add_to(component);
+  if (lit.batch.plan.lights.components) add_to(component);
 }
 
 // Sets room.weight to 1 over the sum of the strategies' pdfs for lobes of one kind. It is 0 at hits
@@ -186,13 +187,13 @@ SamplingStrategies SpecularStrategies(const SampledLight& light) {
 // Finds the hits whose diffuse reflection has a closed form: those from which the whole light is
 // visible, and whose diffuse term does not depend on the light's direction. Returns their number.
 size_t FindClosedForm(const LitBatch& lit) {
-  const bool some_see_all = !lit.planned.shadow_rays || !lit.planned.shadowed.empty();
+  const bool some_see_all = !lit.shadows.rays || !lit.shadows.shadowed.empty();
   size_t count = 0;
   for (const MaterialRun& run : lit.runs()) {
     const bool may_be = lit.planned.closed_form && some_see_all && DiffuseIsFlat(*run.shading);
     for (size_t i = run.begin; i < run.end; ++i) {
       lit.room.closed_form[i] =
-          may_be && NeverShadowed(lit.planned, lit.hits().primitive[i]) ? 1 : 0;
+          may_be && NeverShadowed(lit.shadows, lit.hits().primitive[i]) ? 1 : 0;
       count += lit.room.closed_form[i];
     }
   }
@@ -221,7 +222,7 @@ void AddClosedForm(const LitBatch& lit) {
 
 // Draws a pair of random numbers for each hit.
 void DrawPoints(const LitBatch& lit, size_t pair) {
-  SamplePair(lit.batch.plan.pairs, lit.planned.first_pair + pair, lit.numbers,
+  SamplePair(lit.batch.plan.lights.pairs, lit.planned.first_pair + pair, lit.numbers,
              lit.hits().ray.data(), lit.count(), &lit.room.points);
 }
 
@@ -304,10 +305,11 @@ void ShadeBySampledLight(const LitBatch& lit) {
 void ShadeBySampledLights(const DirectBatch& batch, const SampleNumbers& numbers) {
   std::unique_ptr<SampledRoom>& room = batch.room.sampled;
   if (!room) room = std::make_unique<SampledRoom>();
-  for (const PlannedSampledLight& planned : batch.plan.sampled_lights) {
+  for (size_t i = 0; i < batch.plan.lights.sampled.size(); ++i) {
+    const PlannedSampledLight& planned = batch.plan.lights.sampled[i];
     ++batch.stats.light_batches;
     ClearRadiance(batch.lit(), &batch.room.single);
-    ShadeBySampledLight({batch, planned, numbers, *room});
+    ShadeBySampledLight({batch, planned, batch.plan.shadows.sampled[i], numbers, *room});
     if (planned.layer >= 0) AddToLightLayer(batch, batch.room.single, planned.layer);
     AddRadiance(batch, batch.room.single);
   }

@@ -28,7 +28,7 @@ void OffsetRay(const Soa3<double>& from, const Soa3<double>& origin, size_t i,
 // Makes a ray for each hit, because most hits need one. The other rays are inactive. Returns the
 // number of active rays.
 size_t MakeSampledShadowRays(const DirectBatch& batch, const PlannedSampledLight& planned,
-                             const LightDirections& directions) {
+                             const LightShadows& shadows, const LightDirections& directions) {
   const HitBatch& hits = batch.hits();
   DirectRoom& room = batch.room;
   ShadowRayBatch& rays = room.shadow_rays;
@@ -37,10 +37,10 @@ size_t MakeSampledShadowRays(const DirectBatch& batch, const PlannedSampledLight
   CopySoa(hits.position, rays.count, &rays.origin);
   AimShadowRays(directions, room.light.irradiance.data(), rays.count, &rays);
   FindEnds(planned.light, hits, directions, &rays.t_max);
-  const bool all = planned.trace_all || planned.shadowed.empty();
+  const bool all = shadows.trace_all || shadows.shadowed.empty();
   size_t active = 0;
   for (size_t i = 0; i < rays.count; ++i) {
-    if (!all && NeverShadowed(planned, hits.primitive[i])) rays.t_max[i] = 0;
+    if (!all && NeverShadowed(shadows, hits.primitive[i])) rays.t_max[i] = 0;
     active += rays.t_max[i] > 0 ? 1 : 0;
   }
   if (!batch.plan.offset_shadow_origins) return active;
@@ -51,16 +51,16 @@ size_t MakeSampledShadowRays(const DirectBatch& batch, const PlannedSampledLight
 }  // namespace
 
 void CastSampledShadows(const DirectBatch& batch, const PlannedSampledLight& planned,
-                        const LightDirections& directions) {
-  const size_t active = MakeSampledShadowRays(batch, planned, directions);
+                        const LightShadows& shadows, const LightDirections& directions) {
+  const size_t active = MakeSampledShadowRays(batch, planned, shadows, directions);
   batch.stats.shadow_rays += active;
   if (active == 0) return;
   ShadowRayBatch& rays = batch.room.shadow_rays;
-  rays.light = planned.occluders;
-  rays.outward = batch.plan.eye_outside;
+  rays.light = shadows.occluders;
+  rays.outward = batch.plan.shapes.eye_outside;
   rays.target = planned.primitives;
-  rays.camera_extent = batch.plan.camera_extent;
-  batch.plan.intersector->Occluded(&rays);
+  rays.camera_extent = batch.plan.shapes.camera_extent;
+  batch.plan.shapes.intersector->Occluded(&rays);
   rays.target = {};
   float* const irradiance = batch.room.light.irradiance.data();
   const uint8_t* const occluded = rays.occluded.data();

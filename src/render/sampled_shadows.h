@@ -9,6 +9,6 @@ namespace nacre {
 // Sets the irradiance of room.light to 0 at hits for which something occludes the light along
 // `directions`.
 void CastSampledShadows(const DirectBatch& batch, const PlannedSampledLight& planned,
-                        const LightDirections& directions);
+                        const LightShadows& shadows, const LightDirections& directions);
 
 }  // namespace nacre

@@ -1,25 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/settings.h: the settings of a render that are not part of its scene.
+// render/settings.h: the settings of a render that are not part of its scene, and the table of
+// those that people can give. The options of the command line with their help, the settings of the
+// C++ and the Python library, what the live view takes and what files say of them are derived from
+// it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "base/cancel.h"
 #include "base/image.h"
 #include "base/strip.h"
+#include "scene/limits.h"
 
 namespace nacre {
 
 // How rays find spheres. All choices give the same bits.
 enum class IntersectorChoice : uint8_t { kAuto, kEmbree, kTiles, kShells };
 
-// "auto", "embree", "tiles", "shells".
-std::vector<std::string> IntersectorNames();
-// Throws Error (usage) for a name that is none of these, and for Embree where this build has none.
-IntersectorChoice ParseIntersector(const std::string& name);
 // The reason why all rays use a BVH with this choice, whatever the scene; else null.
 const char* TreeAskedFor(IntersectorChoice choice);
 
@@ -68,5 +73,70 @@ struct RenderSettings {
   // Called in the same way while the plan is made, between its large steps.
   std::function<void(double)> on_plan_progress;
 };
+
+// ---- The settings by name -----------------------------------------------------------------------
+
+// A setting with named options, numbered from 0.
+struct SettingChoice {
+  std::span<const std::string_view> options;
+  size_t (*get)(const RenderSettings&);
+  void (*set)(RenderSettings&, size_t option);
+};
+
+// A setting that is written as text of a form of its own, such as "x0,y0,x1,y1". Throws Error
+// (usage).
+struct SettingText {
+  void (*parse)(const std::string& text, RenderSettings*);
+};
+
+// The field of a setting, whose type decides the form of its values.
+using SettingField =
+    std::variant<double RenderSettings::*, int RenderSettings::*, bool RenderSettings::*,
+                 std::vector<std::string> RenderSettings::*, SettingChoice, SettingText>;
+
+// The titles in --help under which options stand. The live view takes all of kMachine.
+enum class SettingGroup : uint8_t { kPicture, kExrFiles, kMachine };
+
+// How programs that use the library give a setting.
+enum class LibraryUse : uint8_t {
+  kNone,    // not at all
+  kMember,  // as a member of nacre.h's own RenderSettings; and by name, but for lists
+  kByName,  // by name: in C++ in RenderSettings::others, in Python as a keyword argument
+};
+
+struct SettingKey {
+  std::string_view name;  // "max_error", which is the option --max-error
+  SettingField field;
+  Range range{};             // of numbers. The default, too, is valid, even if it is outside
+  std::string_view meaning;  // for people: a sentence or two
+  std::string_view form{};   // of values, in --help: "x0,y0,x1,y1"; empty: that of the field
+  SettingGroup group = SettingGroup::kMachine;
+  bool common = false;              // --help explains it; otherwise only --help-all does
+  std::string_view view_meaning{};  // offered by the live view, too, with this meaning, if any
+  LibraryUse library = LibraryUse::kByName;
+  // Whether pictures depend on it: if so, the metadata of files has it where it is not the default.
+  bool changes_picture = false;
+  // Throws Error (usage) for a valid value that this build does not support. May be null.
+  void (*check)(const RenderSettings&) = nullptr;
+};
+
+// All settings that people can give, in the order of --help.
+std::span<const SettingKey> SettingKeys();
+// The key with this name, which must exist.
+const SettingKey& SettingNamed(std::string_view name);
+
+// The option of the command line: "--max-error".
+std::string OptionOf(const SettingKey& key);
+
+// Sets a choice to the option with this name. Throws Error (usage) if there is none.
+void SetChoice(const SettingKey& key, const std::string& option, RenderSettings* settings);
+
+// Throws Error (usage) for settings that are out of range or that this build does not support.
+void CheckSettings(const RenderSettings& settings);
+
+// The settings that pictures depend on and that are not the defaults, by name.
+using SettingValue = std::variant<int, float, std::string>;
+std::vector<std::pair<std::string_view, SettingValue>> ChangedSettings(
+    const RenderSettings& settings);
 
 }  // namespace nacre

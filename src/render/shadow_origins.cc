@@ -42,12 +42,24 @@ Vec3d OffsetOrigin(const Corners& corners, const Corners& normals, const Vec3d& 
   return lifted;
 }
 
-bool OffsetsShadowOrigins(const Scene& scene) {
-  return std::any_of(scene.meshes.begin(), scene.meshes.end(), OffsetsOrigins);
+bool PlanShadowOrigins(const Scene& scene, const TracedShapes& shapes, const ShadowPlan& shadows,
+                       Explanation* why) {
+  if (scene.meshes.empty() || shapes.intersector == nullptr) return false;
+  const auto any = [](const std::vector<LightShadows>& lights) {
+    return std::any_of(lights.begin(), lights.end(),
+                       [](const LightShadows& light) { return light.rays; });
+  };
+  const bool rays = any(shadows.punctual) || any(shadows.sampled);
+  const bool offset = rays && std::any_of(scene.meshes.begin(), scene.meshes.end(), OffsetsOrigins);
+  why->items.push_back({"smooth terminator", offset,
+                        offset ? "shadow rays of smooth normals start on the curved surface"
+                        : rays ? "no mesh has smooth normals and asks for it"
+                               : "there are no shadow rays"});
+  return offset;
 }
 
 void OffsetShadowOrigins(const DirectBatch& batch) {
-  const PrimitiveNumbers& primitives = batch.plan.primitives;
+  const PrimitiveNumbers& primitives = batch.plan.shapes.primitives;
   const HitBatch& hits = batch.hits();
   const Soa3<float>& normal = batch.surface().normal;
   for (size_t i = 0; i < batch.lit(); ++i) {

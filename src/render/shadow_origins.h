@@ -25,8 +25,9 @@ Vec3d BarycentricsAt(const Corners& corners, const Vec3d& point);
 Vec3d OffsetOrigin(const Corners& corners, const Corners& normals, const Vec3d& weights,
                    const Vec3d& point);
 
-// Whether shadow rays from any mesh start elsewhere than at the hits.
-bool OffsetsShadowOrigins(const Scene& scene);
+// Whether some shadow rays start elsewhere than at their hits.
+bool PlanShadowOrigins(const Scene& scene, const TracedShapes& shapes, const ShadowPlan& shadows,
+                       Explanation* why);
 
 // Fills batch.room.shadow_origin with the origins of the lit hits' shadow rays.
 void OffsetShadowOrigins(const DirectBatch& batch);

@@ -34,12 +34,12 @@ std::vector<uint8_t> FindShadowed(const OccluderLists& lists) {
 
 // Turns off the light's shadow rays on spheres from which nothing can occlude it. Explains it in
 // `item`.
-void SkipUnshadowed(const OccluderLists& lists, PlannedPunctualLight* light, PlanItem* item) {
+void SkipUnshadowed(const OccluderLists& lists, LightShadows* light, PlanItem* item) {
   std::vector<uint8_t> shadowed = FindShadowed(lists);
   const auto count = std::count(shadowed.begin(), shadowed.end(), uint8_t{1});
   const size_t spheres = shadowed.size();
   if (count == 0) {
-    light->shadow_rays = item->used = false;
+    light->rays = item->used = false;
     item->reason = spheres == 1 ? "a sphere alone, seen from outside, is convex"
                                 : "no sphere is between another and the light";
     return;
@@ -65,20 +65,20 @@ std::string WhyNotBins(const LightBins& bins) {
 }
 
 // Why the shadow rays of all lights use a BVH; empty if they need not.
-std::string WhyTree(const Scene& scene, const RenderSettings& settings, const HitsPlan& hits,
-                    const DirectPlan& plan) {
+std::string WhyTree(const Scene& scene, const RenderSettings& settings, const TracedShapes& shapes,
+                    const std::vector<PlannedPunctualLight>& punctual) {
   if (settings.general_path) return "the general path is asked for";
   if (!scene.meshes.empty()) return "there are triangles";
   if (const char* const asked_for = TreeAskedFor(settings.intersector)) return asked_for;
-  if (scene.spheres.size() > kMaxListedSpheres && hits.intersector->SpheresAreNested()) {
+  if (scene.spheres.size() > kMaxListedSpheres && shapes.intersector->SpheresAreNested()) {
     return kNestedSpheres;
   }
   if (settings.intersector == IntersectorChoice::kTiles) return {};
   // Measured: above this, one BVH is built faster than the bins of all lights, and is smaller.
   constexpr double kMaxPairs = 8e6;
   const auto lights =
-      std::count_if(plan.lights.begin(), plan.lights.end(),
-                    [](const PlannedPunctualLight& light) { return light.shadow_rays; });
+      std::count_if(punctual.begin(), punctual.end(),
+                    [](const PlannedPunctualLight& light) { return light.casts_shadows; });
   if (static_cast<double>(lights) * static_cast<double>(scene.spheres.size()) > kMaxPairs &&
       lights > 1) {
     return fmt::format("one tree is less work than bins for {} lights", lights);
@@ -91,44 +91,60 @@ std::string DescribeBins(const LightBins& bins) {
                      bins.end.size(), bins.entries(), bins.mean_occupancy, bins.large.size());
 }
 
-// The lights whose occluders the intersector knows, which it numbers in the order in which they are
-// found here.
-struct KnownLights {
-  bool found = false;  // an earlier plan has found the occluders of all lights
+// Lights that are occluded from everywhere, if they cast shadows.
+template <class Planned>
+std::vector<LightShadows> ShadowsOf(const std::vector<Planned>& lights) {
+  std::vector<LightShadows> shadows(lights.size());
+  for (size_t i = 0; i < lights.size(); ++i) shadows[i].rays = lights[i].casts_shadows;
+  return shadows;
+}
+
+// A search for occluders. The intersector numbers lights in the order in which they are found here.
+struct OccluderSearch {
+  const Scene& scene;
+  const RenderSettings& settings;
+  const TracedShapes& shapes;
+  bool known;          // an earlier plan has found the occluders of all lights
   uint32_t count = 0;  // the lights that this plan has come to so far
 };
 
-bool PlanPunctualShadows(const Scene& scene, const RenderSettings& settings, const HitsPlan& hits,
-                         KnownLights* known, DirectPlan* plan, Explanation* why) {
+std::vector<LightShadows> PlanPunctualShadows(const std::vector<PlannedPunctualLight>& punctual,
+                                              OccluderSearch* search, Explanation* why) {
+  const Scene& scene = search->scene;
+  const RenderSettings& settings = search->settings;
+  const TracedShapes& shapes = search->shapes;
   const bool few = scene.spheres.size() <= kMaxListedSpheres;
-  const std::string why_tree = WhyTree(scene, settings, hits, *plan);
+  const std::string why_tree = WhyTree(scene, settings, shapes, punctual);
   // If the settings ask for a BVH, lists still decide which rays are traced: all intersectors must
   // trace the same rays.
   const char* const asked_for = TreeAskedFor(settings.intersector);
+  std::vector<LightShadows> plan = ShadowsOf(punctual);
   if (why_tree.empty() || (few && asked_for != nullptr && why_tree == asked_for)) {
     std::vector<const Light*> lights;
-    for (PlannedPunctualLight& light : plan->lights) {
-      if (!light.shadow_rays) continue;
-      light.occluders = static_cast<uint32_t>(lights.size());
-      lights.push_back(&scene.lights[light.index]);
+    for (size_t i = 0; i < punctual.size(); ++i) {
+      if (!plan[i].rays) continue;
+      plan[i].occluders = static_cast<uint32_t>(lights.size());
+      lights.push_back(&scene.lights[punctual[i].index]);
     }
-    if (!known->found) hits.intersector->FindOccluders(lights, hits.eye_outside);
-    known->count = static_cast<uint32_t>(lights.size());
+    if (!search->known) shapes.intersector->FindOccluders(lights, shapes.eye_outside);
+    search->count = static_cast<uint32_t>(lights.size());
   }
   size_t listed = 0, binned = 0, left = 0;
   std::vector<PlanItem> items;
   std::string crowded;  // why bins are not used for one of the lights
   std::string crowd;    // a description of the bins that are used
-  for (PlannedPunctualLight& light : plan->lights) {
-    if (!light.shadow_rays) continue;
-    PlanItem item{fmt::format("light \"{}\" shadow rays", scene.lights[light.index].name), true,
+  for (size_t i = 0; i < punctual.size(); ++i) {
+    LightShadows& light = plan[i];
+    if (!light.rays) continue;
+    PlanItem item{fmt::format("light \"{}\" shadow rays", scene.lights[punctual[i].index].name),
+                  true,
                   settings.general_path ? "the general path is asked for"
                                         : "something may lie between a surface and the light"};
     bool bins = false;
     if (light.occluders != kAnyLight) {
-      const LightOccluders& found = hits.intersector->Occluders(light.occluders);
+      const LightOccluders& found = shapes.intersector->Occluders(light.occluders);
       if (few) SkipUnshadowed(found.lists, &light, &item);
-      bins = light.shadow_rays && found.bins.has_value();
+      bins = light.rays && found.bins.has_value();
       std::string why_not_bins;
       if (bins && (settings.intersector == IntersectorChoice::kAuto || found.bins->overfull)) {
         why_not_bins = WhyNotBins(*found.bins);
@@ -137,7 +153,7 @@ bool PlanPunctualShadows(const Scene& scene, const RenderSettings& settings, con
       if (!why_not_bins.empty() || !why_tree.empty()) light.occluders = kAnyLight;
       if (crowded.empty()) crowded = why_not_bins;
     }
-    if (light.shadow_rays) ++(light.occluders == kAnyLight ? left : bins ? binned : listed);
+    if (light.rays) ++(light.occluders == kAnyLight ? left : bins ? binned : listed);
     items.push_back(std::move(item));
   }
   AddItems(std::move(items), why);
@@ -154,7 +170,7 @@ bool PlanPunctualShadows(const Scene& scene, const RenderSettings& settings, con
   why->items.push_back(
       {"intersector bins, for shadow rays", binned > 0,
        binned > 0 ? "spheres binned as the light sees them need no tree: " + crowd : why_not});
-  return left > 0;
+  return plan;
 }
 
 LightBall BoundingBall(const SampledLight& light) {
@@ -168,15 +184,16 @@ LightBall BoundingBall(const SampledLight& light) {
 }
 
 // The spheres that can occlude the light, by the sphere that is shaded.
-const OccluderLists& ListKnownOccluders(const HitsPlan& hits, KnownLights* known,
-                                        PlannedSampledLight* light) {
+const OccluderLists& ListKnownOccluders(const PlannedSampledLight& light, OccluderSearch* search,
+                                        LightShadows* plan) {
+  const TracedShapes& shapes = search->shapes;
   const std::optional<LightBall> ball =
-      IsSky(light->light) ? std::nullopt : std::optional(BoundingBall(light->light));
-  light->occluders = known->count++;
-  if (!known->found) {
-    hits.intersector->FindOccludersOfBall(ball, light->primitives, hits.eye_outside);
+      IsSky(light.light) ? std::nullopt : std::optional(BoundingBall(light.light));
+  plan->occluders = search->count++;
+  if (!search->known) {
+    shapes.intersector->FindOccludersOfBall(ball, light.primitives, shapes.eye_outside);
   }
-  return hits.intersector->Occluders(light->occluders).lists;
+  return shapes.intersector->Occluders(plan->occluders).lists;
 }
 
 bool NeedsTree(const RenderSettings& settings, const OccluderLists& lists) {
@@ -192,12 +209,13 @@ bool OwnsTriangles(const Scene& scene, const PlannedSampledLight& light) {
 
 // For scenes of few spheres and no triangles but the light's: plans lists instead of a BVH, in
 // which rays would visit all triangles around their ends.
-PlanItem PlanOccludingSpheres(const RenderSettings& settings, const HitsPlan& hits,
-                              KnownLights* known, PlannedSampledLight* light) {
-  const OccluderLists& lists = ListKnownOccluders(hits, known, light);
+PlanItem PlanOccludingSpheres(const PlannedSampledLight& light, OccluderSearch* search,
+                              LightShadows* plan) {
+  const RenderSettings& settings = search->settings;
+  const OccluderLists& lists = ListKnownOccluders(light, search, plan);
   PlanItem item{"", true, "something may lie between a surface and the light"};
   if (NeedsTree(settings, lists)) {
-    light->occluders = kAnyLight;
+    plan->occluders = kAnyLight;
   } else {
     item.reason =
         fmt::format("spheres alone, {} at most, lie in the light's way: no tree", lists.longest);
@@ -208,73 +226,82 @@ PlanItem PlanOccludingSpheres(const RenderSettings& settings, const HitsPlan& hi
 // For scenes of few spheres: finds by lists on which spheres the light can be occluded. This
 // decides where diffuse reflection is in closed form, so it must be the same for all intersectors,
 // even if they then use a BVH.
-PlanItem PlanSampledLightLists(const RenderSettings& settings, const HitsPlan& hits,
-                               KnownLights* known, PlannedSampledLight* light) {
-  const OccluderLists& lists = ListKnownOccluders(hits, known, light);
-  light->shadowed = FindShadowed(lists);
-  light->trace_all = settings.general_path;
-  const size_t spheres = light->shadowed.size();
-  const auto count = std::count(light->shadowed.begin(), light->shadowed.end(), uint8_t{1});
+PlanItem PlanSampledLightLists(const PlannedSampledLight& light, OccluderSearch* search,
+                               LightShadows* plan) {
+  const RenderSettings& settings = search->settings;
+  const OccluderLists& lists = ListKnownOccluders(light, search, plan);
+  plan->shadowed = FindShadowed(lists);
+  plan->trace_all = settings.general_path;
+  const size_t spheres = plan->shadowed.size();
+  const auto count = std::count(plan->shadowed.begin(), plan->shadowed.end(), uint8_t{1});
   PlanItem item{"", true,
                 fmt::format("{} of {} spheres can lie in another's shadow", count, spheres)};
-  if (count == 0 && !light->trace_all) {
-    light->shadow_rays = item.used = false;
+  if (count == 0 && !plan->trace_all) {
+    plan->rays = item.used = false;
     item.reason = spheres == 1 ? "a sphere alone, seen from outside, is convex"
                                : "no sphere is between another and the light";
   }
   if (NeedsTree(settings, lists)) {
-    light->occluders = kAnyLight;
-  } else if (light->shadow_rays) {
+    plan->occluders = kAnyLight;
+  } else if (plan->rays) {
     item.reason += fmt::format(", each by {} others at most: no tree", lists.longest);
   }
-  if (static_cast<size_t>(count) == spheres) light->shadowed.clear();
+  if (static_cast<size_t>(count) == spheres) plan->shadowed.clear();
   return item;
 }
 
-bool PlanSampledShadows(const Scene& scene, const RenderSettings& settings, const HitsPlan& hits,
-                        KnownLights* known, DirectPlan* plan, Explanation* why) {
+std::vector<LightShadows> PlanSampledShadows(const std::vector<PlannedSampledLight>& sampled,
+                                             OccluderSearch* search, Explanation* why) {
+  const Scene& scene = search->scene;
   const bool few = scene.spheres.size() <= kMaxListedSpheres;
-  bool tree = false;
-  for (PlannedSampledLight& light : plan->sampled_lights) {
+  std::vector<LightShadows> plan = ShadowsOf(sampled);
+  for (size_t i = 0; i < sampled.size(); ++i) {
+    const PlannedSampledLight& light = sampled[i];
     PlanItem item{"", true, "something may lie between a surface and the light"};
-    if (!light.shadow_rays) {
+    if (!light.casts_shadows) {
       item.used = false;
       item.reason = scene.image.shadows ? "the light casts none" : "the scene turns shadows off";
     } else if (few && scene.meshes.empty()) {
-      item = PlanSampledLightLists(settings, hits, known, &light);
+      item = PlanSampledLightLists(light, search, &plan[i]);
     } else if (few && OwnsTriangles(scene, light)) {
-      item = PlanOccludingSpheres(settings, hits, known, &light);
+      item = PlanOccludingSpheres(light, search, &plan[i]);
     }
     item.what = fmt::format("light \"{}\" shadow rays", scene.lights[light.index].name);
     why->items.push_back(std::move(item));
-    tree = tree || (light.shadow_rays && light.occluders == kAnyLight);
   }
-  return tree;
+  return plan;
+}
+
+bool NeedTree(const std::vector<LightShadows>& lights) {
+  return std::any_of(lights.begin(), lights.end(), [](const LightShadows& light) {
+    return light.rays && light.occluders == kAnyLight;
+  });
 }
 
 }  // namespace
 
-bool PlanShadows(const Scene& scene, const RenderSettings& settings, const HitsPlan& hits,
-                 PreparedScene* prepared, DirectPlan* plan, Explanation* why) {
-  plan->primitives = hits.primitives;
-  plan->camera = hits.camera;
-  plan->intersector = hits.intersector;
-  if (hits.intersector == nullptr) return false;
-  plan->eye_outside = hits.eye_outside;
+ShadowPlan PlanShadows(const Scene& scene, const RenderSettings& settings,
+                       const TracedShapes& shapes, const LightsPlan& lights,
+                       PreparedScene* prepared, Explanation* why) {
+  if (shapes.intersector == nullptr) {
+    return {ShadowsOf(lights.punctual), ShadowsOf(lights.sampled)};
+  }
   const ViewKey key{
       prepared->intersectors_made,
       prepared->versions.Of(ScenePart::kLights | ScenePart::kCamera | ScenePart::kImage),
       {static_cast<double>(settings.intersector), settings.general_path ? 1.0 : 0.0,
        static_cast<double>(prepared->shapes_made)}};
-  KnownLights known{prepared->lights.IsUpToDate(key), 0};
-  if (!known.found) {
+  OccluderSearch search{scene, settings, shapes, prepared->lights.IsUpToDate(key)};
+  if (!search.known) {
     prepared->lights.Forget();  // in case an exception ends the search
-    hits.intersector->ForgetOccluders();
+    shapes.intersector->ForgetOccluders();
   }
-  const bool tree_for_punctual = PlanPunctualShadows(scene, settings, hits, &known, plan, why);
-  const bool tree_for_sampled = PlanSampledShadows(scene, settings, hits, &known, plan, why);
+  ShadowPlan plan;
+  plan.punctual = PlanPunctualShadows(lights.punctual, &search, why);
+  plan.sampled = PlanSampledShadows(lights.sampled, &search, why);
+  plan.tree = NeedTree(plan.punctual) || NeedTree(plan.sampled);
   prepared->lights.Set(key, {});
-  return tree_for_punctual || tree_for_sampled;
+  return plan;
 }
 
 }  // namespace nacre

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 
+#include "scene/scene.h"
 #include "visibility/cell_lists.h"
 
 namespace nacre {

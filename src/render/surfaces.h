@@ -55,7 +55,7 @@ struct MaterialRun {
   MaterialId material;
   const ShadingMaterial* shading;
   size_t begin, end;
-  bool interpolated;  // their radiance comes from DirectPlan::mesh_radiance
+  bool interpolated;  // their radiance comes from InterpolateRadiance
 };
 
 struct Surfaces {

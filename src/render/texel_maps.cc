@@ -107,9 +107,9 @@ void AddOpacity(const Scene& scene, const Material& material, std::vector<TexelM
   AddMap(scene, material.opacity_map, {solid}, maps);
 }
 
-void AddSky(const DirectPlan& direct, double max_error, TexelMaps* maps) {
-  if (!direct.sky) return;
-  const SampledLight& sky = direct.sampled_lights[*direct.sky].light;
+void AddSky(const LightsPlan& lights, double max_error, TexelMaps* maps) {
+  if (!lights.sky) return;
+  const SampledLight& sky = lights.sampled[*lights.sky].light;
   if (sky.form != SampledForm::kPictureSky) return;
   const EnvironmentMap& map = *sky.sky.picture;
   maps->sky = {{TexelKind::kFloats, &map.texels[0].x, nullptr, 3, map.width, map.height},
@@ -129,7 +129,7 @@ TexelGrid GridOf(const Scene& scene, TextureId texture, size_t mip_level) {
           of.sampling.wrap_v};
 }
 
-std::shared_ptr<const TexelMaps> FindTexelMaps(const Scene& scene, const DirectPlan& direct,
+std::shared_ptr<const TexelMaps> FindTexelMaps(const Scene& scene, const LightsPlan& lights,
                                                double max_error) {
   auto maps = std::make_shared<TexelMaps>();
   for (const Material& material : scene.materials) {
@@ -151,8 +151,8 @@ std::shared_ptr<const TexelMaps> FindTexelMaps(const Scene& scene, const DirectP
   for (uint32_t i = 0; i < scene.textures.size(); ++i) {
     maps->extremes.push_back(std::make_unique<const TexelExtremes>(GridOf(scene, {i}, 0)));
   }
-  AddSky(direct, max_error, maps.get());
-  if (maps->any_normals) maps->suns = FindSuns(direct);
+  AddSky(lights, max_error, maps.get());
+  if (maps->any_normals) maps->suns = FindSuns(lights.sampled);
   const bool any = maps->any_looks || maps->any_normals || maps->any_opacity || maps->sky_extremes;
   return any ? maps : nullptr;
 }

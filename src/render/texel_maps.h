@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "render/direct_plan.h"
 #include "render/highlights.h"
+#include "render/lights_plan.h"
 #include "render/surfaces.h"
 #include "texture/texel_search.h"
 
@@ -39,7 +39,7 @@ struct TexelMaps {
 };
 
 // Finds the maps of the materials and of the sky; null if there are none.
-std::shared_ptr<const TexelMaps> FindTexelMaps(const Scene& scene, const DirectPlan& direct,
+std::shared_ptr<const TexelMaps> FindTexelMaps(const Scene& scene, const LightsPlan& lights,
                                                double max_error);
 
 // The image of a texture as it is looked up.

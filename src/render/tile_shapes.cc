@@ -6,7 +6,7 @@
 namespace nacre {
 namespace {
 
-bool NeedsPositions(const HitsPlan& plan, const TileCandidates& candidates) {
+bool NeedsPositions(const HitArrays& plan, const TileCandidates& candidates) {
   if (plan.all_positions) return true;
   const auto casts = [&](const TileCandidate& candidate) {
     return plan.may_be_shadowed[candidate.primitive] != 0;
@@ -20,14 +20,16 @@ bool NeedsPositions(const HitsPlan& plan, const TileCandidates& candidates) {
 
 void FindTileShapes(const HitsPlan& plan, const Window& tile, TileShapes* shapes) {
   shapes->any = shapes->triangles = false;
-  if (plan.intersector == nullptr) return;
+  const Intersector* const intersector = plan.shapes.intersector.get();
+  if (intersector == nullptr) return;
+  const TracePlan& trace = plan.trace;
   const bool spheres =
-      !plan.primitives.scene->spheres.empty() &&
-      (!plan.binned || plan.intersector->EnterTile(tile, plan.tile_rays, &shapes->spheres));
+      !plan.shapes.primitives.scene->spheres.empty() &&
+      (!trace.binned || intersector->EnterTile(tile, trace.tile_rays, &shapes->spheres));
   shapes->triangles =
-      std::any_of(plan.mesh_windows.begin(), plan.mesh_windows.end(),
+      std::any_of(trace.mesh_windows.begin(), trace.mesh_windows.end(),
                   [&](const Window& window) { return !Intersect(window, tile).empty(); });
-  if (spheres) shapes->positions = NeedsPositions(plan, shapes->spheres);
+  if (spheres) shapes->positions = NeedsPositions(plan.arrays, shapes->spheres);
   shapes->any = spheres || shapes->triangles;
 }
 

@@ -13,7 +13,7 @@ struct TileShapes {
   bool any = false;        // rays may hit anything at all
   bool triangles = false;  // rays may hit triangles
   bool positions = true;   // hits need HitBatch::position
-  TileCandidates spheres;  // that rays may hit; valid if HitsPlan::binned
+  TileCandidates spheres;  // that rays may hit; valid if TracePlan::binned
 };
 
 // `tile` must lie within one row of cells (visibility/sphere_bins.h).

@@ -18,6 +18,10 @@ void ShadeSamples(const FramePlan& plan, TileWork* work, StageClock* clock, Rend
     clock->Charge(Stage::kSurfaces);
     ShadeDirect({plan.direct, w.surfaces, w.direct_room, w.radiance, *clock, *stats},
                 w.samples.numbers ? &*w.samples.numbers : nullptr);
+    if (w.surfaces.lit < hits) {
+      InterpolateRadiance(plan.hits.shapes, plan.meshes.radiance, w.surfaces, &w.radiance);
+      clock->Charge(Stage::kShade);
+    }
   }
   ShadeSky(plan.direct, film, hits, &w.direct_room, &w.radiance);
 }

@@ -129,8 +129,6 @@ std::optional<std::string> FindProgram(const std::string& name) {
   return std::nullopt;
 }
 
-bool IsProgramThere(const std::string& program) { return FindProgram(program).has_value(); }
-
 ChildResult RunChild(const std::vector<std::string>& arguments, const std::string& input) {
   const std::string& program = arguments.front();
   ChildResult result;

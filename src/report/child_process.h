@@ -19,9 +19,6 @@ struct ChildResult {
 // ignored, so that no program is started because it is in the working folder.
 std::optional<std::string> FindProgram(const std::string& name);
 
-// Whether RunChild would find the program.
-bool IsProgramThere(const std::string& program);
-
 // Runs arguments[0] with these arguments, without a shell, in the root folder, with an environment
 // that only says where programs, libraries and fonts are, in absolute folders. Its three streams
 // are files in memory, which can neither fill up nor break like pipes. Throws Error (kInternal) if

@@ -10,7 +10,6 @@
 
 #include "base/printable.h"
 #include "compare/heat_map.h"
-#include "report/axis_range.h"
 #include "report/layout.h"
 
 namespace nacre {

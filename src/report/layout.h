@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// report/layout.h: finds free space for text in a plot.
+// report/layout.h: the layout of a plot: the ranges of numbers that it shows, and free space for
+// text.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +11,34 @@
 #include "report/figure.h"
 
 namespace nacre {
+
+// ---- Ranges -------------------------------------------------------------------------------------
+
+// low < high; both are above 0 if the axis is logarithmic.
+struct Range {
+  double low = 0, high = 1;
+};
+
+enum class Which : uint8_t { kX, kY };
+
+// The range that the axis sets, or, for ends that it does not set, that of the curves, extended to
+// round numbers.
+Range RangeOf(const Plot& plot, Which which);
+
+// The position of a value on its axis: 0 at range.low, 1 at range.high.
+double PlaceOf(double value, const Axis& axis, const Range& range);
+
+// For a logarithmic axis: whether ticks at powers of ten suffice.
+bool IsManyDecades(const Range& range);
+
+// The smallest of 1, 2 and 5 times a power of ten that is at least `step`, which is above 0.
+double NiceStep(double step);
+
+// Calls call() with points along the curves, at most a fiftieth of the plot's width apart, in [0,
+// 1]^2, with (0, 0) in the lower left corner.
+void ForEachPlottedPoint(const Plot& plot, const std::function<void(double x, double y)>& call);
+
+// ---- Free space ---------------------------------------------------------------------------------
 
 // A rectangle in a plot, with (0, 0) in its lower left corner and (1, 1) in its upper right one.
 struct PlotBox {

@@ -129,9 +129,7 @@ std::vector<LayerChannels> LayersOf(const Image& image) {
 }
 
 void AddPlace(const Window& data, const Window& display, int factor, Json* json) {
-  const Window moved = {data.x0 - display.x0, data.y0 - display.y0, data.x1 - display.x0,
-                        data.y1 - display.y0};
-  const Window cells = CellsOf(moved, factor);
+  const Window cells = CellsOf(FromCorner(data, display), factor);
   (*json)["x0"] = cells.x0;
   (*json)["y0"] = cells.y0;
   (*json)["width"] = cells.width();
@@ -158,6 +156,11 @@ std::string Packing::InWords() const {
   return text;
 }
 
+Window FromCorner(const Window& window, const Window& display) {
+  return {window.x0 - display.x0, window.y0 - display.y0, window.x1 - display.x0,
+          window.y1 - display.y0};
+}
+
 Packing ChoosePacking(const std::vector<const Image*>& images, size_t limit) {
   Packing packing;
   const auto fits = [&] {
@@ -178,9 +181,7 @@ Json PackImage(const Image& image, const std::string& name, const Packing& packi
   AddPlace(image.data, image.display, packing.factor, &json);
   const auto transfer = image.metadata.find("transfer");
   json["transfer"] = transfer == image.metadata.end() ? "linear" : transfer->second;
-  // Moves the window so that cells are counted from the frame's corner.
-  const Window moved = {image.data.x0 - image.display.x0, image.data.y0 - image.display.y0,
-                        image.data.x1 - image.display.x0, image.data.y1 - image.display.y0};
+  const Window moved = FromCorner(image.data, image.display);
   Json layers = Json::array();
   for (const LayerChannels& layer : LayersOf(image)) {
     Json channels = Json::array();

@@ -26,6 +26,9 @@ struct Packing {
 // The least reduction by which the images' samples fit into `limit` bytes before they are deflated.
 Packing ChoosePacking(const std::vector<const Image*>& images, size_t limit);
 
+// Moves the window to coordinates with the frame's corner at the origin.
+Window FromCorner(const Window& window, const Window& display);
+
 // Returns {name, width, height, x0, y0, factor, transfer, layers, facts}, with its samples as
 // blobs. Channels with samples that half cannot hold (infinite, or beyond 65504) remain in float.
 nlohmann::ordered_json PackImage(const Image& image, const std::string& name,

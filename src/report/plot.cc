@@ -76,6 +76,19 @@ std::string Draw(const Figure& figure, PictureFormat format) {
 
 }  // namespace
 
+std::vector<double> Steps(double from, double to, int count) {
+  std::vector<double> values;
+  for (int i = 0; i <= count; ++i) values.push_back(from + (to - from) * i / count);
+  return values;
+}
+
+Curve MakeCurve(const std::string& title, std::vector<double> x,
+                const std::function<double(double)>& f) {
+  std::vector<double> y;
+  for (const double value : x) y.push_back(f(value));
+  return {title, std::move(x), std::move(y)};
+}
+
 Figure MakeFigure(Plot plot) {
   Figure figure;
   figure.panels.push_back(std::move(plot));
@@ -94,22 +107,8 @@ Figure MakeRow(std::vector<Plot> plots) {
 std::string CsvText(const std::string& text) {
   std::string plain;
   for (const char c : text) {
-    switch (c) {
-      case ',':
-        plain += ';';
-        break;
-      case '"':
-        plain += '\'';
-        break;
-      case '#':
-        break;
-      case '\r':
-      case '\n':
-        plain += ' ';
-        break;
-      default:
-        plain += c;
-    }
+    if (c == '#') continue;
+    plain += c == ',' ? ';' : c == '"' ? '\'' : c == '\r' || c == '\n' ? ' ' : c;
   }
   return plain;
 }
@@ -144,7 +143,7 @@ void CheckFigurePath(const std::string& path) {
 }
 
 void CheckPlotter() {
-  if (!IsProgramThere("gnuplot")) FailMissing();
+  if (!FindProgram("gnuplot")) FailMissing();
 }
 
 void WriteFigure(const std::string& path, const Figure& figure) {

@@ -3,12 +3,19 @@
 // gnuplot-nox) draws them; it is started without a shell and gets the data as input.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "report/figure.h"
 
 namespace nacre {
+
+// `count` + 1 numbers at equal distances, both ends included.
+std::vector<double> Steps(double from, double to, int count);
+// y = f(x) over these x.
+Curve MakeCurve(const std::string& title, std::vector<double> x,
+                const std::function<double(double)>& f);
 
 // A figure of one plot, of the usual size.
 Figure MakeFigure(Plot plot);

@@ -14,8 +14,7 @@
 #include "sampling/pixel_sampler.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using D = hn::ScalableTag<double>;
@@ -141,23 +140,6 @@ HWY_INLINE void SamplePlane(const Place& place, const PixelSampler& sampler, int
   }
 }
 
-// Places samples [first, end) of all pixels: `positive` those of the filter's positive part,
-// `negative` the others.
-template <class PositivePlace, class NegativePlace>
-HWY_INLINE void SampleAll(const PositivePlace& positive, const NegativePlace& negative,
-                          const PixelSampler& sampler, const PixelBatch& pixels, int first, int end,
-                          double* film_x, double* film_y) {
-  for (int i = first; i < end; ++i) {
-    if (i < sampler.positive_count) {
-      SamplePlane(positive, sampler, i, pixels, film_x, film_y);
-    } else {
-      SamplePlane(negative, sampler, i, pixels, film_x, film_y);
-    }
-    film_x += pixels.count;
-    film_y += pixels.count;
-  }
-}
-
 // Calls sample(positive, negative) with functors that place the samples of the filter's two parts.
 template <class Sample>
 HWY_INLINE void WithFilters(const PixelSampler& sampler, const Sample& sample) {
@@ -179,13 +161,21 @@ HWY_INLINE void WithFilters(const PixelSampler& sampler, const Sample& sample) {
 void SamplePixelsT(const PixelSampler& sampler, const PixelBatch& pixels, int first, int count,
                    double* film_x, double* film_y) {
   WithFilters(sampler, [&](const auto& positive, const auto& negative) HWY_ATTR {
-    SampleAll(positive, negative, sampler, pixels, first, first + count, film_x, film_y);
+    for (int i = first; i < first + count; ++i) {
+      if (i < sampler.positive_count) {
+        SamplePlane(positive, sampler, i, pixels, film_x, film_y);
+      } else {
+        SamplePlane(negative, sampler, i, pixels, film_x, film_y);
+      }
+      film_x += pixels.count;
+      film_y += pixels.count;
+    }
   });
 }
 
 // SIMD twin of Mix64 in sampling/hash.h.
-template <class DU64>
-HWY_INLINE hn::Vec<DU64> MixEach(DU64 d, hn::Vec<DU64> x) {
+HWY_INLINE VU64 MixEach(VU64 x) {
+  const DU64 d;
   x = hn::Mul(hn::Xor(x, hn::ShiftRight<30>(x)), hn::Set(d, 0xbf58476d1ce4e5b9u));
   x = hn::Mul(hn::Xor(x, hn::ShiftRight<27>(x)), hn::Set(d, 0x94d049bb133111ebu));
   return hn::Xor(x, hn::ShiftRight<31>(x));
@@ -205,7 +195,7 @@ HWY_INLINE void ShiftRun(const PixelRun& run, VU64 first, uint64_t* shift_x, uin
     // through memory.
     const auto columns = hn::Add(lane, hn::Set(du32, static_cast<uint32_t>(run.x + i)));
     const auto pixel = hn::Or(row, hn::PromoteTo(du64, columns));
-    const auto shift = MixEach(du64, hn::Xor(first, pixel));
+    const auto shift = MixEach(hn::Xor(first, pixel));
     hn::StoreU(hn::Or(exponent, hn::And(shift, low_half)), du64, shift_x + i);
     hn::StoreU(hn::Or(exponent, hn::ShiftRight<32>(shift)), du64, shift_y + i);
   }
@@ -287,8 +277,7 @@ void SamplePixelListT(const PixelSampler* samplers, std::span<const SampledPixel
   });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

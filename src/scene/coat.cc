@@ -5,7 +5,6 @@
 #include <variant>
 
 #include "brdf/fresnel.h"
-#include "brdf/fresnel_average.h"
 
 namespace nacre {
 namespace {

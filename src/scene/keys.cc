@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <type_traits>
 #include <utility>
 
 namespace nacre {
@@ -290,67 +291,24 @@ constexpr std::array kLightKinds = {
 
 }  // namespace
 
-template <>
-std::span<const SceneKey<ImageSettings>> KeysOf() {
-  return kImageKeys;
-}
-template <>
-std::span<const SceneKey<AmbientLight>> KeysOf() {
-  return kAmbientKeys;
-}
-template <>
-std::span<const SceneKey<DirectionalLight>> KeysOf() {
-  return kDirectionalKeys;
-}
-template <>
-std::span<const SceneKey<PointLight>> KeysOf() {
-  return kPointKeys;
-}
-template <>
-std::span<const SceneKey<SpotLight>> KeysOf() {
-  return kSpotKeys;
-}
-template <>
-std::span<const SceneKey<SphereAreaLight>> KeysOf() {
-  return kSphereKeys;
-}
-template <>
-std::span<const SceneKey<RectangleAreaLight>> KeysOf() {
-  return kRectangleKeys;
-}
-template <>
-std::span<const SceneKey<DiskAreaLight>> KeysOf() {
-  return kDiskKeys;
-}
-template <>
-std::span<const SceneKey<MeshAreaLight>> KeysOf() {
-  return kMeshKeys;
-}
-template <>
-std::span<const SceneKey<EnvironmentLight>> KeysOf() {
-  return kEnvironmentKeys;
-}
-template <>
-std::span<const SceneKey<ConstantSky>> KeysOf() {
-  return kConstantSkyKeys;
-}
-template <>
-std::span<const SceneKey<GradientSky>> KeysOf() {
-  return kGradientSkyKeys;
-}
-template <>
-std::span<const SceneKey<QuadraticSky>> KeysOf() {
-  return kQuadraticSkyKeys;
-}
-template <>
-std::span<const SceneKey<PictureSky>> KeysOf() {
-  return kPictureSkyKeys;
-}
-
-std::span<const SceneKey<Camera>> CameraKeys(Projection projection) {
-  if (projection == Projection::kPerspective) return kPerspectiveKeys;
+SceneKeys<Camera> KeysFor(const Camera& camera) {
+  if (camera.projection == Projection::kPerspective) return kPerspectiveKeys;
   return kOrthographicKeys;
 }
+SceneKeys<ImageSettings> KeysFor(const ImageSettings&) { return kImageKeys; }
+SceneKeys<AmbientLight> KeysFor(const AmbientLight&) { return kAmbientKeys; }
+SceneKeys<DirectionalLight> KeysFor(const DirectionalLight&) { return kDirectionalKeys; }
+SceneKeys<PointLight> KeysFor(const PointLight&) { return kPointKeys; }
+SceneKeys<SpotLight> KeysFor(const SpotLight&) { return kSpotKeys; }
+SceneKeys<SphereAreaLight> KeysFor(const SphereAreaLight&) { return kSphereKeys; }
+SceneKeys<RectangleAreaLight> KeysFor(const RectangleAreaLight&) { return kRectangleKeys; }
+SceneKeys<DiskAreaLight> KeysFor(const DiskAreaLight&) { return kDiskKeys; }
+SceneKeys<MeshAreaLight> KeysFor(const MeshAreaLight&) { return kMeshKeys; }
+SceneKeys<EnvironmentLight> KeysFor(const EnvironmentLight&) { return kEnvironmentKeys; }
+SceneKeys<ConstantSky> KeysFor(const ConstantSky&) { return kConstantSkyKeys; }
+SceneKeys<GradientSky> KeysFor(const GradientSky&) { return kGradientSkyKeys; }
+SceneKeys<QuadraticSky> KeysFor(const QuadraticSky&) { return kQuadraticSkyKeys; }
+SceneKeys<PictureSky> KeysFor(const PictureSky&) { return kPictureSkyKeys; }
 
 std::span<const LightKind> LightKinds() { return kLightKinds; }
 

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
-#include <type_traits>
 
 #include "base/vec.h"
 #include "scene/limits.h"
@@ -37,51 +36,27 @@ struct SceneKey {
   void (*set)(Owner&, const Vec3d&);
 };
 
-// The keys of a struct, in the order in which the hash takes them. Kinds of lights and skies have
-// keys for all but the files that they refer to.
 template <class Owner>
-std::span<const SceneKey<Owner>> KeysOf();
+using SceneKeys = std::span<const SceneKey<Owner>>;
 
-template <>
-std::span<const SceneKey<ImageSettings>> KeysOf();
-template <>
-std::span<const SceneKey<AmbientLight>> KeysOf();
-template <>
-std::span<const SceneKey<DirectionalLight>> KeysOf();
-template <>
-std::span<const SceneKey<PointLight>> KeysOf();
-template <>
-std::span<const SceneKey<SpotLight>> KeysOf();
-template <>
-std::span<const SceneKey<SphereAreaLight>> KeysOf();
-template <>
-std::span<const SceneKey<RectangleAreaLight>> KeysOf();
-template <>
-std::span<const SceneKey<DiskAreaLight>> KeysOf();
-template <>
-std::span<const SceneKey<MeshAreaLight>> KeysOf();
-template <>
-std::span<const SceneKey<EnvironmentLight>> KeysOf();
-template <>
-std::span<const SceneKey<ConstantSky>> KeysOf();
-template <>
-std::span<const SceneKey<GradientSky>> KeysOf();
-template <>
-std::span<const SceneKey<QuadraticSky>> KeysOf();
-template <>
-std::span<const SceneKey<PictureSky>> KeysOf();
-
-// The keys of a camera: a perspective one has a field of view, an orthographic one a height.
-std::span<const SceneKey<Camera>> CameraKeys(Projection projection);
-
-template <class Owner>
-std::span<const SceneKey<Owner>> KeysFor(const Owner& owner) {
-  if constexpr (std::is_same_v<Owner, Camera>) {
-    return CameraKeys(owner.projection);
-  } else {
-    return KeysOf<Owner>();
-  }
-}
+// The keys of a struct, in the order in which the hash takes them. A perspective camera has a field
+// of view, an orthographic one a height. Kinds of lights and skies have keys for all but the files
+// that they refer to.
+SceneKeys<Camera> KeysFor(const Camera& camera);
+SceneKeys<ImageSettings> KeysFor(const ImageSettings&);
+SceneKeys<AmbientLight> KeysFor(const AmbientLight&);
+SceneKeys<DirectionalLight> KeysFor(const DirectionalLight&);
+SceneKeys<PointLight> KeysFor(const PointLight&);
+SceneKeys<SpotLight> KeysFor(const SpotLight&);
+SceneKeys<SphereAreaLight> KeysFor(const SphereAreaLight&);
+SceneKeys<RectangleAreaLight> KeysFor(const RectangleAreaLight&);
+SceneKeys<DiskAreaLight> KeysFor(const DiskAreaLight&);
+SceneKeys<MeshAreaLight> KeysFor(const MeshAreaLight&);
+SceneKeys<EnvironmentLight> KeysFor(const EnvironmentLight&);
+SceneKeys<ConstantSky> KeysFor(const ConstantSky&);
+SceneKeys<GradientSky> KeysFor(const GradientSky&);
+SceneKeys<QuadraticSky> KeysFor(const QuadraticSky&);
+SceneKeys<PictureSky> KeysFor(const PictureSky&);
 
 struct LightKind {
   std::string_view name;            // a light's "type"

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "scene/primitives.h"
+#include "scene/scene_with_lights.h"
 
 namespace nacre {
 namespace {

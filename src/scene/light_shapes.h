@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene/light_shapes.h: area lights as shapes, for the camera to see and to block other light.
+// scene/light_shapes.h: where area lights are.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <vector>
 
-#include "scene/scene.h"
+#include "base/vec.h"
+#include "scene/light.h"
 
 namespace nacre {
 
@@ -28,27 +28,5 @@ struct LightBall {
 LightBall BallAround(const std::vector<Vec3d>& positions);
 // A ball around an area light; nullopt if the light is not a visible surface.
 std::optional<LightBall> VisibleBall(const Light& light);
-
-// Primitives [begin, end), as Scene numbers them: spheres first, then the meshes' triangles.
-struct PrimitiveRange {
-  uint32_t begin = 0, end = 0;
-
-  bool Contains(uint32_t primitive) const { return primitive >= begin && primitive < end; }
-};
-
-// The scene with area lights added, after its own shapes, as spheres and meshes of black, emissive
-// materials: light i if shown[i]. primitives[i] are those of light i, or an empty range. A disk is
-// a polygon with so many corners that its edge is off by at most 5e-6 of the radius. Flat lights
-// are moved in front of surfaces in the same plane by 2^-44 of the coordinates.
-struct SceneWithLights {
-  Scene scene;
-  std::vector<PrimitiveRange> primitives;
-};
-SceneWithLights AddLightShapes(const Scene& scene, const std::vector<bool>& shown);
-
-// Copies everything but shapes and materials, which the caller copies, from `scene` to `with`. The
-// lights and shapes of `scene` must be those that `with` was made from. Flat lights are moved again
-// if the camera's position has changed.
-void UpdateAllButShapes(const Scene& scene, SceneWithLights* with);
 
 }  // namespace nacre

@@ -513,6 +513,21 @@ const MaterialModel* ModelOf(const Material& material) {
   return nullptr;
 }
 
+std::vector<TextureId> TexturesOf(const Material& material) {
+  std::vector<TextureId> ids;
+  const auto add = [&](TextureId id) {
+    if (id.valid()) ids.push_back(id);
+  };
+  if (const MaterialModel* const model = ModelOf(material)) {
+    for (const MaterialMap& map : model->maps) add(map.get(material));
+    for (const MaterialNormalMap& row : model->normal_maps) {
+      add(NormalMapOf(row, material).texture);
+    }
+  }
+  add(material.bump_map.texture);
+  return ids;
+}
+
 bool CutsHoles(const Material& material) {
   return material.opacity_map.valid() || material.opacity < material.opacity_cutoff;
 }

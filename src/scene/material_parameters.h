@@ -8,10 +8,12 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "base/vec.h"
 #include "scene/handle.h"
 #include "scene/limits.h"
+#include "scene/mapped_number.h"
 #include "scene/material.h"
 
 namespace nacre {
@@ -43,20 +45,6 @@ enum class MapUse : uint8_t {
   kTwoData,  // numbers, never encoded; green and blue count
   kOpacity,  // its alpha, unless it says otherwise; decides where surfaces are, not how they look
 };
-
-// The parameters of all models that may vary by hit, by their meaning.
-enum class MappedNumber : uint8_t {
-  kColor,          // albedo, the Phong family's color, base_color
-  kSpecularColor,  // ks; dielectric_f0
-  kSpecular,       // MetallicRoughnessMaterial::specular
-  kWidth,          // roughness of lobes; shininess
-  kMetallic,
-  kSheenColor,
-  kSheenRoughness,
-  kEmission,
-  kCount,
-};
-inline constexpr size_t kMappedNumbers = static_cast<size_t>(MappedNumber::kCount);
 
 // One of the parameters that a map multiplies.
 struct MapTarget {
@@ -92,6 +80,9 @@ struct MaterialNormalMap {
 inline const NormalMap& NormalMapOf(const MaterialNormalMap& map, const Material& material) {
   return map.of(const_cast<Material&>(material));  // `of` does not modify it
 }
+
+// The textures of all maps of the material, in the order in which scene files are read.
+std::vector<TextureId> TexturesOf(const Material& material);
 
 struct MaterialModel {
   std::string_view name;  // "metallic_roughness"

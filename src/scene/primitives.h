@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "scene/scene.h"
+#include "scene/shapes.h"
 
 namespace nacre {
+
+struct Scene;
 
 struct PrimitiveNumbers {
   const Scene* scene = nullptr;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene_io/gltf.h"
-
+// scene_io/gltf.cc: scenes from glTF 2.0 files.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,12 +8,10 @@
 
 #include <fmt/format.h>
 
-#include "scene_io/gltf_camera.h"
 #include "scene_io/gltf_document.h"
-#include "scene_io/gltf_lights.h"
-#include "scene_io/gltf_materials.h"
-#include "scene_io/gltf_meshes.h"
+#include "scene_io/gltf_readers.h"
 #include "scene_io/gltf_skins.h"
+#include "scene_io/model_files.h"
 #include "scene_io/model_scene.h"
 
 namespace nacre {
@@ -61,16 +58,13 @@ std::vector<int> RootsOf(const GltfDocument& document) {
   const gltf::Model& model = document.model;
   if (!model.scenes.empty()) {
     const int scene = std::max(model.scene, 0);
-    if (static_cast<size_t>(scene) >= model.scenes.size()) {
-      document.Refuse("/scene", fmt::format("there is no scene {}", scene),
-                      fmt::format("the file has {}", model.scenes.size()));
-    }
-    return model.scenes[static_cast<size_t>(scene)].nodes;
+    return document.At(model.scenes, scene, "/scene", fmt::format("there is no scene {}", scene))
+        .nodes;
   }
   std::vector<bool> has_parent(model.nodes.size());
   for (const gltf::Node& node : model.nodes) {
     for (const int child : node.children) {
-      if (child >= 0 && static_cast<size_t>(child) < has_parent.size()) {
+      if (gltf::ItemAt(model.nodes, child) != nullptr) {
         has_parent[static_cast<size_t>(child)] = true;
       }
     }
@@ -112,13 +106,11 @@ class NodeWalk {
       const Visit visit = stack_.back();
       stack_.pop_back();
       const std::string place = fmt::format("/nodes/{}", visit.node);
-      if (visit.node < 0 || static_cast<size_t>(visit.node) >= count) {
-        document_.Refuse(place, "there is no such node", fmt::format("the file has {}", count));
-      }
+      const gltf::Node& node =
+          document_.At(document_.model.nodes, visit.node, place, "there is no such node");
       const auto index = static_cast<size_t>(visit.node);
       if (is_placed_[index]) document_.Refuse(place, "is in the scene twice, or below itself");
       is_placed_[index] = true;
-      const gltf::Node& node = document_.model.nodes[index];
       world_from_node_[index] = MatrixOf(&document_, node, place) * visit.world_from_parent;
       order_.push_back(index);
       Push(node.children, world_from_node_[index]);
@@ -186,7 +178,8 @@ Scene ReadGltf(const std::filesystem::path& path, const LoadOptions& options, bo
     document.Warn("a mesh has images but no texture coordinates: it shows one texel of each");
   }
   *has_camera = walk.has_camera();
-  if (document.model.hasAnimations) {
+  const Json* const animations = document.model.animations;
+  if (animations != nullptr && !animations->empty()) {
     document.Warn("animations are left out: nodes are where they are without them");
   }
   if (scene.meshes.empty()) document.Refuse({}, "has no triangles in its scene");

@@ -2,7 +2,8 @@
 #include "scene_io/gltf_accessor.h"
 
 #include <algorithm>
-#include <cstring>
+#include <array>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -12,28 +13,14 @@ namespace {
 // Elements without a buffer (zeros) take no space in the file, so their number is limited here.
 constexpr size_t kMaxZeros = size_t{1} << 24;
 
-template <typename T>
-T Load(const unsigned char* bytes) {
-  T value;
-  std::memcpy(&value, bytes, sizeof(T));  // glTF and our machines are little-endian
-  return value;
-}
-
-// The size of a component in bytes; 0 if `type` is not a component type of glTF.
-size_t ComponentSize(int type) {
-  switch (type) {
-    case gltf::kByte:
-    case gltf::kUnsignedByte:
-      return 1;
-    case gltf::kShort:
-    case gltf::kUnsignedShort:
-      return 2;
-    case gltf::kUnsignedInt:
-    case gltf::kFloat:
-      return 4;
-    default:
-      return 0;
+// The type that a componentType means; nullopt if it is none of glTF's, which are the constants of
+// OpenGL from GL_BYTE on without GL_INT.
+std::optional<NumberType> TypeOf(int component_type) {
+  constexpr int kByte = 5120, kInt = 5124, kFloat = 5126;
+  if (component_type < kByte || component_type > kFloat || component_type == kInt) {
+    return std::nullopt;
   }
+  return static_cast<NumberType>(component_type - kByte);
 }
 
 // The number of components of an element, for the types that nacre reads.
@@ -42,44 +29,29 @@ size_t ComponentCount(std::string_view type) {
   return type == "SCALAR" ? 1 : static_cast<size_t>(type.back() - '0');
 }
 
-bool IsUnsigned(int type) {
-  return type == gltf::kUnsignedByte || type == gltf::kUnsignedShort || type == gltf::kUnsignedInt;
-}
-
-uint32_t LoadIndex(const unsigned char* bytes, int type) {
-  switch (type) {
-    case gltf::kUnsignedByte:
-      return *bytes;
-    case gltf::kUnsignedShort:
-      return Load<uint16_t>(bytes);
-    default:
-      return Load<uint32_t>(bytes);
-  }
+bool IsUnsigned(NumberType type) {
+  return type == NumberType::kUint8 || type == NumberType::kUint16 || type == NumberType::kUint32;
 }
 
 }  // namespace
 
 GltfAccessor::GltfAccessor(const GltfDocument& document, int index, std::string_view type)
     : place_(fmt::format("/accessors/{}", index)) {
-  const auto& accessors = document.model.accessors;
-  if (index < 0 || static_cast<size_t>(index) >= accessors.size()) {
-    document.Refuse(place_, "there is no such accessor",
-                    fmt::format("the file has {}", accessors.size()));
-  }
-  const gltf::Accessor& accessor = accessors[static_cast<size_t>(index)];
-  component_type_ = accessor.componentType;
-  component_size_ = ComponentSize(component_type_);
-  if (component_size_ == 0) {
-    document.Refuse(place_ + "/componentType", fmt::format("{} is none", component_type_),
+  const gltf::Accessor& accessor =
+      document.At(document.model.accessors, index, place_, "there is no such accessor");
+  const std::optional<NumberType> number_type = TypeOf(accessor.componentType);
+  if (!number_type) {
+    document.Refuse(place_ + "/componentType", fmt::format("{} is none", accessor.componentType),
                     "one of 5120 to 5123, 5125 and 5126");
   }
+  type_ = *number_type;
   if (accessor.type != type) {
     document.Refuse(
         place_ + "/type", "is not the type that its use asks for",
         "positions and normals are VEC3, texture coordinates VEC2, indices SCALAR, joints and "
         "weights VEC4, inverse bind matrices MAT4");
   }
-  element_size_ = component_size_ * ComponentCount(type);
+  element_size_ = SizeOf(type_) * ComponentCount(type);
   normalized_ = accessor.normalized;
   count_ = accessor.count;
   if (count_ == 0) document.Refuse(place_ + "/count", "is 0");
@@ -90,25 +62,19 @@ GltfAccessor::GltfAccessor(const GltfDocument& document, int index, std::string_
     document.Refuse(place_ + "/count", fmt::format("{} elements without a buffer view", count_),
                     fmt::format("at most {}", kMaxZeros));
   }
-  if (accessor.isSparse) ReadSparse(document, accessor);
+  if (accessor.sparse) ReadSparse(document, *accessor.sparse);
 }
 
 // The comparisons only subtract the smaller operand from the larger, so that nothing wraps around.
 GltfAccessor::Elements GltfAccessor::CheckElements(const GltfDocument& document, int view,
                                                    uint64_t offset, uint64_t count,
                                                    size_t size) const {
-  const gltf::Model& model = document.model;
-  if (view < 0 || static_cast<size_t>(view) >= model.bufferViews.size()) {
-    document.Refuse(place_, fmt::format("there is no buffer view {}", view),
-                    fmt::format("the file has {}", model.bufferViews.size()));
-  }
-  const gltf::BufferView& bytes = model.bufferViews[static_cast<size_t>(view)];
+  const gltf::BufferView& bytes = document.At(document.model.bufferViews, view, place_,
+                                              fmt::format("there is no buffer view {}", view));
   const std::string view_place = fmt::format("/bufferViews/{}", view);
-  if (bytes.buffer < 0 || static_cast<size_t>(bytes.buffer) >= model.buffers.size()) {
-    document.Refuse(view_place + "/buffer", fmt::format("there is no buffer {}", bytes.buffer),
-                    fmt::format("the file has {}", model.buffers.size()));
-  }
-  const gltf::Buffer& buffer = model.buffers[static_cast<size_t>(bytes.buffer)];
+  const gltf::Buffer& buffer =
+      document.At(document.model.buffers, bytes.buffer, view_place + "/buffer",
+                  fmt::format("there is no buffer {}", bytes.buffer));
   if (buffer.data == nullptr && bytes.extensions != nullptr && !bytes.extensions->empty()) {
     document.RefuseExtension(view_place, bytes.extensions->begin().key());
   }
@@ -132,28 +98,27 @@ GltfAccessor::Elements GltfAccessor::CheckElements(const GltfDocument& document,
     document.Refuse(place_, fmt::format("{} elements reach beyond buffer view {}", count, view),
                     fmt::format("that has {} bytes", bytes.byteLength));
   }
-  return {reinterpret_cast<const unsigned char*>(data.data()) + bytes.byteOffset + offset, stride};
+  return {data.data() + bytes.byteOffset + offset, stride};
 }
 
-void GltfAccessor::ReadSparse(const GltfDocument& document, const gltf::Accessor& accessor) {
-  const auto& sparse = accessor.sparse;
+void GltfAccessor::ReadSparse(const GltfDocument& document, const gltf::Sparse& sparse) {
   const std::string place = place_ + "/sparse";
-  if (sparse.count < 1 || sparse.count > count_) {
-    document.Refuse(place + "/count", fmt::format("{} of {} elements", sparse.count, count_));
+  const auto count = static_cast<size_t>(sparse.count);
+  if (count < 1 || count > count_) {
+    document.Refuse(place + "/count", fmt::format("{} of {} elements", count, count_));
   }
-  if (!IsUnsigned(sparse.indices.componentType)) {
+  const std::optional<NumberType> type = TypeOf(sparse.indices.componentType);
+  if (!type || !IsUnsigned(*type)) {
     document.Refuse(place + "/indices/componentType", "is not an unsigned type");
   }
-  const size_t count = sparse.count;
-  const Elements indices =
-      CheckElements(document, sparse.indices.bufferView, sparse.indices.byteOffset, count,
-                    ComponentSize(sparse.indices.componentType));
+  const Elements indices = CheckElements(document, sparse.indices.bufferView,
+                                         sparse.indices.byteOffset, count, SizeOf(*type));
   replacements_ = CheckElements(document, sparse.values.bufferView, sparse.values.byteOffset, count,
                                 element_size_);
   replaced_.reserve(count);
   for (size_t i = 0; i < count; ++i) {
-    const uint32_t element =
-        LoadIndex(indices.first + i * indices.stride, sparse.indices.componentType);
+    const auto element =
+        static_cast<uint32_t>(LoadNumber(indices.first + i * indices.stride, *type, false));
     if (element >= count_ || (i > 0 && element <= replaced_.back())) {
       document.Refuse(
           place + "/indices",
@@ -163,9 +128,15 @@ void GltfAccessor::ReadSparse(const GltfDocument& document, const gltf::Accessor
   }
 }
 
-bool GltfAccessor::is_unsigned() const { return IsUnsigned(component_type_); }
+void GltfAccessor::CheckCount(const GltfDocument& document, size_t positions) const {
+  if (count_ == positions) return;
+  document.Refuse(place_ + "/count",
+                  fmt::format("{} elements for {} positions", count_, positions));
+}
 
-const unsigned char* GltfAccessor::Bytes(size_t element) const {
+bool GltfAccessor::is_unsigned() const { return IsUnsigned(type_); }
+
+const char* GltfAccessor::Bytes(size_t element) const {
   const auto found = std::lower_bound(replaced_.begin(), replaced_.end(), element);
   if (found != replaced_.end() && *found == element) {
     const auto i = static_cast<size_t>(found - replaced_.begin());
@@ -175,31 +146,19 @@ const unsigned char* GltfAccessor::Bytes(size_t element) const {
 }
 
 double GltfAccessor::Number(size_t element, size_t c) const {
-  const unsigned char* bytes = Bytes(element);
+  const char* const bytes = Bytes(element);
   if (bytes == nullptr) return 0;
-  bytes += c * component_size_;
-  const auto signed_unit = [&](double value, double max) {
-    return normalized_ ? std::max(value / max, -1.0) : value;
-  };
-  switch (component_type_) {
-    case gltf::kByte:
-      return signed_unit(Load<int8_t>(bytes), 127);
-    case gltf::kShort:
-      return signed_unit(Load<int16_t>(bytes), 32767);
-    case gltf::kUnsignedByte:
-      return signed_unit(*bytes, 255);
-    case gltf::kUnsignedShort:
-      return signed_unit(Load<uint16_t>(bytes), 65535);
-    case gltf::kUnsignedInt:
-      return Load<uint32_t>(bytes);
-    default:
-      return Load<float>(bytes);
-  }
+  const double number = LoadNumber(bytes + c * SizeOf(type_), type_, false);
+  // Of the types that can be normalised.
+  constexpr std::array<double, 8> kMax = {127, 255, 32767, 65535};
+  const double max = kMax[static_cast<size_t>(type_)];
+  return normalized_ && max > 0 ? std::max(number / max, -1.0) : number;
 }
 
 uint32_t GltfAccessor::Index(size_t element, size_t c) const {
-  const unsigned char* const bytes = Bytes(element);
-  return bytes == nullptr ? 0 : LoadIndex(bytes + c * component_size_, component_type_);
+  const char* const bytes = Bytes(element);
+  if (bytes == nullptr) return 0;
+  return static_cast<uint32_t>(LoadNumber(bytes + c * SizeOf(type_), type_, false));
 }
 
 }  // namespace nacre

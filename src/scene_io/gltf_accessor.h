@@ -2,7 +2,6 @@
 // scene_io/gltf_accessor.h: the numbers that a glTF accessor refers to.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "scene_io/gltf_document.h"
+#include "scene_io/stored_number.h"
 
 namespace nacre {
 
@@ -22,8 +22,10 @@ class GltfAccessor {
   GltfAccessor(const GltfDocument& document, int index, std::string_view type);
 
   size_t count() const { return count_; }
+  // Refuses an attribute that does not have an element for each position.
+  void CheckCount(const GltfDocument& document, size_t positions) const;
   bool is_unsigned() const;  // unsigned integers, which can be indices
-  bool is_float() const { return component_type_ == gltf::kFloat; }
+  bool is_float() const { return type_ == NumberType::kFloat; }
 
   // Component c of an element, normalised if the accessor says so.
   double Number(size_t element, size_t c) const;
@@ -35,17 +37,16 @@ class GltfAccessor {
  private:
   // Where elements lie in a buffer.
   struct Elements {
-    const unsigned char* first = nullptr;  // null: all are 0
+    const char* first = nullptr;  // null: all are 0
     size_t stride = 0;
   };
   Elements CheckElements(const GltfDocument& document, int view, uint64_t offset, uint64_t count,
                          size_t size) const;
-  void ReadSparse(const GltfDocument& document, const gltf::Accessor& accessor);
-  const unsigned char* Bytes(size_t element) const;
+  void ReadSparse(const GltfDocument& document, const gltf::Sparse& sparse);
+  const char* Bytes(size_t element) const;
 
   std::string place_;
-  int component_type_;
-  size_t component_size_;
+  NumberType type_;
   size_t element_size_;
   bool normalized_;
   size_t count_;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene_io/gltf_camera.h"
-
+// scene_io/gltf_camera.cc: the cameras of a glTF file.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,6 +8,7 @@
 
 #include "base/excerpt.h"
 #include "scene/limits.h"
+#include "scene_io/gltf_readers.h"
 
 namespace nacre {
 
@@ -25,24 +25,20 @@ std::optional<Camera> MakeGltfCamera(int camera, size_t index, const Imath::M44d
                                      GltfDocument* to) {
   const GltfDocument& document = *to;
   const std::string place = fmt::format("/cameras/{}", camera);
-  const auto& cameras = document.model.cameras;
-  if (camera < 0 || static_cast<size_t>(camera) >= cameras.size()) {
-    document.Refuse(place, "there is no such camera",
-                    fmt::format("the file has {}", cameras.size()));
-  }
-  const gltf::Camera& source = cameras[static_cast<size_t>(camera)];
+  const gltf::Camera& source =
+      document.At(document.model.cameras, camera, place, "there is no such camera");
   Camera result;
   if (source.type == "perspective") {
-    result.fov_y_deg = source.yfov * (180 / std::numbers::pi);
+    result.fov_y_deg = source.perspective.yfov * (180 / std::numbers::pi);
     if (!(result.fov_y_deg > 0 && result.fov_y_deg < 180)) {
-      document.Refuse(place + "/perspective/yfov", fmt::format("{}", source.yfov),
+      document.Refuse(place + "/perspective/yfov", fmt::format("{}", source.perspective.yfov),
                       "radians, greater than 0 and less than pi");
     }
   } else if (source.type == "orthographic") {
     result.projection = Projection::kOrthographic;
-    result.height = 2 * std::abs(source.ymag);
+    result.height = 2 * std::abs(source.orthographic.ymag);
     if (!limits::kLength.Contains(result.height)) {
-      document.Refuse(place + "/orthographic/ymag", fmt::format("{}", source.ymag),
+      document.Refuse(place + "/orthographic/ymag", fmt::format("{}", source.orthographic.ymag),
                       "half the height of the view, not 0");
     }
   } else {

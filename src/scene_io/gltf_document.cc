@@ -20,7 +20,6 @@
 #include "base/excerpt.h"
 #include "base/path.h"
 #include "scene/fault_list.h"
-#include "scene_io/gltf_types.h"
 #include "scene_io/text_file.h"
 #include "scene_io/text_lines.h"
 #include "scene_io/uri.h"
@@ -216,15 +215,15 @@ void FindExtensions(const Json& json, std::set<std::string>* names) {
 void CheckVersionAndExtensions(GltfDocument* document) {
   const gltf::Model& model = document->model;
   const std::string reads = "this program reads glTF 2.0";
-  const auto version = VersionOf(model.version);
+  const auto version = VersionOf(model.asset.version);
   if (!version || version->first != 2) {
-    document->Refuse("/asset/version", fmt::format("glTF {}", Excerpt(model.version)), reads);
+    document->Refuse("/asset/version", fmt::format("glTF {}", Excerpt(model.asset.version)), reads);
   }
-  if (!model.minVersion.empty()) {
-    const auto least = VersionOf(model.minVersion);
+  if (!model.asset.minVersion.empty()) {
+    const auto least = VersionOf(model.asset.minVersion);
     if (!least || *least > std::make_pair(2u, 0u)) {
       document->Refuse("/asset/minVersion",
-                       fmt::format("glTF {} is required", Excerpt(model.minVersion)), reads);
+                       fmt::format("glTF {} is required", Excerpt(model.asset.minVersion)), reads);
     }
   }
   for (const std::string& extension : model.extensionsRequired) {
@@ -306,9 +305,8 @@ GltfDocument ReadGltfDocument(const std::filesystem::path& path, const LoadOptio
   FaultList faults;
   document.root = ParseJson(chunks.json, document.file, &faults, options.on_progress);
   RefuseOldVersion(document);
-  CheckGltfTypes(&document.root, &faults);
+  document.model = gltf::ReadModel(document.root, &faults);
   ThrowFaults(faults, document.file);
-  document.model = gltf::ReadModel(document.root);
   CheckVersionAndExtensions(&document);
   std::shared_ptr<const std::string> binary_chunk;
   if (chunks.data) {

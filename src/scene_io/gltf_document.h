@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // scene_io/gltf_document.h: a glTF 2.0 file (.gltf with its buffers, or .glb). The types of all
-// members that are read have been checked (gltf_types.h), and the buffers are loaded; indices and
+// members that are read have been checked (gltf_model.h), and the buffers are loaded; indices and
 // offsets are checked where they are used.
 #pragma once
 
@@ -9,6 +9,10 @@
 #include <functional>
 #include <string>
 #include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "base/vec.h"
 #include "scene/limits.h"
@@ -36,6 +40,17 @@ struct GltfDocument {
                            std::string hint = {}) const;
   // Refuses data that only the extension `name` of the object at `pointer` holds.
   [[noreturn]] void RefuseExtension(const std::string& pointer, const std::string& name) const;
+  // The item of an array of the file with this index. If there is none, refuses it, because of
+  // `what`, at `pointer`.
+  template <class Item>
+  const Item& At(const std::vector<Item>& items, int index, const std::string& pointer,
+                 std::string what) const {
+    const Item* const item = gltf::ItemAt(items, index);
+    if (item == nullptr) {
+      Refuse(pointer, std::move(what), fmt::format("the file has {}", items.size()));
+    }
+    return *item;
+  }
   // Refuses a colour, point or number that is not within the range.
   void Check(const std::string& pointer, const Vec3d& value, const Range& range) const;
   void Check(const std::string& pointer, double value, const Range& range) const;

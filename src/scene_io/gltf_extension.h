@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/gltf_extension.h: typed access to an extension's members, which CheckGltfTypes skips.
+// scene_io/gltf_extension.h: typed access to an extension's members, which ReadModel skips.
 #pragma once
 
 #include <cmath>
@@ -34,11 +34,23 @@ class GltfExtension {
     if (!Has(name) || !Get(name).is_array() || Get(name).size() < 4) return otherwise;
     return NumberOf(Get(name)[3], name);
   }
+  // A number that is refused unless it is in [0, 1].
+  double Unit(const char* name, double otherwise) const {
+    const double number = Number(name, otherwise);
+    if (!(number >= 0 && number <= 1)) Refuse(name, "is not in [0, 1]");
+    return number;
+  }
   Vec2d Pair(const char* name, const Vec2d& otherwise) const {
     if (!Has(name)) return otherwise;
     const Json& array = ArrayOf(name, 2);
     return {NumberOf(array[0], name), NumberOf(array[1], name)};
   }
+
+  [[noreturn]] void Refuse(const char* name, const char* what) const {
+    document_.Refuse(PlaceOf(name), what);
+  }
+  // The JSON pointer to a member.
+  std::string PlaceOf(const char* name) const { return place_ + "/" + name; }
 
  private:
   const Json& ArrayOf(const char* name, size_t least) const {
@@ -50,10 +62,6 @@ class GltfExtension {
     if (!value.is_number()) Refuse(name, "is not a number");
     return value.get<double>();
   }
-  [[noreturn]] void Refuse(const char* name, const char* what) const {
-    document_.Refuse(place_ + "/" + name, what);
-  }
-
   const GltfDocument& document_;
   const Json& value_;
   std::string place_;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene_io/gltf_lights.h"
-
+// scene_io/gltf_lights.cc: the lights of a glTF file (KHR_lights_punctual).
 #include <numbers>
 
 #include <fmt/format.h>
@@ -8,7 +7,7 @@
 #include "base/excerpt.h"
 #include "scene/limits.h"
 #include "scene/validate.h"
-#include "scene_io/gltf_camera.h"
+#include "scene_io/gltf_readers.h"
 
 namespace nacre {
 namespace {
@@ -24,17 +23,18 @@ std::string LayerName(const std::string& wanted) {
   return name;
 }
 
-SpotLight MakeSpot(const gltf::Light& light, const std::string& place, GltfDocument* document) {
-  SpotLight spot;
-  if (!(light.innerConeAngle >= 0) || !(light.outerConeAngle >= light.innerConeAngle) ||
-      !(light.outerConeAngle > 0) || !(light.outerConeAngle <= std::numbers::pi / 2 + 1e-6)) {
-    document->Refuse(
+SpotLight MakeSpot(const gltf::Light::Spot& cone, const std::string& place,
+                   const GltfDocument& document) {
+  if (!(cone.innerConeAngle >= 0) || !(cone.outerConeAngle >= cone.innerConeAngle) ||
+      !(cone.outerConeAngle > 0) || !(cone.outerConeAngle <= std::numbers::pi / 2 + 1e-6)) {
+    document.Refuse(
         place + "/spot",
-        fmt::format("its cone is from {} to {}", light.innerConeAngle, light.outerConeAngle),
+        fmt::format("its cone is from {} to {}", cone.innerConeAngle, cone.outerConeAngle),
         "angles in radians, 0 <= innerConeAngle < outerConeAngle <= pi / 2");
   }
-  spot.cutoff_deg = light.outerConeAngle * kDegrees;
-  spot.inner_deg = light.innerConeAngle * kDegrees;
+  SpotLight spot;
+  spot.cutoff_deg = cone.outerConeAngle * kDegrees;
+  spot.inner_deg = cone.innerConeAngle * kDegrees;
   spot.edge = SpotEdge::kSquare;
   return spot;
 }
@@ -43,13 +43,9 @@ SpotLight MakeSpot(const gltf::Light& light, const std::string& place, GltfDocum
 
 void AddGltfLight(int light, size_t index, const Imath::M44d& world_from_node,
                   GltfDocument* document, UniqueNames* names, Scene* scene) {
-  const auto& lights = document->model.lights;
   const std::string place = fmt::format("/extensions/KHR_lights_punctual/lights/{}", light);
-  if (light < 0 || static_cast<size_t>(light) >= lights.size()) {
-    document->Refuse(place, "there is no such light",
-                     fmt::format("the file has {}", lights.size()));
-  }
-  const gltf::Light& source = lights[static_cast<size_t>(light)];
+  const gltf::Light& source =
+      document->At(document->model.lights, light, place, "there is no such light");
   const Rgb intensity = Rgb(source.color[0], source.color[1], source.color[2]) * source.intensity;
   if (source.range > 0) document->Warn("the ranges of lights are left out: they have no end");
   document->Check(place + "/intensity", intensity, limits::kRadiance);
@@ -72,7 +68,7 @@ void AddGltfLight(int light, size_t index, const Imath::M44d& world_from_node,
     point.intensity = intensity;
     result.kind = point;
   } else if (source.type == "spot") {
-    SpotLight spot = MakeSpot(source, place, document);
+    SpotLight spot = MakeSpot(source.spot, place, *document);
     spot.position = position;
     spot.direction_of_travel = direction;
     spot.intensity = intensity;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene_io/gltf_meshes.h"
-
+// scene_io/gltf_meshes.cc: the triangles of a glTF file.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -15,6 +14,7 @@
 #include "scene/material_parameters.h"
 #include "scene/mesh.h"
 #include "scene_io/gltf_accessor.h"
+#include "scene_io/gltf_readers.h"
 #include "scene_io/gltf_skins.h"
 
 namespace nacre {
@@ -31,8 +31,7 @@ struct Primitive {
 };
 
 int AttributeOf(const Primitive& primitive, const char* name) {
-  const auto found = primitive.source.attributes.find(name);
-  return found == primitive.source.attributes.end() ? -1 : found->second;
+  return gltf::AttributeOf(primitive.source, name);
 }
 
 // The corners of triangle i, as numbered by the primitive.
@@ -141,12 +140,6 @@ Vec3d Triple(const GltfAccessor& accessor, size_t element) {
   return {accessor.Number(element, 0), accessor.Number(element, 1), accessor.Number(element, 2)};
 }
 
-void CheckCount(const GltfDocument& document, const GltfAccessor& accessor, size_t positions) {
-  if (accessor.count() == positions) return;
-  document.Refuse(accessor.place() + "/count",
-                  fmt::format("{} elements for {} positions", accessor.count(), positions));
-}
-
 void ReadPositions(const GltfDocument& document, const Primitive& primitive,
                    const GltfAccessor& accessor, const GltfPlacement& placement, Mesh* mesh) {
   const size_t count = primitive.vertices.size();
@@ -180,7 +173,7 @@ void ReadNormals(const GltfDocument& document, const Primitive& primitive, size_
   const int index = AttributeOf(primitive, "NORMAL");
   if (index < 0) return;  // without normals, the specification requires flat shading
   const GltfAccessor accessor(document, index, "VEC3");
-  CheckCount(document, accessor, positions);
+  accessor.CheckCount(document, positions);
   mesh->normals.resize(primitive.vertices.size());
   SetAll(primitive.vertices.size(), placement.ThreadsOf(document), [&](size_t i) {
     const uint32_t element = primitive.vertices[i];
@@ -198,7 +191,7 @@ void ReadTangents(const Primitive& primitive, size_t positions, const GltfPlacem
   const int index = AttributeOf(primitive, "TANGENT");
   if (index < 0 || mesh->normals.empty()) return;
   const GltfAccessor accessor(*document, index, "VEC4");
-  CheckCount(*document, accessor, positions);
+  accessor.CheckCount(*document, positions);
   // The tolerance of Khronos' validator: the error of signed bytes, the coarsest format.
   constexpr double kTolerance = 0.00674;
   mesh->tangents.reserve(primitive.vertices.size());
@@ -254,7 +247,7 @@ void ReadUvs(const GltfDocument& document, const Primitive& primitive, const cha
   const int index = AttributeOf(primitive, name);
   if (index < 0) return;
   const GltfAccessor accessor(document, index, "VEC2");
-  CheckCount(document, accessor, positions);
+  accessor.CheckCount(document, positions);
   const size_t count = primitive.vertices.size();
   uvs->resize(count);
   const size_t wrong = SetAll(count, document.threads, [&](size_t i) {
@@ -275,11 +268,10 @@ void ReadColors(const GltfDocument& document, const Primitive& primitive, size_t
                 Mesh* mesh) {
   const int index = AttributeOf(primitive, "COLOR_0");
   if (index < 0) return;
-  const auto& accessors = document.model.accessors;
-  const bool alpha = static_cast<size_t>(index) < accessors.size() &&
-                     accessors[static_cast<size_t>(index)].type == "VEC4";
+  const gltf::Accessor* const colors = gltf::ItemAt(document.model.accessors, index);
+  const bool alpha = colors != nullptr && colors->type == "VEC4";
   const GltfAccessor accessor(document, index, alpha ? "VEC4" : "VEC3");
-  CheckCount(document, accessor, positions);
+  accessor.CheckCount(document, positions);
   const auto& materials = document.model.materials;
   const bool masked = alpha && mesh->material.index < materials.size() &&
                       materials[mesh->material.index].alphaMode == "MASK";
@@ -303,35 +295,18 @@ void ReadColors(const GltfDocument& document, const Primitive& primitive, size_t
 
 // Whether any texture of the material uses the second texture coordinates.
 bool UsesSecondUvs(const Scene& scene, MaterialId id) {
-  const Material& material = scene.materials[id.index];
-  const auto second = [&](TextureId texture) {
-    return texture.valid() && scene.textures[texture.index].second_uvs;
-  };
-  const MaterialModel* const model = ModelOf(material);
-  if (model == nullptr) return false;
-  return std::any_of(model->maps.begin(), model->maps.end(),
-                     [&](const MaterialMap& map) { return second(map.get(material)); }) ||
-         std::any_of(model->normal_maps.begin(), model->normal_maps.end(),
-                     [&](const MaterialNormalMap& row) {
-                       return second(NormalMapOf(row, material).texture);
-                     });
+  const std::vector<TextureId> textures = TexturesOf(scene.materials[id.index]);
+  return std::any_of(textures.begin(), textures.end(),
+                     [&](TextureId texture) { return scene.textures[texture.index].second_uvs; });
 }
 
 MaterialId MaterialOf(const GltfDocument& document, const Primitive& primitive) {
-  const auto count = static_cast<uint32_t>(document.model.materials.size());
+  const auto& materials = document.model.materials;
   const int index = primitive.source.material;
-  if (index < 0) return {count};  // the default material comes last
-  if (static_cast<uint32_t>(index) >= count) {
-    document.Refuse(primitive.place + "/material", fmt::format("there is no material {}", index),
-                    fmt::format("the file has {}", count));
-  }
+  if (index < 0) return {static_cast<uint32_t>(materials.size())};  // the default comes last
+  document.At(materials, index, primitive.place + "/material",
+              fmt::format("there is no material {}", index));
   return {static_cast<uint32_t>(index)};
-}
-
-void WarnOfRest(const Primitive& primitive, GltfDocument* document) {
-  if (primitive.source.hasTargets) {
-    document->Warn("morph targets are left out: meshes are shown in their basic form");
-  }
 }
 
 // Refuses a primitive whose positions or indices have no data of their own, but an extension that
@@ -339,11 +314,9 @@ void WarnOfRest(const Primitive& primitive, GltfDocument* document) {
 void RefuseCompressed(const GltfDocument& document, const Primitive& primitive) {
   const gltf::Extensions extensions = primitive.source.extensions;
   if (extensions == nullptr) return;
-  const auto& accessors = document.model.accessors;
-  const auto is_empty = [&](int accessor) {
-    return accessor >= 0 && static_cast<size_t>(accessor) < accessors.size() &&
-           accessors[static_cast<size_t>(accessor)].bufferView < 0 &&
-           !accessors[static_cast<size_t>(accessor)].isSparse;
+  const auto is_empty = [&](int index) {
+    const gltf::Accessor* const accessor = gltf::ItemAt(document.model.accessors, index);
+    return accessor != nullptr && accessor->bufferView < 0 && !accessor->sparse;
   };
   if (!is_empty(AttributeOf(primitive, "POSITION")) && !is_empty(primitive.source.indices)) return;
   for (const auto& [name, extension] : extensions->items()) {
@@ -355,9 +328,11 @@ void RefuseCompressed(const GltfDocument& document, const Primitive& primitive) 
 // shows the primitive, whether or not its triangles use them.
 uint64_t SparseElements(const gltf::Model& model, const gltf::Primitive& primitive) {
   uint64_t count = 0;
-  const auto add = [&](int accessor) {
-    if (accessor < 0 || static_cast<size_t>(accessor) >= model.accessors.size()) return;
-    count += model.accessors[static_cast<size_t>(accessor)].sparse.count;
+  const auto add = [&](int index) {
+    const gltf::Accessor* const accessor = gltf::ItemAt(model.accessors, index);
+    if (accessor != nullptr && accessor->sparse) {
+      count += static_cast<uint64_t>(accessor->sparse->count);
+    }
   };
   add(primitive.indices);
   for (const auto& [name, accessor] : primitive.attributes) add(accessor);
@@ -376,7 +351,9 @@ void AddPrimitive(Primitive primitive, const std::string& name, const Imath::M44
   if (mode > gltf::kTriangleFan) {
     document->Refuse(primitive.place + "/mode", fmt::format("{} is none", mode), "from 0 to 6");
   }
-  WarnOfRest(primitive, document);
+  if (primitive.source.targets != nullptr) {
+    document->Warn("morph targets are left out: meshes are shown in their basic form");
+  }
   if (AttributeOf(primitive, "POSITION") < 0) {
     return leave_out("primitives without positions are left out");
   }
@@ -415,12 +392,10 @@ void AddPrimitive(Primitive primitive, const std::string& name, const Imath::M44
 void AddGltfMesh(int mesh, const std::string& name, const Imath::M44d& world_from_node,
                  const std::vector<Imath::M44d>* joints, GltfDocument* document,
                  SceneBudget* budget, Scene* scene) {
-  const auto& meshes = document->model.meshes;
-  if (mesh < 0 || static_cast<size_t>(mesh) >= meshes.size()) {
-    document->Refuse(fmt::format("/meshes/{}", mesh), "there is no such mesh",
-                     fmt::format("the file has {}", meshes.size()));
-  }
-  const auto& primitives = meshes[static_cast<size_t>(mesh)].primitives;
+  const auto& primitives = document
+                               ->At(document->model.meshes, mesh, fmt::format("/meshes/{}", mesh),
+                                    "there is no such mesh")
+                               .primitives;
   for (size_t i = 0; i < primitives.size(); ++i) {
     AddPrimitive({primitives[i], fmt::format("/meshes/{}/primitives/{}", mesh, i), {}, {}}, name,
                  world_from_node, joints, document, budget, scene);

@@ -3,26 +3,19 @@
 // members have the names, units and defaults of the specification; an index below 0 means none.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "scene/fault_list.h"
 #include "scene_io/json_text.h"
 
 namespace nacre::gltf {
-
-// Values of accessor.componentType.
-enum ComponentType : int {
-  kByte = 5120,
-  kUnsignedByte = 5121,
-  kShort = 5122,
-  kUnsignedShort = 5123,
-  kUnsignedInt = 5125,
-  kFloat = 5126,
-};
 
 // Values of primitive.mode.
 enum Mode : int { kPoints = 0, kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6 };
@@ -48,36 +41,44 @@ struct BufferView {
   Extensions extensions = nullptr;
 };
 
+struct SparseIndices {
+  int bufferView = -1;
+  uint64_t byteOffset = 0;
+  int componentType = 0;
+};
+
+struct SparseValues {
+  int bufferView = -1;
+  uint64_t byteOffset = 0;
+};
+
+struct Sparse {
+  int count = 0;
+  SparseIndices indices;
+  SparseValues values;
+};
+
 struct Accessor {
-  struct Indices {
-    int bufferView = -1;
-    uint64_t byteOffset = 0;
-    int componentType = 0;
-  };
-  struct Values {
-    int bufferView = -1;
-    uint64_t byteOffset = 0;
-  };
-  struct Sparse {
-    uint64_t count = 0;  // 0: the accessor is not sparse
-    Indices indices;
-    Values values;
-  };
   int bufferView = -1;
   uint64_t byteOffset = 0, count = 0;
   int componentType = 0;
   std::string type;  // "SCALAR", "VEC2", ...
   bool normalized = false;
-  bool isSparse = false;
-  Sparse sparse;
+  std::optional<Sparse> sparse;
 };
 
 struct Primitive {
   std::map<std::string, int> attributes;  // accessors by name
   int indices = -1, material = -1, mode = kTriangles;
-  bool hasTargets = false;  // morph targets
+  const Json* targets = nullptr;  // morph targets, of any form
   Extensions extensions = nullptr;
 };
+
+// The accessor of an attribute; below 0 if the primitive does not have it.
+inline int AttributeOf(const Primitive& primitive, const std::string& name) {
+  const auto found = primitive.attributes.find(name);
+  return found == primitive.attributes.end() ? -1 : found->second;
+}
 
 struct Mesh {
   std::vector<Primitive> primitives;
@@ -128,18 +129,27 @@ struct Material {
 };
 
 struct Camera {
+  struct Perspective {
+    double yfov = 0;  // radians
+  };
+  struct Orthographic {
+    double ymag = 0;  // half the view's height
+  };
   std::string type;  // "perspective" or "orthographic"
-  double yfov = 0;   // for perspective cameras: radians
-  double ymag = 0;   // for orthographic cameras: half the view's height
+  Perspective perspective;
+  Orthographic orthographic;
 };
 
 // KHR_lights_punctual.
 struct Light {
+  struct Spot {
+    double innerConeAngle = 0, outerConeAngle = 0.78539816339744830962;  // radians
+  };
   std::string name, type;
   std::vector<double> color = {1, 1, 1};
   double intensity = 1;
-  double range = 0;                                                    // 0: unlimited
-  double innerConeAngle = 0, outerConeAngle = 0.78539816339744830962;  // for spot lights: radians
+  double range = 0;  // 0: unlimited
+  Spot spot;
 };
 
 struct Skin {
@@ -151,11 +161,16 @@ struct Scene {
   std::vector<int> nodes;
 };
 
+struct Asset {
+  std::string version, minVersion;  // minVersion may be empty
+};
+
 struct Model {
-  std::string version, minVersion;  // from "asset"; minVersion may be empty
+  Asset asset;
   std::vector<std::string> extensionsUsed, extensionsRequired;
-  int scene = -1;  // the default scene
-  bool hasAnimations = false;
+  int scene = -1;                    // the default scene
+  const Json* animations = nullptr;  // of any form
+  Extensions extensions = nullptr;
   std::vector<Scene> scenes;
   std::vector<Node> nodes;
   std::vector<Mesh> meshes;
@@ -171,8 +186,34 @@ struct Model {
   std::vector<Skin> skins;
 };
 
-// Converts `root`, which must have passed CheckGltfTypes (gltf_types.h), to structs. They point to
-// the extensions in it, so `root` must outlive them.
-Model ReadModel(const Json& root);
+// The textures of extensions of materials.
+struct ExtensionTexture {
+  const char* extension;
+  const char* member;
+};
+inline constexpr std::array kExtensionTextures = {
+    ExtensionTexture{"KHR_materials_clearcoat", "clearcoatTexture"},
+    ExtensionTexture{"KHR_materials_clearcoat", "clearcoatRoughnessTexture"},
+    ExtensionTexture{"KHR_materials_clearcoat", "clearcoatNormalTexture"},
+    ExtensionTexture{"KHR_materials_pbrSpecularGlossiness", "diffuseTexture"},
+    ExtensionTexture{"KHR_materials_pbrSpecularGlossiness", "specularGlossinessTexture"},
+    ExtensionTexture{"KHR_materials_sheen", "sheenColorTexture"},
+    ExtensionTexture{"KHR_materials_sheen", "sheenRoughnessTexture"},
+    ExtensionTexture{"KHR_materials_specular", "specularTexture"},
+    ExtensionTexture{"KHR_materials_specular", "specularColorTexture"}};
+
+// The item with this index, or null if there is none.
+template <class Item>
+const Item* ItemAt(const std::vector<Item>& items, int index) {
+  const bool exists = index >= 0 && static_cast<size_t>(index) < items.size();
+  return exists ? &items[static_cast<size_t>(index)] : nullptr;
+}
+
+// Converts `root` to structs, which point to the extensions in it, so `root` must outlive them.
+// Adds a fault for each member that nacre reads and that violates its type in glTF 2.0 (negative
+// offsets, indices that are not whole numbers and arrays of a wrong length included), and for each
+// required member that is missing. A whole number may be written as 3.0 or 3e0. What is not read
+// (extras, unknown extensions, most of animations) may be anything.
+Model ReadModel(const Json& root, FaultList* faults);
 
 }  // namespace nacre::gltf

@@ -12,8 +12,7 @@ namespace {
 constexpr size_t kMaxInfluences = 16;  // in sets of four joints
 
 int SkinAttribute(const gltf::Primitive& primitive, const char* name, size_t set) {
-  const auto found = primitive.attributes.find(fmt::format("{}_{}", name, set));
-  return found == primitive.attributes.end() ? -1 : found->second;
+  return gltf::AttributeOf(primitive, fmt::format("{}_{}", name, set));
 }
 
 // Reads matrix i of an accessor. The file stores it by columns, which is by rows for row vectors.
@@ -33,12 +32,9 @@ Imath::M44d ReadAffine(const GltfAccessor& accessor, size_t i) {
 std::vector<Imath::M44d> JointMatrices(const GltfDocument& document, int skin,
                                        const std::vector<Imath::M44d>& world_from_node,
                                        const std::vector<bool>& is_placed) {
-  const auto& skins = document.model.skins;
   const std::string place = fmt::format("/skins/{}", skin);
-  if (skin < 0 || static_cast<size_t>(skin) >= skins.size()) {
-    document.Refuse(place, "there is no such skin", fmt::format("the file has {}", skins.size()));
-  }
-  const gltf::Skin& source = skins[static_cast<size_t>(skin)];
+  const gltf::Skin& source =
+      document.At(document.model.skins, skin, place, "there is no such skin");
   std::optional<GltfAccessor> inverse_bind;  // nullopt: the identity
   if (source.inverseBindMatrices >= 0) {
     inverse_bind.emplace(document, source.inverseBindMatrices, "MAT4");
@@ -82,11 +78,8 @@ GltfPlacement::GltfPlacement(const GltfDocument& document, const gltf::Primitive
                       fmt::format("more than {} sets of joints a vertex", kMaxInfluences));
     }
     influences_.push_back({{document, joint, "VEC4"}, {document, weight, "VEC4"}});
-    for (const GltfAccessor* accessor : {&influences_.back().joints, &influences_.back().weights}) {
-      if (accessor->count() == positions) continue;
-      document.Refuse(accessor->place() + "/count",
-                      fmt::format("{} elements for {} positions", accessor->count(), positions));
-    }
+    influences_.back().joints.CheckCount(document, positions);
+    influences_.back().weights.CheckCount(document, positions);
     if (!influences_.back().joints.is_unsigned()) {
       document.Refuse(influences_.back().joints.place() + "/componentType",
                       "joints are of an unsigned type");

@@ -75,11 +75,7 @@ void ApplyTransform(const GltfDocument& document, const UvChange& change, const 
 GltfImage FindImage(const GltfDocument& document, int image) {
   const gltf::Model& model = document.model;
   const std::string place = fmt::format("/images/{}", image);
-  if (image < 0 || static_cast<size_t>(image) >= model.images.size()) {
-    document.Refuse(place, "there is no such image",
-                    fmt::format("the file has {}", model.images.size()));
-  }
-  const gltf::Image& source = model.images[static_cast<size_t>(image)];
+  const gltf::Image& source = document.At(model.images, image, place, "there is no such image");
   if (source.bufferView < 0) {
     if (source.uri.empty()) document.Refuse(place, "has no \"uri\" and no \"bufferView\"");
     GltfImage found;
@@ -95,15 +91,16 @@ GltfImage FindImage(const GltfDocument& document, int image) {
     found.key = fmt::format("image {}", image);
     return found;
   }
-  if (static_cast<size_t>(source.bufferView) >= model.bufferViews.size()) {
+  const gltf::BufferView* const found = gltf::ItemAt(model.bufferViews, source.bufferView);
+  if (found == nullptr) {
     document.Refuse(place, fmt::format("there is no buffer view {}", source.bufferView));
   }
-  const gltf::BufferView& view = model.bufferViews[static_cast<size_t>(source.bufferView)];
-  if (view.buffer < 0 || static_cast<size_t>(view.buffer) >= model.buffers.size() ||
-      model.buffers[static_cast<size_t>(view.buffer)].data == nullptr) {
+  const gltf::BufferView& view = *found;
+  const gltf::Buffer* const buffer = gltf::ItemAt(model.buffers, view.buffer);
+  if (buffer == nullptr || buffer->data == nullptr) {
     document.Refuse(place, fmt::format("there is no buffer {}", view.buffer));
   }
-  const auto& data = model.buffers[static_cast<size_t>(view.buffer)].data;
+  const auto& data = buffer->data;
   if (view.byteOffset > data->size() || view.byteLength > data->size() - view.byteOffset) {
     document.Refuse(place, "reaches beyond its buffer");
   }
@@ -139,9 +136,8 @@ std::filesystem::path GltfTextures::FileOf(const GltfImage& image) {
 }
 
 void GltfTextures::WantAhead(int texture, TextureEncoding encoding) {
-  const gltf::Model& model = document_.model;
-  if (texture < 0 || static_cast<size_t>(texture) >= model.textures.size()) return;
-  const int image = model.textures[static_cast<size_t>(texture)].source;
+  const gltf::Texture* const source = gltf::ItemAt(document_.model.textures, texture);
+  const int image = source != nullptr ? source->source : -1;
   if (image < 0) return;
   try {
     ahead_.Want(FileOf(FindImage(document_, image)), Reading(encoding));
@@ -189,10 +185,8 @@ bool GltfTextures::IsWhite(TextureId texture) const {
 }
 
 void GltfTextures::CheckIndex(int texture, const std::string& place) const {
-  const size_t count = document_.model.textures.size();
-  if (texture >= 0 && static_cast<size_t>(texture) < count) return;
-  document_.Refuse(place, fmt::format("there is no texture {}", texture),
-                   fmt::format("the file has {}", count));
+  document_.At(document_.model.textures, texture, place,
+               fmt::format("there is no texture {}", texture));
 }
 
 TextureId GltfTextures::Add(const GltfTextureUse& use, const std::string& place) {
@@ -223,12 +217,12 @@ TextureId GltfTextures::Add(const GltfTextureUse& use, const std::string& place)
   }
   texture.second_uvs = tex_coord == 1;
   if (source.sampler >= 0) {
-    if (static_cast<size_t>(source.sampler) >= model.samplers.size()) {
+    const gltf::Sampler* const sampler = gltf::ItemAt(model.samplers, source.sampler);
+    if (sampler == nullptr) {
       document_.Refuse(fmt::format("/textures/{}/sampler", use.texture),
                        fmt::format("there is no sampler {}", source.sampler));
     }
-    const gltf::Sampler& sampler = model.samplers[static_cast<size_t>(source.sampler)];
-    texture.sampling = {FilterOf(sampler), WrapOf(sampler.wrapS), WrapOf(sampler.wrapT)};
+    texture.sampling = {FilterOf(*sampler), WrapOf(sampler->wrapS), WrapOf(sampler->wrapT)};
   }
   texture.image = AddImage(source.source, Reading(use.encoding, use.glossiness));
   scene_.textures.push_back(std::move(texture));

@@ -42,7 +42,7 @@ bool ReadTriple(const JsonValue& value, const Range& range, std::string_view hin
   double triple[3];
   bool is_right = true;
   for (size_t i = 0; i < 3; ++i) {
-    is_right &= ReadNumber({json[i], value.path.Element(i), value.faults}, range, &triple[i]);
+    is_right &= ReadNumber(value.Element(i), range, &triple[i]);
   }
   if (is_right) std::copy_n(triple, 3, out);
   return is_right;
@@ -117,6 +117,30 @@ bool ReadText(const JsonValue& value, std::string* out) {
   return true;
 }
 
+void ReadTwoNumbers(const JsonValue& value, const Range& range, std::string_view expected,
+                    double* first, double* second) {
+  if (value.json.is_number()) {
+    if (ReadNumber(value, range, first)) *second = *first;
+    return;
+  }
+  if (!value.Expect(value.json.is_array() && value.json.size() == 2, expected)) return;
+  ReadNumber(value.Element(0), range, first);
+  ReadNumber(value.Element(1), range, second);
+}
+
+bool ReadChoice(const JsonValue& value, std::string_view kind,
+                std::span<const std::string_view> names, size_t* out) {
+  std::string word;
+  if (!ReadText(value, &word)) return false;
+  const auto found = std::find(names.begin(), names.end(), word);
+  if (found == names.end()) {
+    FaultUnknownName(value, kind, word, {names.begin(), names.end()});
+    return false;
+  }
+  *out = static_cast<size_t>(found - names.begin());
+  return true;
+}
+
 void AddFileFaults(const Error& error, const JsonValue& value) {
   for (const Fault& fault : error.faults()) {
     value.AddFault(fault.where.empty() ? fault.what : fault.where + ": " + fault.what, fault.hint);
@@ -149,71 +173,58 @@ JsonObject::JsonObject(const JsonValue& value, std::string_view hint) : value_(v
   value.Expect(value.json.is_object(), "an object", hint);
 }
 
-const Json* JsonObject::Find(std::string_view name) {
+std::optional<JsonValue> JsonObject::Find(std::string_view name) {
   if (std::find(known_.begin(), known_.end(), name) == known_.end()) known_.push_back(name);
-  if (!is_object()) return nullptr;
+  if (!is_object()) return std::nullopt;
   const auto found = value_.json.find(name);
-  return found == value_.json.end() ? nullptr : &*found;
+  if (found == value_.json.end()) return std::nullopt;
+  return JsonValue{*found, value_.path.Member(name), faults()};
 }
 
-const Json* JsonObject::Require(std::string_view name, std::string_view hint) {
-  const Json* const found = Find(name);
-  if (found == nullptr && is_object()) {
+std::optional<JsonValue> JsonObject::Require(std::string_view name, std::string_view hint) {
+  const std::optional<JsonValue> found = Find(name);
+  if (!found && is_object()) {
     value_.AddFault(fmt::format("missing key \"{}\"", name), std::string(hint));
   }
   return found;
 }
 
 bool JsonObject::Number(std::string_view name, const Range& range, double* out) {
-  const Json* const json = Find(name);
-  return json != nullptr && ReadNumber({*json, path().Member(name), faults()}, range, out);
+  const auto value = Find(name);
+  return value && ReadNumber(*value, range, out);
 }
 
 bool JsonObject::Color(std::string_view name, const Range& range, Rgb* out) {
-  const Json* const json = Find(name);
-  return json != nullptr && ReadColor({*json, path().Member(name), faults()}, range, out);
+  const auto value = Find(name);
+  return value && ReadColor(*value, range, out);
 }
 
 bool JsonObject::Point(std::string_view name, Vec3d* out) {
-  const Json* const json = Find(name);
-  return json != nullptr &&
-         ReadPoint({*json, path().Member(name), faults()}, limits::kCoordinate, out);
+  const auto value = Find(name);
+  return value && ReadPoint(*value, limits::kCoordinate, out);
 }
 
 bool JsonObject::Boolean(std::string_view name, bool* out) {
-  const Json* const json = Find(name);
-  if (json == nullptr) return false;
-  const JsonPath member = path().Member(name);
-  if (!JsonValue{*json, member, faults()}.Expect(json->is_boolean(), "true or false")) return false;
-  *out = json->get<bool>();
+  const auto value = Find(name);
+  if (!value || !value->Expect(value->json.is_boolean(), "true or false")) return false;
+  *out = value->json.get<bool>();
   return true;
 }
 
 bool JsonObject::Text(std::string_view name, std::string* out) {
-  const Json* const json = Find(name);
-  return json != nullptr && ReadText({*json, path().Member(name), faults()}, out);
+  const auto value = Find(name);
+  return value && ReadText(*value, out);
 }
 
 bool JsonObject::WholeNumber(std::string_view name, const Range& range, int64_t* out) {
-  const Json* const json = Find(name);
-  return json != nullptr && ReadWhole({*json, path().Member(name), faults()}, range, out);
+  const auto value = Find(name);
+  return value && ReadWhole(*value, range, out);
 }
 
 bool JsonObject::Choice(std::string_view name, std::span<const std::string_view> names,
                         size_t* out) {
-  const Json* const json = Find(name);
-  if (json == nullptr) return false;
-  const JsonPath member = path().Member(name);
-  const JsonValue value{*json, member, faults()};
-  std::string word;
-  if (!ReadText(value, &word)) return false;
-  const auto found = std::find(names.begin(), names.end(), word);
-  if (found == names.end()) {
-    FaultUnknownName(value, name, word, {names.begin(), names.end()});
-    return false;
-  }
-  *out = static_cast<size_t>(found - names.begin());
-  return true;
+  const auto value = Find(name);
+  return value && ReadChoice(*value, name, names, out);
 }
 
 void JsonObject::RefuseOthers() {

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -41,6 +42,8 @@ struct JsonValue {
   JsonPath path;
   FaultList* faults;
 
+  JsonValue Element(size_t i) const { return {json[i], path.Element(i), faults}; }
+
   void AddFault(std::string what, std::string hint = {}) const;
   // Unless `is_right`, adds the fault "expected a number, got a string", with the hint. Returns
   // is_right.
@@ -53,6 +56,14 @@ bool ReadWhole(const JsonValue& value, const Range& range, int64_t* out);
 bool ReadColor(const JsonValue& value, const Range& range, Rgb* out);
 bool ReadPoint(const JsonValue& value, const Range& range, Vec3d* out);
 bool ReadText(const JsonValue& value, std::string* out);
+
+// Reads one of `names`, which are of this kind, and sets *out to its index there.
+bool ReadChoice(const JsonValue& value, std::string_view kind,
+                std::span<const std::string_view> names, size_t* out);
+
+// Reads two numbers, or one for both; `expected` describes them. Sets those that are valid.
+void ReadTwoNumbers(const JsonValue& value, const Range& range, std::string_view expected,
+                    double* first, double* second);
 
 // Adds the faults of `error`, which is about the file that the value names, at the value's
 // location.
@@ -71,10 +82,10 @@ class JsonObject {
   JsonObject(const JsonObject&) = delete;
   JsonObject& operator=(const JsonObject&) = delete;
 
-  // The member with this name, or nullptr if there is none.
-  const Json* Find(std::string_view name);
-  // The member with this name. If there is none, adds a fault and returns nullptr.
-  const Json* Require(std::string_view name, std::string_view hint = {});
+  // The member with this name; nullopt if there is none.
+  std::optional<JsonValue> Find(std::string_view name);
+  // The member with this name. If there is none, adds a fault.
+  std::optional<JsonValue> Require(std::string_view name, std::string_view hint = {});
 
   // Each sets *out if the member is present and valid, and returns whether it did.
   bool Number(std::string_view name, const Range& range, double* out);
@@ -95,7 +106,6 @@ class JsonObject {
   void RefuseOthers();
 
   bool is_object() const { return value_.json.is_object(); }
-  const JsonPath& path() const { return value_.path; }
   FaultList* faults() const { return value_.faults; }
   const JsonValue& value() const { return value_; }
 

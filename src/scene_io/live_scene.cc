@@ -160,11 +160,7 @@ SceneParts LiveScene::ReadChangedFiles() {
   if (model_) {
     // Reads everything again. If that fails, the files that it tried to read are watched from then
     // on.
-    LoadOptions options = Watching();
-    LiveScene fresh(path_, std::move(options), complete_);
-    fresh.options_.on_file = std::move(options_.on_file);
-    *this = std::move(fresh);
-    return SceneParts::All();
+    return Become(LiveScene(path_, Watching(), complete_));
   }
   const std::string text = ReadSceneText(path_);
   SceneTree other = Parse(text);
@@ -194,8 +190,11 @@ SceneParts LiveScene::ReadNamedFiles() {
     files_.ForgetChanges();
     return parts;
   }
-  LiveScene fresh({path_, file_, folder_, bytes_, tree_, model_->own_lights}, Watching(),
-                  complete_);
+  return Become(
+      LiveScene({path_, file_, folder_, bytes_, tree_, model_->own_lights}, Watching(), complete_));
+}
+
+SceneParts LiveScene::Become(LiveScene fresh) {
   fresh.options_.on_file = std::move(options_.on_file);
   *this = std::move(fresh);
   return SceneParts::All();

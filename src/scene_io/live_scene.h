@@ -102,6 +102,8 @@ class LiveScene {
   LoadOptions Watching();  // options_ that also add each file that is read to files_; they refer to
                            // *this
   SceneReading Reading();
+  // Takes the place of this scene by another one, which was read with Watching().
+  SceneParts Become(LiveScene fresh);
   std::optional<SceneChange> ReadItem(const std::string& pointer, std::optional<size_t> shape,
                                       const Replaced& replaced);
   // `material`, if not empty, is the only material of the file that has changed.

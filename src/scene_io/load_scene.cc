@@ -9,10 +9,8 @@
 #include "base/error.h"
 #include "base/path.h"
 #include "scene/validate.h"
-#include "scene_io/gltf.h"
+#include "scene_io/model_files.h"
 #include "scene_io/model_scene.h"
-#include "scene_io/obj.h"
-#include "scene_io/ply.h"
 #include "scene_io/read_scene.h"
 #include "scene_io/text_file.h"
 

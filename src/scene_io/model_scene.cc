@@ -16,6 +16,7 @@
 #include "scene/idle_layers.h"
 #include "scene_io/model_tree.h"
 #include "scene_io/overrides.h"
+#include "scene_io/read_scene.h"
 #include "scene_io/readers.h"
 
 namespace nacre {
@@ -95,23 +96,6 @@ std::shared_ptr<const SkyPicture> MakeStudioRoom(const View& view) {
   return picture;
 }
 
-// The members of the tree that overrides have built.
-class Overrides {
- public:
-  Overrides(const Json& root, FaultList* faults) : root_({root, JsonPath{}, faults}) {}
-
-  template <class Read>
-  void Member(std::string_view name, const Read& read) {
-    if (const Json* json = root_.Find(name)) {
-      read(JsonValue{*json, root_.path().Member(name), root_.faults()});
-    }
-  }
-  JsonObject& root() { return root_; }
-
- private:
-  JsonObject root_;
-};
-
 void SetMaterials(const JsonValue& value, SceneContext* context) {
   JsonObject object(value, "materials by name");
   if (!object.is_object()) return;
@@ -125,7 +109,7 @@ void SetMaterials(const JsonValue& value, SceneContext* context) {
       continue;
     }
     Material& material = scene->materials[static_cast<size_t>(found - names.begin())];
-    ChangeMaterial({json, object.path().Member(name), value.faults}, context, &material);
+    ChangeMaterial({json, value.path.Member(name), value.faults}, context, &material);
   }
 }
 
@@ -172,24 +156,12 @@ void SetLights(const JsonValue& value, const SceneContext& context, Scene* scene
   }
 }
 
-bool UsesTextures(const Material& material) {
-  if (material.bump_map.texture.valid()) return true;
-  const MaterialModel* const model = ModelOf(material);
-  if (model == nullptr) return false;
-  return std::any_of(model->maps.begin(), model->maps.end(),
-                     [&](const MaterialMap& map) { return map.get(material).valid(); }) ||
-         std::any_of(model->normal_maps.begin(), model->normal_maps.end(),
-                     [&](const MaterialNormalMap& row) {
-                       return NormalMapOf(row, material).texture.valid();
-                     });
-}
-
 }  // namespace
 
 bool CompleteCoordinates(Scene* scene) {
   bool any = false;
   for (Mesh& mesh : scene->meshes) {
-    if (!mesh.uvs.empty() || !UsesTextures(scene->materials[mesh.material.index])) continue;
+    if (!mesh.uvs.empty() || TexturesOf(scene->materials[mesh.material.index]).empty()) continue;
     mesh.uvs.assign(mesh.positions.size(), Vec2d(0, 0));
     any = true;
   }
@@ -214,6 +186,10 @@ void SplitColoredMaterials(Scene* scene) {
   }
 }
 
+namespace {
+
+// Points the camera at all spheres and meshes, in a three-quarter view from the front, the right
+// and above. Keeps its projection and field of view.
 void FrameScene(Scene* scene) {
   Imath::Box3d box;
   ForEachPoint(*scene, [&](const Vec3d& point, double reach) {
@@ -247,6 +223,9 @@ void FrameScene(Scene* scene) {
   camera.height = std::max(height / kFilled, limits::kLength.min);
 }
 
+// For scenes without any light: adds the three lights of photography (key, fill, rim), placed
+// relative to the camera, an environment ("sky") that shows a room with soft boxes, for metals to
+// reflect, and a grey background.
 void AddStudioLights(Scene* scene) {
   const auto [right, up, back] = ViewOf(scene->camera);
   // White paper under the key light alone has radiance 0.8. The fill light brightens shadows, the
@@ -276,11 +255,7 @@ void AddStudioLights(Scene* scene) {
   scene->background = Rgb(0.18);
 }
 
-void AddOverride(const std::string& pointer, const std::string& json, ModelOverrides* overrides) {
-  ApplyOverride(pointer, json, &overrides->root);
-  // Setting all of "lights" removes the model's own lights, as in a scene file.
-  if (pointer == "/lights") overrides->own_lights = true;
-}
+}  // namespace
 
 ModelOverrides OverridesOf(const LoadOptions& options) {
   ModelOverrides overrides;
@@ -288,18 +263,21 @@ ModelOverrides OverridesOf(const LoadOptions& options) {
   environment.environment = options.environment;
   ApplyOptions(environment, &overrides.root);
   overrides.own_lights = !options.environment.empty();
-  for (const auto& [pointer, json] : options.overrides) AddOverride(pointer, json, &overrides);
+  for (const auto& [pointer, json] : options.overrides) {
+    ReplaceValue(pointer, json, &overrides.root);
+    // Setting all of "lights" removes the model's own lights, as in a scene file.
+    if (pointer == "/lights") overrides.own_lights = true;
+  }
   return overrides;
 }
 
 bool CompleteModelScene(const ModelCompletion& how, SceneParts parts, Scene* scene) {
   const Json& root = how.overrides->root;
   FaultList faults;
-  Overrides overrides(root, &faults);
+  JsonObject overrides({root, JsonPath{}, &faults});
   const auto member = [&](std::string_view name, ScenePart part, const auto& read) {
-    overrides.Member(name, [&](const JsonValue& value) {
-      if (parts.Has(part)) read(value);
-    });
+    const auto value = overrides.Find(name);
+    if (value && parts.Has(part)) read(*value);
   };
   member("image", ScenePart::kImage,
          [&](const JsonValue& value) { ReadImageSettings(value, &scene->image); });
@@ -309,30 +287,26 @@ bool CompleteModelScene(const ModelCompletion& how, SceneParts parts, Scene* sce
   if (!how.has_camera && parts.Has(ScenePart::kCamera)) {
     FrameScene(scene);
     FaultList told_already;
-    Overrides again(root, &told_already);
-    again.Member("camera", [&](const JsonValue& value) { ReadCamera(value, &scene->camera); });
+    JsonObject again({root, JsonPath{}, &told_already});
+    if (const auto camera = again.Find("camera")) ReadCamera(*camera, &scene->camera);
   }
   if (parts.Has(ScenePart::kLights)) {
     if (how.overrides->own_lights) scene->lights.clear();
     const bool needs_light = !how.overrides->own_lights && scene->lights.empty();
     if (needs_light && faults.count() == 0) AddStudioLights(scene);
   }
+  SceneBudget budget(how.options->max_primitives.value_or(kDefaultMaxPrimitives));
+  TexelBudget texels(0, TexelValuesOf(*scene));
   SceneContext context;
-  context.folder = std::filesystem::path(how.file).parent_path();
-  context.references = RulesOf(*how.options);
-  context.user_brdfs = &how.options->user_brdfs;
-  context.scene = scene;
-  context.on_warning = how.options->on_warning;
-  context.kept = how.kept;
+  SetUpContext({.folder = std::filesystem::path(how.file).parent_path(),
+                .options = how.options,
+                .kept = how.kept},
+               &budget, &texels, scene, &context);
   for (const Light& light : scene->lights) {
     const auto* const sky = std::get_if<EnvironmentLight>(&light.kind);
     const auto* const room = sky != nullptr ? std::get_if<PictureSky>(&sky->sky) : nullptr;
     if (room != nullptr) context.room = room->picture;
   }
-  SceneBudget budget(how.options->max_primitives.value_or(kDefaultMaxPrimitives));
-  context.budget = &budget;
-  TexelBudget texels(0, TexelValuesOf(*scene));
-  context.texels = &texels;
   for (uint32_t i = 0; i < scene->materials.size(); ++i) {  // a split may refer to them
     context.materials.try_emplace(scene->materials[i].name, MaterialId{i});
   }
@@ -349,7 +323,7 @@ bool CompleteModelScene(const ModelCompletion& how, SceneParts parts, Scene* sce
   const bool new_coordinates = parts.Has(ScenePart::kMaterials) && CompleteCoordinates(scene);
   member("background", ScenePart::kBackground,
          [&](const JsonValue& value) { ReadColor(value, limits::kRadiance, &scene->background); });
-  overrides.root().RefuseOthers();
+  overrides.RefuseOthers();
   ThrowFaults(faults, how.file);
   return new_coordinates;
 }

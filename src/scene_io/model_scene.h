@@ -20,23 +20,11 @@ bool CompleteCoordinates(Scene* scene);
 // Gives meshes with vertex colours a copy of their material that uses these.
 void SplitColoredMaterials(Scene* scene);
 
-// Points the camera at all spheres and meshes, in a three-quarter view from the front, the right
-// and above. Keeps its projection and field of view.
-void FrameScene(Scene* scene);
-
-// For scenes without any light: adds the three lights of photography (key, fill, rim), placed
-// relative to the camera, an environment ("sky") that shows a room with soft boxes, for metals to
-// reflect, and a grey background.
-void AddStudioLights(Scene* scene);
-
 // The values that overrides set in a model's scene.
 struct ModelOverrides {
   Json root = Json::object();
   bool own_lights = false;  // the overrides replace all of the model's lights
 };
-
-// Adds an override. Throws Error (kUsage) if it cannot be made.
-void AddOverride(const std::string& pointer, const std::string& json, ModelOverrides* overrides);
 
 // The overrides of the options, the environment included. Throws Error as ApplyOptions does.
 ModelOverrides OverridesOf(const LoadOptions& options);

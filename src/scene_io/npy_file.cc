@@ -125,7 +125,7 @@ NpyMatrix::NpyMatrix(const std::string& bytes, const std::string& file) {
       std::string_view("<>=").find(type[0]) == std::string_view::npos) {
     header.Refuse(fmt::format("its numbers are \"{}\", not floats of 4 or 8 bytes", Excerpt(type)));
   }
-  type_ = is_double ? PlyType::kDouble : PlyType::kFloat;
+  type_ = is_double ? NumberType::kDouble : NumberType::kFloat;
   size_ = is_double ? 8 : 4;
   big_endian_ = type[0] == '>';
   by_columns_ = header.Flag("'fortran_order'");

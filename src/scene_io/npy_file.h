@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "scene_io/ply_file.h"
+#include "scene_io/stored_number.h"
 
 namespace nacre {
 
@@ -21,12 +21,12 @@ class NpyMatrix {
   uint64_t columns() const { return columns_; }
   double At(uint64_t row, uint64_t column) const {
     const uint64_t place = by_columns_ ? column * rows_ + row : row * columns_ + column;
-    return LoadPlyNumber(numbers_ + place * size_, type_, big_endian_);
+    return LoadNumber(numbers_ + place * size_, type_, big_endian_);
   }
 
  private:
   const char* numbers_ = nullptr;
-  PlyType type_ = PlyType::kFloat;
+  NumberType type_ = NumberType::kFloat;
   size_t size_ = 4;
   bool big_endian_ = false;
   bool by_columns_ = false;  // Fortran order: column-major

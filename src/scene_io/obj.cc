@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene_io/obj.h"
-
+// scene_io/obj.cc: triangle meshes from Wavefront OBJ files.
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "scene/mesh.h"
 #include "scene/polygon.h"
+#include "scene_io/model_files.h"
 #include "scene_io/model_scene.h"
 #include "scene_io/obj_file.h"
 #include "scene_io/obj_materials.h"
@@ -38,16 +39,22 @@ struct HashKey {
 // Which attributes the meshes of a file have: normals if all corners have one, uvs if any has one.
 struct ObjContents {
   explicit ObjContents(const ObjFile& obj) {
-    ForEachFace(obj, obj.corners.data(),
-                [&](uint32_t, uint32_t, const ObjCorner* corners, size_t count) {
-                  for (size_t i = 0; i < count; ++i) {
-                    normals &= corners[i].normal >= 0;
-                    uvs |= corners[i].uv >= 0;
-                  }
-                });
+    ForEachFace(obj, [&](const ObjFace<const ObjCorner>& face) {
+      for (const ObjCorner& corner : face.corners) {
+        normals &= corner.normal >= 0;
+        uvs |= corner.uv >= 0;
+      }
+    });
   }
   bool normals = true, uvs = false;
 };
+
+// Sets *positions to those of the corners.
+void FindPositions(const ObjFile& obj, std::span<const ObjCorner> corners,
+                   std::vector<Vec3d>* positions) {
+  positions->clear();
+  for (const ObjCorner& corner : corners) positions->push_back(obj.positions[corner.position]);
+}
 
 // Maps keys to vertex numbers by a hash table with linear probing, of at least twice as many slots
 // as keys.
@@ -87,9 +94,8 @@ class MeshBuilder {
   MeshBuilder(const ObjFile& obj, const ObjContents& contents)
       : obj_(obj), with_normals_(contents.normals), with_uvs_(contents.uvs) {}
 
-  void AddFace(const ObjCorner* corners, size_t count) {
-    face_.clear();
-    for (size_t i = 0; i < count; ++i) face_.push_back(obj_.positions[corners[i].position]);
+  void AddFace(std::span<const ObjCorner> corners) {
+    FindPositions(obj_, corners, &face_);
     local_.clear();
     Triangulate(face_, &local_);
     for (const uint32_t i : local_) mesh_.triangles.push_back(Vertex(corners[i]));
@@ -146,26 +152,21 @@ void AddNormalsOfGroups(ObjFile* obj) {
   std::vector<Vec3d> sums;  // by number
   std::vector<Vec3d> face;
   uint32_t face_number = 0;
-  ForEachFace(*obj, obj->corners.data(),
-              [&](uint32_t, uint32_t group, ObjCorner* corners, size_t count) {
-                face.clear();
-                for (size_t i = 0; i < count; ++i) {
-                  face.push_back(obj->positions[corners[i].position]);
-                }
-                const Vec3d normal = NewellNormal(face).normalized();
-                const bool is_flat = group == ObjFile::kSmoothingOff;
-                for (size_t i = 0; i < count; ++i) {
-                  const VertexKey key{is_flat ? face_number : corners[i].position,
-                                      static_cast<int32_t>(group), 0};
-                  const auto [number, is_new] = numbers.Find(key);
-                  if (is_new) sums.emplace_back(0, 0, 0);
-                  sums[number] += is_flat ? normal : normal * AngleAt(face, i, normal);
-                  if (corners[i].normal < 0) {
-                    corners[i].normal = first + static_cast<int32_t>(number);
-                  }
-                }
-                ++face_number;
-              });
+  ForEachFace(*obj, [&](const ObjFace<ObjCorner>& of) {
+    FindPositions(*obj, of.corners, &face);
+    const Vec3d normal = NewellNormal(face).normalized();
+    const bool is_flat = of.group == ObjFile::kSmoothingOff;
+    for (size_t i = 0; i < of.corners.size(); ++i) {
+      ObjCorner& corner = of.corners[i];
+      const VertexKey key{is_flat ? face_number : corner.position, static_cast<int32_t>(of.group),
+                          0};
+      const auto [number, is_new] = numbers.Find(key);
+      if (is_new) sums.emplace_back(0, 0, 0);
+      sums[number] += is_flat ? normal : normal * AngleAt(face, i, normal);
+      if (corner.normal < 0) corner.normal = first + static_cast<int32_t>(number);
+    }
+    ++face_number;
+  });
   for (const Vec3d& sum : sums) obj->normals.push_back(UnitOrUp(sum));
 }
 
@@ -178,14 +179,13 @@ void AddNormalsOfCreases(double crease_angle_deg, int threads, ObjFile* obj) {
   std::vector<ObjCorner*> owners;  // corner of the file for each corner of the mesh
   std::vector<Vec3d> face;
   std::vector<uint32_t> local;
-  ForEachFace(*obj, obj->corners.data(), [&](uint32_t, uint32_t, ObjCorner* corners, size_t count) {
-    face.clear();
+  ForEachFace(*obj, [&](const ObjFace<ObjCorner>& of) {
+    FindPositions(*obj, of.corners, &face);
     local.clear();
-    for (size_t i = 0; i < count; ++i) face.push_back(obj->positions[corners[i].position]);
     Triangulate(face, &local);
     for (const uint32_t i : local) {
-      mesh.triangles.push_back(corners[i].position);
-      owners.push_back(&corners[i]);
+      mesh.triangles.push_back(of.corners[i].position);
+      owners.push_back(&of.corners[i]);
     }
   });
   ComputeNormals(NormalWeighting::kAngle, crease_angle_deg, &mesh, threads);
@@ -223,10 +223,7 @@ Mesh ReadObj(const std::filesystem::path& path, const ObjReading& reading) {
   });
   if (reading.complete_normals) CompleteNormals(180, reading.threads, &obj);
   MeshBuilder builder(obj, ObjContents(obj));
-  ForEachFace(obj, obj.corners.data(),
-              [&](uint32_t, uint32_t, const ObjCorner* corners, size_t count) {
-                builder.AddFace(corners, count);
-              });
+  ForEachFace(obj, [&](const auto& face) { builder.AddFace(face.corners); });
   Mesh mesh = builder.Take();
   mesh.name = path.stem().string();
   mesh.colors.clear();  // its material is the scene's, not one that uses vertex colours
@@ -244,12 +241,11 @@ Scene ReadObjScene(const std::filesystem::path& path, const LoadOptions& options
   const std::vector<MaterialId> materials = AddObjMaterials(path, obj, options, &scene);
   const ObjContents contents(obj);
   std::map<uint32_t, MeshBuilder> builders;  // by material
-  ForEachFace(
-      obj, obj.corners.data(),
-      [&](uint32_t name, uint32_t, const ObjCorner* corners, size_t count) {
-        const MaterialId material = name == kNoMaterial ? materials.back() : materials[name];
-        builders.try_emplace(material.index, obj, contents).first->second.AddFace(corners, count);
-      });
+  ForEachFace(obj, [&](const auto& face) {
+    const bool has_name = face.material != kNoMaterial;
+    const MaterialId material = has_name ? materials[face.material] : materials.back();
+    builders.try_emplace(material.index, obj, contents).first->second.AddFace(face.corners);
+  });
   bool has_all_uvs = true;
   for (auto& [material, builder] : builders) {
     has_all_uvs &= builder.has_all_uvs();

@@ -8,7 +8,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "base/vec.h"
@@ -43,25 +45,35 @@ struct ObjFile {
   std::vector<std::string> libraries;       // what follows "mtllib", each once
 };
 
-// Calls use(material, group, corners, count) for each face whose positions are all finite:
-// `material` is an index into obj.material_names, or kNoMaterial, and `group` a smoothing group.
+// A face: `material` is an index into ObjFile::material_names, or kNoMaterial, and `group` a
+// smoothing group.
 constexpr uint32_t kNoMaterial = 0xffffffffu;
-template <class Corner, class Use>
-void ForEachFace(const ObjFile& obj, Corner* corners, const Use& use) {
+template <class Corner>
+struct ObjFace {
+  uint32_t material, group;
+  std::span<Corner> corners;
+};
+
+// Calls use(face) for each face whose positions are all finite. The corners of a file that is not
+// const may be changed.
+template <class File, class Use>
+void ForEachFace(File& obj, const Use& use) {
   auto next = obj.uses.begin();
   auto next_group = obj.smoothing.begin();
   uint32_t material = kNoMaterial, group = ObjFile::kSmoothingOff;
+  auto* first = obj.corners.data();
+  using Corner = std::remove_pointer_t<decltype(first)>;
   for (size_t face = 0; face < obj.corner_counts.size(); ++face) {
-    const size_t count = obj.corner_counts[face];
+    const std::span<Corner> corners(first, obj.corner_counts[face]);
     if (next != obj.uses.end() && next->first_face == face) material = (next++)->name;
     if (next_group != obj.smoothing.end() && next_group->first_face == face) {
       group = (next_group++)->name;
     }
-    const bool is_placed = std::all_of(corners, corners + count, [&](const ObjCorner& corner) {
-      return !std::isnan(obj.positions[corner.position].x);
-    });
-    if (is_placed) use(material, group, corners, count);
-    corners += count;
+    const bool is_placed = std::all_of(
+        corners.begin(), corners.end(),
+        [&](const ObjCorner& corner) { return !std::isnan(obj.positions[corner.position].x); });
+    if (is_placed) use(ObjFace<Corner>{material, group, corners});
+    first += corners.size();
   }
 }
 

@@ -156,10 +156,6 @@ std::string JsonOfTyped(const std::string& pointer, const std::string& text) {
   RefuseText(pointer, text, fmt::format("{}", fmt::join(wanted, " or ")));
 }
 
-void ApplyOverride(const std::string& pointer, const std::string& text, Json* root) {
-  ReplaceValue(pointer, text, root);
-}
-
 const Json* FindValue(std::span<const std::string> tokens, const Json& root) {
   const Json* place = &root;
   for (const std::string& token : tokens) {
@@ -248,7 +244,7 @@ void ApplyOptions(const LoadOptions& options, Json* root) {
     }
     (*root)["lights"] = {{"environment", {{"type", "environment"}, {"image", image.string()}}}};
   }
-  for (const auto& [pointer, value] : options.overrides) ApplyOverride(pointer, value, root);
+  for (const auto& [pointer, value] : options.overrides) ReplaceValue(pointer, value, root);
 }
 
 void ApplyOptionsToFile(const LoadOptions& options, Json* root) {

@@ -17,10 +17,6 @@ namespace nacre {
 // Parses the JSON value `text`. Throws Error (kUsage), which names the pointer, if it is not JSON.
 Json ParseValue(const std::string& pointer, const std::string& text);
 
-// Sets the value at `pointer` to the JSON value `text`. Missing objects on the way are made;
-// elements of arrays must exist. Throws Error (kUsage) if that cannot be done.
-void ApplyOverride(const std::string& pointer, const std::string& text, Json* root);
-
 // Converts a value as people type it after a pointer to JSON. It may be JSON itself, or, where the
 // schema of scenes allows a string, a word without quotes, which may look like a number if the
 // schema allows no number there. `null` stays null. Throws Error (kUsage), which tells what is
@@ -42,7 +38,8 @@ struct Replaced {
   std::vector<std::string> path;  // names and indices from the root to the value
   std::optional<Json> value;      // nullopt: there was no such member
 };
-// Does the same as ApplyOverride, and returns what was there.
+// Sets the value at `pointer` to the JSON value `text`, and returns what was there. Missing objects
+// on the way are made; elements of arrays must exist. Throws Error (kUsage) if that cannot be done.
 Replaced ReplaceValue(const std::string& pointer, const std::string& text, Json* root);
 // The tokens start at `root`; errors show `pointer`, which may begin further out.
 Replaced ReplaceValue(const std::string& pointer, std::span<const std::string> tokens,
@@ -57,7 +54,7 @@ Replaced ReplaceInFile(const std::string& pointer, const std::string& text, Json
                        std::optional<size_t> shape = {});
 
 // Replaces all lights of the tree by the options' environment, if there is one, then applies their
-// overrides. Throws Error: kBadInput if the environment is not a file, kUsage as ApplyOverride
+// overrides. Throws Error: kBadInput if the environment is not a file, kUsage as ReplaceValue
 // does.
 void ApplyOptions(const LoadOptions& options, Json* root);
 

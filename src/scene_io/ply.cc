@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene_io/ply.h"
-
+// scene_io/ply.cc: triangle meshes and clouds of points from PLY files.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,6 +16,7 @@
 #include "scene/limits.h"
 #include "scene/mesh.h"
 #include "scene/polygon.h"
+#include "scene_io/model_files.h"
 #include "scene_io/model_scene.h"
 #include "scene_io/obj_materials.h"
 #include "scene_io/ply_file.h"
@@ -159,8 +159,7 @@ class PlyReader {
   }
 
   void AddPosition(const Vec3d& position, uint64_t number) {
-    for (int c = 0; c < 3; ++c) {
-      if (limits::kCoordinate.Contains(position[c])) continue;
+    if (!limits::kCoordinate.Contains(position)) {
       RefuseNumber(
           fmt::format("vertex {} is at [{}, {}, {}]", number, position.x, position.y, position.z),
           "each coordinate " + Describe(limits::kCoordinate));
@@ -169,9 +168,9 @@ class PlyReader {
   }
 
   // Integers are sRGB codes; floats are linear.
-  static Rgb Linear(const Vec3d& color, PlyType type) {
-    const bool is_real = type == PlyType::kFloat || type == PlyType::kDouble;
-    const double largest = is_real ? 1 : type == PlyType::kUint16 ? 65535 : 255;
+  static Rgb Linear(const Vec3d& color, NumberType type) {
+    const bool is_real = type == NumberType::kFloat || type == NumberType::kDouble;
+    const double largest = is_real ? 1 : type == NumberType::kUint16 ? 65535 : 255;
     Rgb linear;
     for (int c = 0; c < 3; ++c) {
       const double value = color[c] > 0 ? std::min(color[c] / largest, 1.0) : 0;  // NaN becomes 0
@@ -180,11 +179,12 @@ class PlyReader {
     return linear;
   }
 
-  uint32_t NextIndex(const PlyProperty& list) {
-    const double index = numbers_.Next(list.type);
+  // The vertex with the number `index` of the file, of a strip or of the present face.
+  uint32_t VertexOf(double index, bool of_strip = false) const {
     if (!(index >= 0) || index >= static_cast<double>(vertex_count_) ||
         index != std::floor(index)) {
-      RefuseNumber(fmt::format("face {} has vertex {}", faces_, index),
+      const std::string what = of_strip ? "a strip" : fmt::format("face {}", faces_);
+      RefuseNumber(fmt::format("{} has vertex {}", what, index),
                    fmt::format("there are {}, counted from 0", vertex_count_));
     }
     return static_cast<uint32_t>(index);
@@ -217,13 +217,15 @@ class PlyReader {
                        fmt::format("at most {}", kMaxCorners));
         }
         if (count < 3) {
-          for (size_t c = 0; c < count; ++c) NextIndex(property);
+          for (size_t c = 0; c < count; ++c) VertexOf(numbers_.Next(property.type));
           if (data_.first_without_area == PlyData::kNone) data_.first_without_area = faces_;
           continue;
         }
         SpendTriangles(count - 2, file_, &budget_, kTooManyForItsSize);
         corner_counts_.push_back(static_cast<uint16_t>(count));
-        for (size_t c = 0; c < count; ++c) corners_.push_back(NextIndex(property));
+        for (size_t c = 0; c < count; ++c) {
+          corners_.push_back(VertexOf(numbers_.Next(property.type)));
+        }
       }
       ++faces_;
     }
@@ -251,12 +253,7 @@ class PlyReader {
       strip->clear();
       return;
     }
-    if (!(index >= 0) || index >= static_cast<double>(vertex_count_) ||
-        index != std::floor(index)) {
-      RefuseNumber(fmt::format("a strip has vertex {}", index),
-                   fmt::format("there are {}, counted from 0", vertex_count_));
-    }
-    strip->push_back(static_cast<uint32_t>(index));
+    strip->push_back(VertexOf(index, /*of_strip=*/true));
     const size_t n = strip->size();
     if (n < 3) return;
     const uint32_t a = (*strip)[n - 3], b = (*strip)[n - 2], c = (*strip)[n - 1];

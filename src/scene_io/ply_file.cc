@@ -5,7 +5,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <utility>
 
@@ -27,27 +26,22 @@ constexpr std::string_view kBlanks = " \t\r\n";
 
 struct TypeName {
   std::string_view name;
-  PlyType type;
+  NumberType type;
 };
 constexpr std::array kTypeNames = {
-    TypeName{"char", PlyType::kInt8},     TypeName{"int8", PlyType::kInt8},
-    TypeName{"uchar", PlyType::kUint8},   TypeName{"uint8", PlyType::kUint8},
-    TypeName{"short", PlyType::kInt16},   TypeName{"int16", PlyType::kInt16},
-    TypeName{"ushort", PlyType::kUint16}, TypeName{"uint16", PlyType::kUint16},
-    TypeName{"int", PlyType::kInt32},     TypeName{"int32", PlyType::kInt32},
-    TypeName{"uint", PlyType::kUint32},   TypeName{"uint32", PlyType::kUint32},
-    TypeName{"float", PlyType::kFloat},   TypeName{"float32", PlyType::kFloat},
-    TypeName{"double", PlyType::kDouble}, TypeName{"float64", PlyType::kDouble}};
+    TypeName{"char", NumberType::kInt8},     TypeName{"int8", NumberType::kInt8},
+    TypeName{"uchar", NumberType::kUint8},   TypeName{"uint8", NumberType::kUint8},
+    TypeName{"short", NumberType::kInt16},   TypeName{"int16", NumberType::kInt16},
+    TypeName{"ushort", NumberType::kUint16}, TypeName{"uint16", NumberType::kUint16},
+    TypeName{"int", NumberType::kInt32},     TypeName{"int32", NumberType::kInt32},
+    TypeName{"uint", NumberType::kUint32},   TypeName{"uint32", NumberType::kUint32},
+    TypeName{"float", NumberType::kFloat},   TypeName{"float32", NumberType::kFloat},
+    TypeName{"double", NumberType::kDouble}, TypeName{"float64", NumberType::kDouble}};
 
-size_t SizeOf(PlyType type) {
-  constexpr std::array<size_t, 8> kSizes = {1, 1, 2, 2, 4, 4, 4, 8};
-  return kSizes[static_cast<size_t>(type)];
-}
-
-bool IsReal(PlyType type) { return type == PlyType::kFloat || type == PlyType::kDouble; }
+bool IsReal(NumberType type) { return type == NumberType::kFloat || type == NumberType::kDouble; }
 
 // Whether an integer type holds `value`.
-bool Holds(PlyType type, double value) {
+bool Holds(NumberType type, double value) {
   constexpr std::array<double, 6> kMin = {-128, 0, -32768, 0, -2147483648.0, 0};
   constexpr std::array<double, 6> kMax = {127, 255, 32767, 65535, 2147483647.0, 4294967295.0};
   const auto i = static_cast<size_t>(type);
@@ -144,7 +138,7 @@ class HeaderReader {
     header_.elements.push_back(std::move(element));
   }
 
-  PlyType TypeOf(std::string_view word) const {
+  NumberType TypeOf(std::string_view word) const {
     for (const TypeName& known : kTypeNames) {
       if (known.name == word) return known.type;
     }
@@ -177,7 +171,7 @@ class HeaderReader {
     for (const PlyElement& element : header_.elements) {
       size_t least = 0;
       for (const PlyProperty& property : element.properties) {
-        const PlyType first = property.is_list ? property.count_type : property.type;
+        const NumberType first = property.is_list ? property.count_type : property.type;
         least += header_.format == PlyFormat::kText ? 2 : SizeOf(first);
       }
       if (element.count > 0 && (least == 0 || element.count > rest / least)) {
@@ -207,39 +201,7 @@ std::optional<double> ParseNonFinite(std::string_view word) {
   return number;
 }
 
-template <typename T>
-double Load(const char* bytes, bool swap) {
-  std::array<char, sizeof(T)> ordered;
-  std::memcpy(ordered.data(), bytes, sizeof(T));
-  if (swap) std::reverse(ordered.begin(), ordered.end());  // the host is little-endian
-  T value;
-  std::memcpy(&value, ordered.data(), sizeof(T));
-  return static_cast<double>(value);
-}
-
 }  // namespace
-
-double LoadPlyNumber(const char* bytes, PlyType type, bool swap) {
-  switch (type) {
-    case PlyType::kInt8:
-      return Load<int8_t>(bytes, swap);
-    case PlyType::kUint8:
-      return Load<uint8_t>(bytes, swap);
-    case PlyType::kInt16:
-      return Load<int16_t>(bytes, swap);
-    case PlyType::kUint16:
-      return Load<uint16_t>(bytes, swap);
-    case PlyType::kInt32:
-      return Load<int32_t>(bytes, swap);
-    case PlyType::kUint32:
-      return Load<uint32_t>(bytes, swap);
-    case PlyType::kFloat:
-      return Load<float>(bytes, swap);
-    case PlyType::kDouble:
-      break;
-  }
-  return Load<double>(bytes, swap);
-}
 
 size_t PlyElement::Find(std::string_view property) const {
   for (size_t i = 0; i < properties.size(); ++i) {
@@ -282,13 +244,13 @@ std::string_view PlyNumbers::NextWord() {
   return text.substr(begin, position_ - begin);
 }
 
-double PlyNumbers::Next(PlyType type) {
+double PlyNumbers::Next(NumberType type) {
   if (format_ != PlyFormat::kText) {
     const size_t size = SizeOf(type);
     if (bytes_.size() - position_ < size) Refuse("ends too early");
     const char* const bytes = bytes_.data() + position_;
     position_ += size;
-    return LoadPlyNumber(bytes, type, format_ == PlyFormat::kBigEndian);
+    return LoadNumber(bytes, type, format_ == PlyFormat::kBigEndian);
   }
   const std::string_view word = NextWord();
   std::optional<double> number = ParseNumber(word);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // scene_io/ply_file.h: PLY files (Turk 1994) as their headers describe them: elements that consist
-// of numbers and lists of numbers, as text or as bytes of either order. ply.h interprets the names.
+// of numbers and lists of numbers, as text or as bytes of either order. ply.cc interprets the
+// names.
 #pragma once
 
 #include <cstddef>
@@ -9,15 +10,15 @@
 #include <string_view>
 #include <vector>
 
-namespace nacre {
+#include "scene_io/stored_number.h"
 
-enum class PlyType : uint8_t { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat, kDouble };
+namespace nacre {
 
 struct PlyProperty {
   std::string name;
-  PlyType type = PlyType::kFloat;
+  NumberType type = NumberType::kFloat;
   bool is_list = false;
-  PlyType count_type = PlyType::kUint8;  // for lists: the type of the count
+  NumberType count_type = NumberType::kUint8;  // for lists: the type of the count
 };
 
 struct PlyElement {
@@ -38,9 +39,6 @@ struct PlyHeader {
   size_t length = 0;  // size of the header in bytes
 };
 
-// The number stored at `bytes`. `swap`: the bytes are in big-endian order.
-double LoadPlyNumber(const char* bytes, PlyType type, bool swap);
-
 // Throws Error (kBadInput) unless `head`, the beginning of a file, has the magic word of PLY.
 void CheckPlyMagic(std::string_view head, const std::string& file);
 
@@ -56,7 +54,7 @@ class PlyNumbers {
 
   // Reads the next number. Throws Error (kBadInput) at the end of the file, and, in text, for a
   // word that is not a number of the type.
-  double Next(PlyType type);
+  double Next(NumberType type);
   // The location of the last number, for errors: in text, the file and the line.
   std::string place() const;
   // Reads the length of the next list. Throws Error (kBadInput) if the rest of the file cannot hold

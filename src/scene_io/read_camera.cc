@@ -23,17 +23,15 @@ void ReadFilter(const JsonValue& value, ImageSettings* image) {
 void ReadCamera(const JsonValue& value, Camera* camera) {
   JsonObject object(value);
   // The first key, the type, decides which other keys there are.
-  ReadKey(CameraKeys(camera->projection).front(), &object, camera);
-  for (const auto& key : CameraKeys(camera->projection).subspan(1)) ReadKey(key, &object, camera);
+  ReadKey(KeysFor(*camera).front(), &object, camera);
+  for (const auto& key : KeysFor(*camera).subspan(1)) ReadKey(key, &object, camera);
   object.RefuseOthers();
 }
 
 void ReadImageSettings(const JsonValue& value, ImageSettings* image) {
   JsonObject object(value);
   ReadKeys(&object, image);
-  if (const Json* filter = object.Find("filter")) {
-    ReadFilter({*filter, object.path().Member("filter"), object.faults()}, image);
-  }
+  if (const auto filter = object.Find("filter")) ReadFilter(*filter, image);
   object.RefuseOthers();
 }
 

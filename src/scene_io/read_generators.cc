@@ -32,8 +32,7 @@ const MaterialParameter* ReadParameter(JsonObject* object, const Material* mater
   if (model != nullptr) {
     for (const MaterialParameter& known : model->parameters) names.emplace_back(known.name);
   }
-  const JsonPath path = object->path().Member("parameter");
-  FaultUnknownName({*object->Find("parameter"), path, object->faults()}, "parameter", name, names);
+  FaultUnknownName(*object->Find("parameter"), "parameter", name, names);
   return nullptr;
 }
 
@@ -41,46 +40,42 @@ void ReadValues(const JsonValue& value, const MaterialParameter& parameter, Grid
   if (!value.Expect(value.json.is_array() && !value.json.empty(), "a list of values")) return;
   axis->count = static_cast<int>(value.json.size());
   for (size_t i = 0; i < value.json.size(); ++i) {
-    ReadParameterValue({value.json[i], value.path.Element(i), value.faults}, parameter,
-                       &axis->values.emplace_back());
+    ReadParameterValue(value.Element(i), parameter, &axis->values.emplace_back());
   }
 }
 
 void ReadEnds(JsonObject* object, const MaterialParameter& parameter, GridAxis* axis) {
-  const Json* const from = object->Require("from", "the first value");
-  const Json* const to = object->Require("to", "the last value");
-  if (from == nullptr || to == nullptr) return;
+  const auto from = object->Require("from", "the first value");
+  const auto to = object->Require("to", "the last value");
+  if (!from || !to) return;
   Rgb first;
   Rgb last;
-  const JsonPath from_path = object->path().Member("from");
-  const JsonPath to_path = object->path().Member("to");
-  const bool has_from = ReadParameterValue({*from, from_path, object->faults()}, parameter, &first);
-  const bool has_to = ReadParameterValue({*to, to_path, object->faults()}, parameter, &last);
+  const bool has_from = ReadParameterValue(*from, parameter, &first);
+  const bool has_to = ReadParameterValue(*to, parameter, &last);
   if (has_from && has_to) *axis = LinearAxis(axis->parameter, first, last, axis->count);
 }
 
 // Reads the members parameter and values; or parameter, from, to and count; or count alone.
 void ReadAxis(JsonObject* object, const Material* material, GridAxis* axis) {
   const MaterialParameter* const parameter = ReadParameter(object, material);
-  const Json* const values = object->Find("values");
-  const Json* const from = object->Find("from");
-  const Json* const to = object->Find("to");
-  const bool has_ends = from != nullptr || to != nullptr;
-  const bool has_count = object->Find("count") != nullptr;
+  const auto values = object->Find("values");
+  const bool has_from = object->Find("from").has_value();
+  const bool has_ends = object->Find("to").has_value() || has_from;
+  const bool has_count = object->Find("count").has_value();
   object->Whole("count", limits::kGridCount, &axis->count);
-  if (values == nullptr) {
+  if (!values) {
     object->Require("count", "how many spheres; or give \"values\"");
   } else if (has_ends || has_count) {
     object->value().AddFault("\"values\" take the place of \"from\", \"to\" and \"count\"",
                              "keep one or the other");
   }
-  if (object->Find("parameter") == nullptr && (values != nullptr || has_ends)) {
+  if (!object->Find("parameter") && (values || has_ends)) {
     object->Require("parameter", "what the values are of");
   }
   if (parameter == nullptr) return;
   axis->parameter = parameter->name;
-  if (values != nullptr) {
-    ReadValues({*values, object->path().Member("values"), object->faults()}, *parameter, axis);
+  if (values) {
+    ReadValues(*values, *parameter, axis);
   } else {
     ReadEnds(object, *parameter, axis);
   }
@@ -88,10 +83,9 @@ void ReadAxis(JsonObject* object, const Material* material, GridAxis* axis) {
 
 void ReadGridAxis(JsonObject* shape, std::string_view name, const Material* material,
                   GridAxis* axis) {
-  const Json* const json = shape->Find(name);
-  if (json == nullptr) return;
-  JsonObject object({*json, shape->path().Member(name), shape->faults()},
-                    R"({"parameter": "roughness", "from": 0.1, "to": 0.9, "count": 5})");
+  const auto value = shape->Find(name);
+  if (!value) return;
+  JsonObject object(*value, R"({"parameter": "roughness", "from": 0.1, "to": 0.9, "count": 5})");
   ReadAxis(&object, material, axis);
   object.RefuseOthers();
 }
@@ -99,31 +93,14 @@ void ReadGridAxis(JsonObject* shape, std::string_view name, const Material* mate
 // Reads the required member "material", which the axes vary. Returns `material`, or nullptr if it
 // has faults.
 const Material* ReadBase(JsonObject* object, SceneContext* context, Material* material) {
-  const Json* const json = object->Require("material", "what the axes vary");
-  if (json == nullptr) return nullptr;
-  const JsonPath path = object->path().Member("material");
-  const bool is_read = ReadBaseMaterial({*json, path, object->faults()}, context, material);
-  return is_read ? material : nullptr;
-}
-
-// Reads one number for both directions, or [x, y].
-void ReadSpacing(const JsonValue& value, Vec2d* spacing) {
-  if (value.json.is_number()) {
-    double both = 1;
-    if (ReadNumber(value, limits::kLength, &both)) *spacing = Vec2d(both, both);
-    return;
-  }
-  if (!value.Expect(value.json.is_array() && value.json.size() == 2, "[x, y] or one number"))
-    return;
-  ReadNumber({value.json[0], value.path.Element(0), value.faults}, limits::kLength, &spacing->x);
-  ReadNumber({value.json[1], value.path.Element(1), value.faults}, limits::kLength, &spacing->y);
+  const auto value = object->Require("material", "what the axes vary");
+  return value && ReadBaseMaterial(*value, context, material) ? material : nullptr;
 }
 
 void ReadPairSide(JsonObject* shape, std::string_view name, SceneContext* context, PairSide* side) {
-  const Json* const json = shape->Require(name, "one side of the pairs");
-  if (json == nullptr) return;
-  JsonObject object({*json, shape->path().Member(name), shape->faults()},
-                    R"({"material": ..., "parameter": "roughness", "values": [0.2, 0.5]})");
+  const auto value = shape->Require(name, "one side of the pairs");
+  if (!value) return;
+  JsonObject object(*value, R"({"material": ..., "parameter": "roughness", "values": [0.2, 0.5]})");
   const Material* const base = ReadBase(&object, context, &side->material);
   side->label = side->material.name;  // empty for an inline one
   object.Text("label", &side->label);
@@ -131,31 +108,14 @@ void ReadPairSide(JsonObject* shape, std::string_view name, SceneContext* contex
   object.RefuseOthers();
 }
 
-// Reads one number, or [smallest, largest].
-void ReadRadii(const JsonValue& value, Cloud* cloud) {
-  if (value.json.is_number()) {
-    if (ReadNumber(value, limits::kLength, &cloud->radius_min)) {
-      cloud->radius_max = cloud->radius_min;
-    }
-    return;
-  }
-  if (!value.Expect(value.json.is_array() && value.json.size() == 2,
-                    "[smallest, largest] or one number")) {
-    return;
-  }
-  ReadNumber({value.json[0], value.path.Element(0), value.faults}, limits::kLength,
-             &cloud->radius_min);
-  ReadNumber({value.json[1], value.path.Element(1), value.faults}, limits::kLength,
-             &cloud->radius_max);
-}
-
 }  // namespace
 
 void ReadGrid(JsonObject* shape, SceneContext* context) {
   Grid grid;
   shape->Point("center", &grid.center);
-  if (const Json* spacing = shape->Find("spacing")) {
-    ReadSpacing({*spacing, shape->path().Member("spacing"), shape->faults()}, &grid.spacing);
+  if (const auto spacing = shape->Find("spacing")) {
+    ReadTwoNumbers(*spacing, limits::kLength, "[x, y] or one number", &grid.spacing.x,
+                   &grid.spacing.y);
   }
   shape->Number("radius", limits::kLength, &grid.radius);
   const Material* const base = ReadBase(shape, context, &grid.material);
@@ -194,12 +154,12 @@ void ReadCloud(JsonObject* shape, SceneContext* context) {
   shape->Point("min", &cloud.min);
   shape->Require("max", "the corner of the box with the largest coordinates");
   shape->Point("max", &cloud.max);
-  if (const Json* radius = shape->Require("radius", "[smallest, largest] or one number")) {
-    ReadRadii({*radius, shape->path().Member("radius"), shape->faults()}, &cloud);
+  constexpr std::string_view kRadii = "[smallest, largest] or one number";
+  if (const auto radius = shape->Require("radius", kRadii)) {
+    ReadTwoNumbers(*radius, limits::kLength, kRadii, &cloud.radius_min, &cloud.radius_max);
   }
-  if (const Json* materials = shape->Require("materials", "a list to choose from")) {
-    ReadMaterialList({*materials, shape->path().Member("materials"), shape->faults()}, context,
-                     &cloud.materials);
+  if (const auto materials = shape->Require("materials", "a list to choose from")) {
+    ReadMaterialList(*materials, context, &cloud.materials);
   }
   if (shape->faults()->count() != 0) return;
   context->budget->Spend(cloud.count);

@@ -16,44 +16,7 @@
 namespace nacre {
 namespace {
 
-// Locates a plain sphere by run and index in the run, or another shape by index in the tree.
-struct ShapePlace {
-  std::optional<size_t> run;
-  size_t number = 0;
-};
-
-std::optional<ShapePlace> FindShape(size_t place, const SceneTree& tree) {
-  const auto shapes = tree.root.find("shapes");
-  if (shapes == tree.root.end() || !shapes->is_array()) return std::nullopt;
-  size_t plain = 0;  // number of plain spheres before the place
-  const std::vector<SphereRun>& runs = tree.spheres.runs;
-  for (size_t i = 0; i < runs.size() && runs[i].first <= place; ++i) {
-    const size_t number = place - runs[i].first;
-    if (number < runs[i].spheres.size()) return ShapePlace{i, number};
-    plain += runs[i].spheres.size();
-  }
-  if (place - plain >= shapes->size()) return std::nullopt;
-  return ShapePlace{std::nullopt, place - plain};
-}
-
 ShapeRead ReadOfSphere(size_t number) { return {{number, 0, 0, 0}, {1, 0, 0, 0}}; }
-
-// The textures of the material's maps, in the order in which they are read, which is the order of
-// the scene's textures.
-std::vector<TextureId> TexturesOf(const Material& material) {
-  std::vector<TextureId> ids;
-  const auto add = [&](TextureId id) {
-    if (id.valid()) ids.push_back(id);
-  };
-  const MaterialModel* const model = ModelOf(material);
-  if (model == nullptr) return ids;
-  for (const MaterialMap& map : model->maps) add(map.get(material));
-  for (const MaterialNormalMap& row : model->normal_maps) {
-    add(NormalMapOf(row, material).texture);
-  }
-  add(material.bump_map.texture);
-  return ids;
-}
 
 // Whether one material can replace the other without any effect beyond the material and what is
 // made of it: neither on the scene's textures, nor on the validity of shapes and splits that use
@@ -236,14 +199,6 @@ class ShapeSwap {
 
 }  // namespace
 
-std::optional<Json> ShapeAt(size_t place, const SceneTree& tree) {
-  const std::optional<ShapePlace> found = FindShape(place, tree);
-  if (!found) return std::nullopt;
-  if (!found->run) return tree.root.at("shapes")[found->number];
-  const Sphere& sphere = tree.spheres.runs[*found->run].spheres[found->number];
-  return JsonOf(sphere, tree.spheres.MaterialOf(sphere));
-}
-
 std::optional<size_t> MovePlainSphereToTree(size_t place, SceneTree* tree, ReadMembers* members) {
   const std::optional<ShapePlace> found = FindShape(place, *tree);
   if (!found) return std::nullopt;
@@ -253,7 +208,8 @@ std::optional<size_t> MovePlainSphereToTree(size_t place, SceneTree* tree, ReadM
   const auto at = [](auto& items, size_t i) { return items.begin() + static_cast<ptrdiff_t>(i); };
   const size_t index = runs[run].in_tree;
   auto& shapes = tree->root["shapes"].get_ref<Json::array_t&>();
-  shapes.insert(at(shapes, index), *ShapeAt(place, *tree));
+  const Sphere& plain = runs[run].spheres[number];
+  shapes.insert(at(shapes, index), JsonOf(plain, tree->spheres.MaterialOf(plain)));
   const size_t sphere = members->runs[run] + number;
   members->shapes.insert(at(members->shapes, index), ReadOfSphere(sphere));
   // Splits the run in two around the sphere.

@@ -21,9 +21,6 @@ std::optional<size_t> MovePlainSphereToTree(size_t place, SceneTree* tree, ReadM
 // Moves all plain spheres into the tree's "shapes".
 void ListShapes(SceneTree* tree, ReadMembers* members);
 
-// Shape number `place` of the file; nullopt if there is none.
-std::optional<Json> ShapeAt(size_t place, const SceneTree& tree);
-
 // Reads the material with this name into `scene`, and validates it. Returns nullopt, and leaves the
 // scene unchanged, if anything is wrong with it, or if other items of the scene may depend on the
 // change: then the whole file must be read, which reports what is wrong. `members` is what was read

@@ -20,7 +20,7 @@ namespace {
 void ReadMode(JsonObject* object) {
   std::string mode;
   if (!object->Text("mode", &mode) || mode == "sampled") return;
-  const JsonValue value{*object->Find("mode"), object->path().Member("mode"), object->faults()};
+  const JsonValue value = *object->Find("mode");
   if (mode == "fast") {
     value.AddFault("the fast mode is gone",
                    "leave \"mode\" out: samples reach the fast mode's error sooner");
@@ -60,10 +60,7 @@ struct KindReader {
   void operator()(Kind& light) const {
     ReadKeys(object, &light);
     if constexpr (requires { light.attenuation; }) {
-      if (const Json* attenuation = object->Find("attenuation")) {
-        ReadAttenuation({*attenuation, object->path().Member("attenuation"), object->faults()},
-                        &light);
-      }
+      if (const auto value = object->Find("attenuation")) ReadAttenuation(*value, &light);
     }
   }
   void operator()(SpotLight& light) const {
@@ -74,7 +71,7 @@ struct KindReader {
   }
   void operator()(RectangleAreaLight& light) const {
     operator()<RectangleAreaLight>(light);
-    if (object->Find("up") == nullptr) light.up = DefaultUp(light.facing);
+    if (!object->Find("up")) light.up = DefaultUp(light.facing);
   }
   void operator()(MeshAreaLight& light) const {
     light.mesh = ReadLightMesh(object, context);
@@ -115,7 +112,7 @@ void ReadLights(const JsonValue& value, const SceneContext& context, std::vector
   for (const auto& [name, json] : value.json.items()) {
     Light& light = lights->emplace_back();
     light.name = name;
-    ReadLight({json, object.path().Member(name), object.faults()}, context, &light);
+    ReadLight({json, value.path.Member(name), value.faults}, context, &light);
   }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // scene_io/read_materials.cc: the part "materials", and materials wherever a shape names one.
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -29,28 +30,25 @@ void ReadParameters(const MaterialModel& model, JsonObject* object, Material* ma
   }
 }
 
-// The required member `name`, which must be an array; nullptr if it is not.
-const Json* RequireArray(JsonObject* object, std::string_view name, std::string_view hint) {
-  const Json* const json = object->Require(name, hint);
-  if (json == nullptr) return nullptr;
-  const JsonValue value{*json, object->path().Member(name), object->faults()};
-  return value.Expect(json->is_array(), "an array", hint) ? json : nullptr;
+// The required member `name`, which must be an array; nullopt if it is not.
+std::optional<JsonValue> RequireArray(JsonObject* object, std::string_view name,
+                                      std::string_view hint) {
+  const auto value = object->Require(name, hint);
+  if (!value || !value->Expect(value->json.is_array(), "an array", hint)) return std::nullopt;
+  return value;
 }
 
 SplitMaterial ReadSplit(JsonObject* object, SceneContext* context) {
   SplitMaterial split;
-  const JsonPath at_path = object->path().Member("at");
-  if (const Json* at = RequireArray(object, "at", "fractions of the image's width, ascending")) {
-    for (size_t i = 0; i < at->size(); ++i) {
-      ReadNumber({(*at)[i], at_path.Element(i), object->faults()}, limits::kSplitAt,
-                 &split.at.emplace_back());
+  if (const auto at = RequireArray(object, "at", "fractions of the image's width, ascending")) {
+    for (size_t i = 0; i < at->json.size(); ++i) {
+      ReadNumber(at->Element(i), limits::kSplitAt, &split.at.emplace_back());
     }
   }
-  const JsonPath materials_path = object->path().Member("materials");
-  if (const Json* materials = RequireArray(object, "materials", "one for each band, by name")) {
-    for (size_t i = 0; i < materials->size(); ++i) {
+  if (const auto materials = RequireArray(object, "materials", "one for each band, by name")) {
+    for (size_t i = 0; i < materials->json.size(); ++i) {
       MaterialId id;
-      ReadMaterialId({(*materials)[i], materials_path.Element(i), object->faults()}, context, &id);
+      ReadMaterialId(materials->Element(i), context, &id);
       split.materials.push_back(id);
     }
   }
@@ -117,7 +115,7 @@ void ReadMaterials(const JsonValue& value, SceneContext* context) {
   for (const auto& [name, json] : value.json.items()) {
     const size_t before = value.faults->count();
     Material material =
-        ReadNamedMaterial({json, object.path().Member(name), object.faults()}, name, context);
+        ReadNamedMaterial({json, value.path.Member(name), value.faults}, name, context);
     if (value.faults->count() != before) context->unreadable_materials.insert(index);
     materials[index++] = std::move(material);  // no reference is kept: reading adds inline
                                                // materials
@@ -160,16 +158,14 @@ bool ReadMaterialId(const JsonValue& value, SceneContext* context, MaterialId* i
 }
 
 void ReadMaterialOf(JsonObject* shape, SceneContext* context, MaterialId* id) {
-  const Json* const json = shape->Require("material", kReferenceHint);
-  if (json == nullptr) return;
-  ReadMaterialId({*json, shape->path().Member("material"), shape->faults()}, context, id);
+  const auto value = shape->Require("material", kReferenceHint);
+  if (value) ReadMaterialId(*value, context, id);
 }
 
 void ReadMaterialList(const JsonValue& value, SceneContext* context, std::vector<MaterialId>* ids) {
   if (!value.Expect(value.json.is_array() && !value.json.empty(), "a list of materials")) return;
   for (size_t i = 0; i < value.json.size(); ++i) {
-    ReadMaterialId({value.json[i], value.path.Element(i), value.faults}, context,
-                   &ids->emplace_back());
+    ReadMaterialId(value.Element(i), context, &ids->emplace_back());
   }
 }
 

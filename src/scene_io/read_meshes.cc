@@ -12,8 +12,7 @@
 #include "scene/mesh.h"
 #include "scene/sphere_mesh.h"
 #include "scene_io/load_scene.h"
-#include "scene_io/obj.h"
-#include "scene_io/ply.h"
+#include "scene_io/model_files.h"
 #include "scene_io/readers.h"
 #include "scene_io/text_file.h"
 
@@ -37,9 +36,7 @@ void ReadScale(const JsonValue& value, Vec3d* scale) {
 void ReadTransform(const JsonValue& value, Transform* transform) {
   JsonObject object(value);
   object.Point("translate", &transform->translate);
-  if (const Json* scale = object.Find("scale")) {
-    ReadScale({*scale, object.path().Member("scale"), object.faults()}, &transform->scale);
-  }
+  if (const auto scale = object.Find("scale")) ReadScale(*scale, &transform->scale);
   object.Point("rotate_deg", &transform->rotate_deg);
   object.RefuseOthers();
 }
@@ -140,18 +137,23 @@ std::optional<Mesh> ReadMeshFile(const JsonValue& value, const Transform& transf
   return std::nullopt;
 }
 
+// Adds the mesh with the material and interpolation of `settings`.
+void AddMesh(Mesh mesh, const Mesh& settings, SceneContext* context) {
+  mesh.material = settings.material;
+  mesh.interpolation = settings.interpolation;
+  mesh.smooth_terminator = settings.smooth_terminator;
+  context->scene->meshes.push_back(std::move(mesh));
+}
+
 // Adds the mesh of the file that `value` names, unless there are faults.
 void LoadMesh(const JsonValue& value, const Transform& transform, const NormalSettings& normals,
               const std::optional<Displacement>& displacement, const Mesh& settings,
               SceneContext* context) {
   std::optional<Mesh> mesh = ReadMeshFile(value, transform, normals, *context);
   if (!mesh) return;
-  mesh->material = settings.material;
-  mesh->interpolation = settings.interpolation;
-  mesh->smooth_terminator = settings.smooth_terminator;
   PrepareNormals(value, normals, context->threads, &*mesh);
   if (displacement) DisplaceMesh(value, *displacement, *context->scene, &*mesh);
-  context->scene->meshes.push_back(std::move(*mesh));
+  AddMesh(std::move(*mesh), settings, context);
 }
 
 template <typename SphereMesh>
@@ -198,34 +200,28 @@ std::optional<Mesh> ReadFaces(const JsonValue& value, const SceneContext& contex
   return std::nullopt;
 }
 
-// Reads center, radius, material and the members of all meshes; true if there are no faults.
 template <typename SphereMesh>
-bool ReadSphereMesh(JsonObject* shape, SceneContext* context, SphereMesh* sphere, Mesh* mesh) {
-  ReadPlace(shape, sphere);
-  ReadMaterialOf(shape, context, &mesh->material);
-  ReadInterpolation(shape, mesh);
-  return shape->faults()->count() == 0;
-}
-
-template <typename SphereMesh>
-void AddSphereMesh(const SphereMesh& sphere, const Mesh& settings, SceneContext* context) {
+void ReadSphereMesh(JsonObject* shape, SceneContext* context) {
+  SphereMesh sphere;
+  Mesh settings;
+  ReadFineness(shape, &sphere);
+  ReadPlace(shape, &sphere);
+  ReadMaterialOf(shape, context, &settings.material);
+  ReadInterpolation(shape, &settings);
+  if (shape->faults()->count() != 0) return;
   context->budget->Spend(TriangleCount(sphere));
-  Mesh mesh = MakeMesh(sphere);
-  mesh.material = settings.material;
-  mesh.interpolation = settings.interpolation;
-  mesh.smooth_terminator = settings.smooth_terminator;
-  context->scene->meshes.push_back(std::move(mesh));
+  AddMesh(MakeMesh(sphere), settings, context);
 }
 
 // Identifies what a light's mesh is made from: the values of its members, and the state of its
 // file.
-std::string KeyOfLightMesh(std::initializer_list<const Json*> members,
+std::string KeyOfLightMesh(std::initializer_list<const std::optional<JsonValue>*> members,
                            const SceneContext& context) {
   std::string key;
-  for (const Json* const json : members) key += (json != nullptr ? JsonText(*json) : "") + "|";
-  const Json* const file = *members.begin();
-  if (file != nullptr && file->is_string()) {
-    key += KeyOfFile(context.folder / file->get<std::string>());
+  for (const auto* member : members) key += (*member ? JsonText((*member)->json) : "") + "|";
+  const std::optional<JsonValue>& file = **members.begin();
+  if (file && file->json.is_string()) {
+    key += KeyOfFile(context.folder / file->json.get<std::string>());
   }
   return key;
 }
@@ -234,14 +230,12 @@ std::string KeyOfLightMesh(std::initializer_list<const Json*> members,
 
 bool ReadDisplacement(JsonObject* shape, bool is_sphere, SceneContext* context,
                       Displacement* displacement) {
-  const Json* const json = shape->Find("displacement");
-  if (json == nullptr) return false;
+  const auto value = shape->Find("displacement");
+  if (!value) return false;
   const size_t before = shape->faults()->count();
-  JsonObject object({*json, shape->path().Member("displacement"), shape->faults()},
-                    R"({"texture": "hills", "distance": 0.1})");
-  if (const Json* texture = object.Require("texture", "the name of one in \"textures\"")) {
-    ReadTextureId({*texture, object.path().Member("texture"), object.faults()}, MapUse::kData,
-                  context, &displacement->texture);
+  JsonObject object(*value, R"({"texture": "hills", "distance": 0.1})");
+  if (const auto texture = object.Require("texture", "the name of one in \"textures\"")) {
+    ReadTextureId(*texture, MapUse::kData, context, &displacement->texture);
   }
   object.Number("distance", limits::kCoordinate, &displacement->distance);
   if (is_sphere) object.Whole("segments", limits::kDisplacedSegments, &displacement->segments);
@@ -253,71 +247,57 @@ void ReadMesh(JsonObject* shape, SceneContext* context) {
   Mesh mesh;
   ReadMaterialOf(shape, context, &mesh.material);
   Transform transform;
-  if (const Json* json = shape->Find("transform")) {
-    ReadTransform({*json, shape->path().Member("transform"), shape->faults()}, &transform);
-  }
+  if (const auto value = shape->Find("transform")) ReadTransform(*value, &transform);
   NormalSettings normals;
   ReadNormals(shape, &normals);
   ReadInterpolation(shape, &mesh);
   std::optional<Displacement> displacement(std::in_place);
   if (!ReadDisplacement(shape, false, context, &*displacement)) displacement.reset();
-  if (const Json* file = shape->Require("file", "an OBJ or PLY file in the scene's folder")) {
-    LoadMesh({*file, shape->path().Member("file"), shape->faults()}, transform, normals,
-             displacement, mesh, context);
+  if (const auto file = shape->Require("file", "an OBJ or PLY file in the scene's folder")) {
+    LoadMesh(*file, transform, normals, displacement, mesh, context);
   }
 }
 
 std::shared_ptr<const Mesh> ReadLightMesh(JsonObject* light, const SceneContext& context) {
-  const Json* const file = light->Find("file");
-  const Json* const icosphere = light->Find("icosphere");
-  const Json* const uv_sphere = light->Find("uv_sphere");
-  const Json* const transform_json = light->Find("transform");
-  if ((file != nullptr) + (icosphere != nullptr) + (uv_sphere != nullptr) != 1) {
+  const auto file = light->Find("file");
+  const auto icosphere = light->Find("icosphere");
+  const auto uv_sphere = light->Find("uv_sphere");
+  const auto transform_value = light->Find("transform");
+  if (file.has_value() + icosphere.has_value() + uv_sphere.has_value() != 1) {
     light->value().AddFault("a mesh light has one mesh",
                             R"(give one of "file", "icosphere" and "uv_sphere")");
     return nullptr;
   }
-  const auto value = [&](std::string_view name, const Json* json) {
-    return JsonValue{*json, light->path().Member(name), light->faults()};
-  };
   Transform transform;
-  if (transform_json != nullptr) {
-    ReadTransform(value("transform", transform_json), &transform);
-    if (file == nullptr) {
-      value("transform", transform_json)
-          .AddFault("is for meshes in files", "a sphere has \"center\" and \"radius\"");
+  if (transform_value) {
+    ReadTransform(*transform_value, &transform);
+    if (!file) {
+      transform_value->AddFault("is for meshes in files", "a sphere has \"center\" and \"radius\"");
     }
   }
   const auto read = [&] {
-    return file != nullptr        ? ReadMeshFile(value("file", file), transform, {}, context)
-           : icosphere != nullptr ? ReadFaces<Icosphere>(value("icosphere", icosphere), context)
-                                  : ReadFaces<UvSphere>(value("uv_sphere", uv_sphere), context);
+    return file        ? ReadMeshFile(*file, transform, {}, context)
+           : icosphere ? ReadFaces<Icosphere>(*icosphere, context)
+                       : ReadFaces<UvSphere>(*uv_sphere, context);
   };
   const auto make = [&](std::optional<Mesh> mesh) -> std::shared_ptr<const Mesh> {
     if (!mesh) return nullptr;
     return std::make_shared<const Mesh>(std::move(*mesh));
   };
   if (context.kept == nullptr) return make(read());
-  std::weak_ptr<const Mesh>& kept =
-      context.kept
-          ->light_meshes[KeyOfLightMesh({file, icosphere, uv_sphere, transform_json}, context)];
+  std::weak_ptr<const Mesh>& kept = context.kept->light_meshes[KeyOfLightMesh(
+      {&file, &icosphere, &uv_sphere, &transform_value}, context)];
   std::shared_ptr<const Mesh> mesh = kept.lock();
   if (mesh == nullptr) kept = mesh = make(read());
   return mesh;
 }
 
 void ReadIcosphere(JsonObject* shape, SceneContext* context) {
-  Icosphere sphere;
-  Mesh mesh;
-  ReadFineness(shape, &sphere);
-  if (ReadSphereMesh(shape, context, &sphere, &mesh)) AddSphereMesh(sphere, mesh, context);
+  ReadSphereMesh<Icosphere>(shape, context);
 }
 
 void ReadUvSphere(JsonObject* shape, SceneContext* context) {
-  UvSphere sphere;
-  Mesh mesh;
-  ReadFineness(shape, &sphere);
-  if (ReadSphereMesh(shape, context, &sphere, &mesh)) AddSphereMesh(sphere, mesh, context);
+  ReadSphereMesh<UvSphere>(shape, context);
 }
 
 }  // namespace nacre

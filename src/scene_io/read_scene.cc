@@ -61,10 +61,10 @@ void ReadRoot(const SceneTree& tree, SceneParts parts, WatchedFiles* files, Faul
     };
   }
   const auto member = [&](std::string_view name, ScenePart part, const auto& read_member) {
-    const Json* const json = object.Find(name);
-    if (json == nullptr || !parts.Has(part)) return;
+    const auto value = object.Find(name);
+    if (!value || !parts.Has(part)) return;
     being_read = part;
-    read_member(JsonValue{*json, object.path().Member(name), faults});
+    read_member(*value);
   };
   std::string schema;
   object.Text("$schema", &schema);  // used by editors
@@ -150,6 +150,26 @@ void AddValidation(const Scene& scene, SceneParts parts, FaultList* faults) {
 
 }  // namespace
 
+std::optional<ShapePlace> FindShape(size_t place, const SceneTree& tree) {
+  const auto shapes = tree.root.find("shapes");
+  if (shapes == tree.root.end() || !shapes->is_array()) return std::nullopt;
+  const std::vector<SphereRun>& runs = tree.spheres.runs;
+  const auto next =
+      std::upper_bound(runs.begin(), runs.end(), place,
+                       [](size_t number, const SphereRun& run) { return number < run.first; });
+  size_t number = place;
+  if (next != runs.begin()) {
+    const auto run = std::prev(next);
+    number -= run->first;
+    if (number < run->spheres.size()) {
+      return ShapePlace{static_cast<size_t>(run - runs.begin()), number};
+    }
+    number = run->in_tree + number - run->spheres.size();
+  }
+  if (number >= shapes->size()) return std::nullopt;
+  return ShapePlace{std::nullopt, number};
+}
+
 std::optional<Json> ValueIn(const SceneTree& tree, const std::string& pointer) {
   const std::vector<std::string> tokens = TokensOf(pointer);
   std::span<const std::string> rest(tokens);
@@ -165,20 +185,12 @@ std::optional<Json> ValueIn(const SceneTree& tree, const std::string& pointer) {
     CompleteTree(pointer, &whole);
     return copy_in(whole.root);
   }
-  const auto& shapes = tree.root.at("shapes").get_ref<const Json::array_t&>();
-  const SphereRun& last = runs.back();
-  const size_t count = last.first + last.spheres.size() + (shapes.size() - last.in_tree);
-  const std::optional<size_t> element = ElementOf(rest[1], count);
-  if (!element) return std::nullopt;
+  const std::optional<size_t> element = ElementOf(rest[1], static_cast<size_t>(-1));
+  const std::optional<ShapePlace> place = element ? FindShape(*element, tree) : std::nullopt;
+  if (!place) return std::nullopt;
   rest = rest.subspan(2);
-  const auto next =
-      std::upper_bound(runs.begin(), runs.end(), *element,
-                       [](size_t place, const SphereRun& run) { return place < run.first; });
-  if (next == runs.begin()) return copy_in(shapes[*element]);
-  const SphereRun& run = *std::prev(next);
-  const size_t place = *element - run.first;
-  if (place >= run.spheres.size()) return copy_in(shapes[run.in_tree + place - run.spheres.size()]);
-  const Sphere& sphere = run.spheres[place];
+  if (!place->run) return copy_in(tree.root.at("shapes")[place->number]);
+  const Sphere& sphere = runs[*place->run].spheres[place->number];
   return copy_in(JsonOf(sphere, tree.spheres.MaterialOf(sphere)));
 }
 

@@ -3,6 +3,7 @@
 // changed.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -31,6 +32,16 @@ struct SceneTree {
   Json root;             // without those elements of "shapes" that are
   PlainSpheres spheres;  // stored here
 };
+
+// The run and the number in it of a plain sphere, or the index of another shape in the tree's
+// "shapes".
+struct ShapePlace {
+  std::optional<size_t> run;
+  size_t number = 0;
+};
+
+// Where shape number `place` of the file is; nullopt if there is none.
+std::optional<ShapePlace> FindShape(size_t place, const SceneTree& tree);
 
 // The value at `pointer` as the scene file has it; nullopt if there is none. Plain spheres are not
 // moved into the tree. Throws Error (kUsage) if `pointer` is not a JSON pointer.

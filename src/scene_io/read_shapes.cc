@@ -40,26 +40,21 @@ void ReadSphere(JsonObject* shape, SceneContext* context) {
 }
 
 void ReadSpheres(JsonObject* shape, SceneContext* context) {
-  const auto member = [&](std::string_view name, const Json& json) {
-    return JsonValue{json, shape->path().Member(name), shape->faults()};
-  };
   SphereRowSettings settings;
   double radius = 0;
   if (shape->Number("radius", limits::kLength, &radius)) settings.radius = radius;
-  if (const Json* material = shape->Find("material")) {
-    ReadMaterialId(member("material", *material), context, &settings.material);
+  if (const auto material = shape->Find("material")) {
+    ReadMaterialId(*material, context, &settings.material);
   }
-  if (const Json* materials = shape->Find("materials")) {
-    ReadMaterialList(member("materials", *materials), context, &settings.materials);
+  if (const auto materials = shape->Find("materials")) {
+    ReadMaterialList(*materials, context, &settings.materials);
   }
   settings.by_name = &context->materials;
-  const Json* const file = shape->Require("file", "a .ply, .csv or .npy file");
+  const auto file = shape->Require("file", "a .ply, .csv or .npy file");
   // After a fault, materials that the file refers to may be missing.
-  if (file == nullptr || shape->faults()->count() != 0) return;
-  const JsonPath path = shape->path().Member("file");
-  const JsonValue value{*file, path, shape->faults()};
+  if (!file || shape->faults()->count() != 0) return;
   std::string name;
-  if (!ReadText(value, &name)) return;
+  if (!ReadText(*file, &name)) return;
   try {
     std::vector<Sphere> spheres = ReadSphereFile(
         ResolveReference(context->folder, name, context->references), settings, context->budget);
@@ -70,7 +65,7 @@ void ReadSpheres(JsonObject* shape, SceneContext* context) {
       all.insert(all.end(), spheres.begin(), spheres.end());
     }
   } catch (const Error& error) {
-    AddFileFaults(error, value);
+    AddFileFaults(error, *file);
   }
 }
 
@@ -100,9 +95,7 @@ std::vector<MaterialId> FindMaterials(const std::vector<std::string>& names,
 }
 
 bool IsInRange(const Sphere& sphere) {
-  const Range& coordinate = limits::kCoordinate;
-  return coordinate.Contains(sphere.center.x) && coordinate.Contains(sphere.center.y) &&
-         coordinate.Contains(sphere.center.z) && limits::kLength.Contains(sphere.radius);
+  return limits::kCoordinate.Contains(sphere.center) && limits::kLength.Contains(sphere.radius);
 }
 
 // Does what ReadShape does, for each sphere of the run.

@@ -165,15 +165,12 @@ void ReadPicture(const JsonValue& value, const PictureReading& reading, const Sc
 }  // namespace
 
 void ReadSky(JsonObject* object, const SceneContext& context, EnvironmentLight* light) {
-  const Json* const radiance = object->Find("radiance");
-  const Json* const gradient = object->Find("gradient");
-  const Json* const quadratic = object->Find("quadratic");
-  const Json* const image = object->Find("image");
-  const auto value = [&](std::string_view name, const Json* json) {
-    return JsonValue{*json, object->path().Member(name), object->faults()};
-  };
+  const auto radiance = object->Find("radiance");
+  const auto gradient = object->Find("gradient");
+  const auto quadratic = object->Find("quadratic");
+  const auto image = object->Find("image");
   const int given =
-      (radiance != nullptr) + (gradient != nullptr) + (quadratic != nullptr) + (image != nullptr);
+      radiance.has_value() + gradient.has_value() + quadratic.has_value() + image.has_value();
   if (given == 0 && context.room != nullptr) {
     PictureSky room{context.room, Rgb(1)};
     ReadKeys(object, &room);
@@ -182,23 +179,22 @@ void ReadSky(JsonObject* object, const SceneContext& context, EnvironmentLight* 
     object->value().AddFault(given == 0 ? "no sky" : "more than one sky",
                              R"(give one of "radiance", "gradient", "quadratic" and "image")");
   }
-  if (radiance != nullptr) {
+  if (radiance) {
     ConstantSky sky;
     ReadKeys(object, &sky);
     light->sky = sky;
-  } else if (gradient != nullptr) {
-    light->sky = ReadSkyObject<GradientSky>(value("gradient", gradient),
-                                            R"({"zenith": c, "horizon": c, "ground": c})");
-  } else if (quadratic != nullptr) {
+  } else if (gradient) {
+    light->sky =
+        ReadSkyObject<GradientSky>(*gradient, R"({"zenith": c, "horizon": c, "ground": c})");
+  } else if (quadratic) {
     light->sky = ReadSkyObject<QuadraticSky>(
-        value("quadratic", quadratic),
-        R"({"axis": [x, y, z], "constant": a, "linear": b, "quadratic": c})");
-  } else if (image != nullptr) {
+        *quadratic, R"({"axis": [x, y, z], "constant": a, "linear": b, "quadratic": c})");
+  } else if (image) {
     PictureSky sky;
     PictureReading reading;
-    if (const Json* const part = object->Find("part")) ReadText(value("part", part), &reading.part);
+    object->Text("part", &reading.part);
     object->Boolean("clamp_negative", &reading.clamp_negative);
-    ReadPicture(value("image", image), reading, context, &sky);
+    ReadPicture(*image, reading, context, &sky);
     ReadKeys(object, &sky);
     // Without a picture, whose fault has been reported, the light keeps its default sky.
     if (sky.picture != nullptr) light->sky = std::move(sky);

@@ -30,31 +30,18 @@ bool ReadChoice(JsonObject* object, std::string_view name,
 }
 
 // Reads [u, v], or one number for both.
-void ReadTwoNumbers(JsonObject* object, std::string_view name, const Range& range, Vec2d* out) {
-  const Json* const json = object->Find(name);
-  if (json == nullptr) return;
-  const JsonPath path = object->path().Member(name);
-  const JsonValue value{*json, path, object->faults()};
-  if (json->is_number()) {
-    double both = 0;
-    if (ReadNumber(value, range, &both)) *out = Vec2d(both, both);
-    return;
-  }
-  if (!value.Expect(json->is_array() && json->size() == 2, "[u, v] or one number")) return;
-  ReadNumber({(*json)[0], path.Element(0), value.faults}, range, &out->x);
-  ReadNumber({(*json)[1], path.Element(1), value.faults}, range, &out->y);
+void ReadUv(JsonObject* object, std::string_view name, Vec2d* out) {
+  const auto value = object->Find(name);
+  if (!value) return;
+  ReadTwoNumbers(*value, limits::kTextureScale, "[u, v] or one number", &out->x, &out->y);
 }
 
 // Reads a mapping, which is a name or an object.
 void ReadMapping(const JsonValue& value, Texture* texture) {
   if (value.json.is_string()) {
-    std::string word;
-    ReadText(value, &word);
-    const auto found = std::find(kMappings.begin(), kMappings.end(), word);
-    if (found == kMappings.end()) {
-      FaultUnknownName(value, "mapping", word, {kMappings.begin(), kMappings.end()});
-    } else {
-      texture->mapping = static_cast<MappingKind>(found - kMappings.begin());
+    size_t choice = 0;
+    if (ReadChoice(value, "mapping", kMappings, &choice)) {
+      texture->mapping = static_cast<MappingKind>(choice);
     }
     return;
   }
@@ -169,21 +156,17 @@ void ReadTexture(const JsonValue& value, const std::string& name, SceneContext* 
   Texture& texture = source.texture;
   texture.name = name;
   JsonObject object(value, R"({"file": "earth.png"})");
-  if (const Json* file = object.Require("file", "an image in the scene's folder")) {
-    CheckFile({*file, object.path().Member("file"), object.faults()}, &source, *context);
+  if (const auto file = object.Require("file", "an image in the scene's folder")) {
+    CheckFile(*file, &source, *context);
   }
-  if (const Json* part = object.Find("part")) {
-    ReadText({*part, object.path().Member("part"), object.faults()}, &source.part);
-  }
+  object.Text("part", &source.part);
   size_t encoding = 0;
   object.Choice("encoding", kEncodings, &encoding);
   if (encoding != 0) {
     source.encoding = static_cast<TextureEncoding>(encoding - 1);
   }
   ReadChoice(&object, "filter", kTextureFilters, &texture.sampling.filter);
-  if (const Json* mapping = object.Find("mapping")) {
-    ReadMapping({*mapping, object.path().Member("mapping"), object.faults()}, &texture);
-  }
+  if (const auto mapping = object.Find("mapping")) ReadMapping(*mapping, &texture);
   // Beyond a pole, or beyond the face of a cube, there is not the opposite edge of the image.
   if (texture.mapping == MappingKind::kSpherical || texture.mapping == MappingKind::kCylindrical) {
     texture.sampling.wrap_v = Wrap::kClamp;
@@ -192,8 +175,8 @@ void ReadTexture(const JsonValue& value, const std::string& name, SceneContext* 
   }
   ReadChoice(&object, "wrap_u", kWraps, &texture.sampling.wrap_u);
   ReadChoice(&object, "wrap_v", kWraps, &texture.sampling.wrap_v);
-  ReadTwoNumbers(&object, "scale", limits::kTextureScale, &texture.scale);
-  ReadTwoNumbers(&object, "offset", limits::kTextureScale, &texture.offset);
+  ReadUv(&object, "scale", &texture.scale);
+  ReadUv(&object, "offset", &texture.offset);
   object.Number("rotate_deg", limits::kAngleDeg, &texture.uv_rotate_deg);
   object.RefuseOthers();
   context->textures.emplace(name, std::move(source));
@@ -205,7 +188,7 @@ void ReadTextures(const JsonValue& value, SceneContext* context) {
   const JsonObject object(value, R"(textures by name: {"earth": {"file": "earth.png"}})");
   if (!object.is_object()) return;
   for (const auto& [name, json] : value.json.items()) {
-    ReadTexture({json, object.path().Member(name), object.faults()}, name, context);
+    ReadTexture({json, value.path.Member(name), value.faults}, name, context);
   }
 }
 
@@ -301,8 +284,7 @@ void ReadTextureId(const JsonValue& value, MapUse use, SceneContext* context, Te
 void ReadMaps(const MaterialModel& model, JsonObject* object, SceneContext* context,
               Material* material) {
   const auto member = [&](std::string_view name, const auto& read) {
-    const Json* const json = object->Find(name);
-    if (json != nullptr) read(JsonValue{*json, object->path().Member(name), object->faults()});
+    if (const auto value = object->Find(name)) read(*value);
   };
   for (const MaterialMap& map : model.maps) {
     member(map.name, [&](const JsonValue& value) {
@@ -315,9 +297,8 @@ void ReadMaps(const MaterialModel& model, JsonObject* object, SceneContext* cont
   const auto texture_of = [&](const JsonValue& value, TextureId* id, const auto& read_others) {
     if (!value.json.is_object()) return ReadTextureId(value, MapUse::kData, context, id);
     JsonObject map(value);
-    if (const Json* texture = map.Require("texture", kTextureHint)) {
-      ReadTextureId({*texture, map.path().Member("texture"), map.faults()}, MapUse::kData, context,
-                    id);
+    if (const auto texture = map.Require("texture", kTextureHint)) {
+      ReadTextureId(*texture, MapUse::kData, context, id);
     }
     read_others(&map);
     map.RefuseOthers();

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -18,7 +19,6 @@
 #include "scene/keys.h"
 #include "scene/material_parameters.h"
 #include "scene_io/read_keys.h"
-#include "scene_io/schema_template.h"
 
 namespace nacre {
 namespace {
@@ -172,6 +172,39 @@ void PutKeys(std::string_view name, const KeyTexts& texts, std::string* schema) 
   if (schema->find(required) != std::string::npos) Replace(required, texts.required, schema);
 }
 
+// Replaces "%LIGHT name: title%" by the definition of a kind of light. Kinds that have more than
+// keys are in the template.
+template <class Kind>
+void PutLight(std::string_view name, const Kind& light, std::string* schema) {
+  KeyTexts texts = TextsOf(light);
+  const std::string mark = fmt::format("%LIGHT {}: ", name);
+  const size_t begin = schema->find(mark);
+  if (begin == std::string::npos) return PutKeys(fmt::format("{}_light", name), texts, schema);
+  const auto add = [&](const char* property, const char* definition) {
+    texts.properties.push_back(fmt::format("\"{}\": {{ {} }}", property, Reference(definition)));
+  };
+  if constexpr (requires { light.attenuation; }) add("attenuation", "attenuation");
+  if constexpr (!std::is_same_v<Kind, AmbientLight>) {
+    if (!IsPunctual({.name = {}, .kind = light})) add("mode", "light_mode");
+    add("shadows", "light_shadows");
+  }
+  const size_t title = begin + mark.size(), end = schema->find('%', title);
+  const std::string definition =
+      fmt::format(R"("{0}_light": {{
+      "title": {1},
+      "type": "object",
+      "required": ["type"{2}],
+      "additionalProperties": false,
+      "properties": {{
+        "type": {{ "const": "{0}" }},
+        {3}
+      }}
+    }})",
+                  name, Quoted(schema->substr(title, end - title)), texts.required,
+                  fmt::join(texts.properties, ",\n        "));
+  schema->replace(begin, end + 1 - begin, definition);
+}
+
 void PutAllKeys(std::string* schema) {
   Camera orthographic;
   orthographic.projection = Projection::kOrthographic;
@@ -183,13 +216,12 @@ void PutAllKeys(std::string* schema) {
   dark.attenuation = {0, 0, 0};  // the value from which an object with only some of the terms
                                  // starts
   PutKeys("attenuation", TextsOf(dark, "attenuation"), schema);
+  std::vector<std::string> references;
   for (const LightKind& kind : LightKinds()) {
-    std::visit(
-        [&](const auto& light) {
-          PutKeys(fmt::format("{}_light", kind.name), TextsOf(light), schema);
-        },
-        kind.make());
+    std::visit([&](const auto& light) { PutLight(kind.name, light, schema); }, kind.make());
+    references.push_back(fmt::format("{{ \"$ref\": \"#/$defs/{}_light\" }}", kind.name));
   }
+  Replace("%LIGHT_REFERENCES%", fmt::format("{}", fmt::join(references, ",\n        ")), schema);
   PutKeys("constant_sky", TextsOf(ConstantSky{}), schema);
   PutKeys("gradient_sky", TextsOf(GradientSky{}), schema);
   PutKeys("quadratic_sky", TextsOf(QuadraticSky{}), schema);

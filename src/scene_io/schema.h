@@ -16,4 +16,9 @@ std::string_view SceneSchema();
 // value from the scene's root. Empty where the format has no value.
 std::vector<std::string> SchemaTypesAt(const std::vector<std::string>& tokens);
 
+// The text of scene_io/scene_schema.json.in, which is the schema without what tables define, with
+// placeholders: %MATERIAL_REFERENCES%, %MATERIAL_MODELS%, %LIGHT_REFERENCES%, %LIGHT ...%, and, for
+// the keys of cameras, pictures and lights, %KEYS ...% and %REQUIRED ...%.
+std::string_view SchemaTemplate();
+
 }  // namespace nacre

@@ -14,8 +14,8 @@
 #include "base/numbers.h"
 #include "base/path.h"
 #include "scene/limits.h"
+#include "scene_io/model_files.h"
 #include "scene_io/npy_file.h"
-#include "scene_io/ply.h"
 #include "scene_io/text_file.h"
 #include "scene_io/text_lines.h"
 
@@ -100,11 +100,9 @@ class SphereRows {
   }
 
   void Add(const Vec3d& center, double radius, MaterialId material, uint64_t row) {
-    const Range& coordinate = limits::kCoordinate;
-    if (!coordinate.Contains(center.x) || !coordinate.Contains(center.y) ||
-        !coordinate.Contains(center.z)) {
+    if (!limits::kCoordinate.Contains(center)) {
       RefuseRow(row, fmt::format("[{}, {}, {}] is out of range", center.x, center.y, center.z),
-                "each coordinate " + Describe(coordinate));
+                "each coordinate " + Describe(limits::kCoordinate));
     }
     if (!limits::kLength.Contains(radius)) {
       RefuseRow(row, fmt::format("the radius {} is out of range", radius),
@@ -219,8 +217,7 @@ class CsvReader {
     places.fill(TableColumns::kNone);
     std::vector<std::pair<std::string, size_t>> others;
     for (size_t i = 0; i < cells_.size(); ++i) {
-      std::string name(cells_[i]);
-      for (char& c : name) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+      std::string name = LowerCase(cells_[i]);
       const auto found = std::find(kNames.begin(), kNames.end(), name);
       if (found == kNames.end()) {
         others.emplace_back(std::move(name), i);

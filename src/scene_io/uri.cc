@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_io/uri.h"
 
-#include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cstdint>
 
+#include "scene_io/text_lines.h"
+
 namespace nacre {
 namespace {
-
-// Schemes and "base64" are case-insensitive.
-bool StartsWithIgnoringCase(std::string_view text, std::string_view lower_case) {
-  return text.size() >= lower_case.size() &&
-         std::equal(lower_case.begin(), lower_case.end(), text.begin(), [](char lower, char c) {
-           return lower == static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-         });
-}
 
 // The value of a base64 digit in either alphabet; negative for other characters.
 int Base64Digit(char c) {
@@ -64,15 +56,15 @@ std::string PercentDecoded(std::string_view text) {
   return decoded;
 }
 
-bool IsDataUri(std::string_view uri) { return StartsWithIgnoringCase(uri, "data:"); }
+bool IsDataUri(std::string_view uri) { return LowerCase(uri.substr(0, 5)) == "data:"; }
 
 std::optional<std::string> DecodeDataUri(std::string_view uri) {
   const size_t comma = uri.find(',');
   if (!IsDataUri(uri) || comma == std::string_view::npos) return std::nullopt;
   const std::string_view parameters = uri.substr(0, comma), data = uri.substr(comma + 1);
   const size_t last = parameters.rfind(';');
-  const bool is_base64 = last != std::string_view::npos && comma - last == 7 &&
-                         StartsWithIgnoringCase(parameters.substr(last), ";base64");
+  const bool is_base64 =
+      last != std::string_view::npos && LowerCase(parameters.substr(last)) == ";base64";
   if (!is_base64) return PercentDecoded(data);
   // Some encoders write + and = percent-encoded.
   if (data.find('%') == std::string_view::npos) return DecodeBase64(data);

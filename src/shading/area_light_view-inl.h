@@ -10,10 +10,12 @@
 
 #include <cmath>
 
-#include "base/geometry-inl.h"
 #include "base/target_ops-inl.h"
-#include "light/irradiance-inl.h"
+#include "base/vec3-inl.h"
+#include "light/disk_light-inl.h"
 #include "light/mesh_outline-inl.h"
+#include "light/polygon_irradiance-inl.h"
+#include "light/sphere_light-inl.h"
 #include "shading/sampled_light.h"
 #include "shading/soa-inl.h"
 

@@ -4,7 +4,7 @@
 // them. Both are filled by the same functions, in derive.h.
 #pragma once
 
-#include "scene/material.h"
+#include "scene/model_options.h"
 
 namespace nacre {
 

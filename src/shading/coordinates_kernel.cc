@@ -12,7 +12,7 @@
 
 #include "hwy/highway.h"
 
-#include "base/geometry-inl.h"
+#include "base/vec3-inl.h"
 #include "shading/soa-inl.h"
 #include "texture/mapping-inl.h"
 

@@ -8,7 +8,7 @@
 
 #include "hwy/highway.h"
 
-#include "base/geometry-inl.h"
+#include "base/vec3-inl.h"
 #include "brdf/sheen-inl.h"
 #include "shading/kernels.h"
 #include "shading/models_at_hit.h"
@@ -57,7 +57,7 @@ class LayerOnHits<SheenModel> {
 
   HWY_INLINE LayerReflectionV At(size_t i, const AnglesV<V>& a) const {
     const D d;
-    const CharlieV<V> charlie =
+    const Charlie<V> charlie =
         maps_ == nullptr ? BroadcastCharlie(d, sheen_.charlie)
                          : MakeCharlie(d, NumberOfHits(0, maps_, MappedNumber::kSheenRoughness, i));
     const Vec3V<V> color = ColorOfHits(sheen_.color, maps_, MappedNumber::kSheenColor, i);
@@ -65,7 +65,7 @@ class LayerOnHits<SheenModel> {
     const V albedo_l = sheen_.scaling == SheenScaling::kReciprocal
                            ? CharlieAlbedo(d, charlie, a.n_dot_l)
                            : albedo_v;
-    const SheenScaleV<V> scale =
+    const SheenScale<V> scale =
         ScaleSheen(d, hn::Max(hn::Max(color.x, color.y), color.z), albedo_v, albedo_l);
     const V lobe = hn::Mul(hn::Mul(CharlieLobe(d, charlie, a), a.n_dot_l), scale.lobe);
     return {Scale(color, lobe), scale.below};

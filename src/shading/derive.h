@@ -13,7 +13,6 @@
 #include "brdf/albedo.h"
 #include "brdf/eon.h"
 #include "brdf/fresnel.h"
-#include "brdf/fresnel_average.h"
 #include "brdf/ggx.h"
 #include "brdf/multi_scatter.h"
 #include "brdf/phong.h"

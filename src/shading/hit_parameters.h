@@ -9,7 +9,7 @@
 
 #include "brdf/albedo.h"
 #include "hit/batch.h"
-#include "scene/material_parameters.h"
+#include "scene/mapped_number.h"
 #include "shading/constants.h"
 
 namespace nacre {

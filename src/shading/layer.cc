@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "scene/material.h"
 #include "shading/hit_parameters.h"
 
 namespace nacre {

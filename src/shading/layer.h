@@ -11,10 +11,12 @@
 
 #include "brdf/angles.h"
 #include "brdf/sheen.h"
-#include "scene/material.h"
+#include "scene/model_options.h"
 #include "shading/reflection.h"
 
 namespace nacre {
+
+struct Material;
 
 // The fuzz of cloth (brdf/sheen.h). Its lobe is as wide as diffuse reflection and belongs to the
 // same component, as in Blender's passes.

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "base/geometry-inl.h"
 #include "base/target_ops-inl.h"
 #include "base/vec3-inl.h"
 #include "light/punctual-inl.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <variant>
 
+#include "scene/material_parameters.h"
 #include "shading/mapped.h"
 #include "shading/models_at_hit.h"
 #include "shading/texture_kernels.h"

@@ -10,7 +10,6 @@
 #include "base/overloaded.h"
 #include "brdf/eon.h"
 #include "brdf/fresnel.h"
-#include "brdf/fresnel_average.h"
 #include "brdf/ggx.h"
 #include "brdf/multi_scatter.h"
 #include "brdf/phong.h"

@@ -7,7 +7,7 @@
 
 #include "brdf/albedo.h"
 #include "brdf/ggx.h"
-#include "scene/material.h"
+#include "scene/model_options.h"
 #include "scene/user_brdf.h"
 #include "shading/constants.h"
 

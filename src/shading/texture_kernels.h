@@ -2,6 +2,7 @@
 // shading/texture_kernels.h: the steps of TextureHits (textures.h), each for all hits of a run.
 #pragma once
 
+#include "scene/material_parameters.h"
 #include "shading/hit_parameters.h"
 #include "shading/surface.h"
 #include "shading/texture_scene.h"

@@ -15,24 +15,16 @@ namespace {
 constexpr double kExponents[] = {4, 16, 64, 256};
 const char* const kComponents[] = {"ambient", "diffuse", "specular"};
 
-PhongMaterial PhongOf(double shininess) {
-  return {.convention = PhongConvention::kClassic,
-          .color = Rgb(0.8, 0.2, 0.2),
-          .ka = Rgb(0.1),
-          .kd = Rgb(0.7),
-          .ks = Rgb(0.5),
-          .shininess = shininess};
-}
-
 Image RenderExponent(double shininess) {
-  Material material;
-  material.model = PhongOf(shininess);
-  Scene scene = SphereScene(material, 200);
-  Light sky;
-  sky.name = "sky";
-  sky.kind = AmbientLight{Rgb(1)};
-  scene.lights = {SunTowards({2, 3, 3}, Rgb(1)), sky};
-  return RenderLayers(scene, {"ambient", "diffuse", "specular"});
+  const PhongMaterial phong{.convention = PhongConvention::kClassic,
+                            .color = Rgb(0.8, 0.2, 0.2),
+                            .ka = Rgb(0.1),
+                            .kd = Rgb(0.7),
+                            .ks = Rgb(0.5),
+                            .shininess = shininess};
+  const Light sky{.name = "sky", .kind = AmbientLight{Rgb(1)}};
+  return RenderLayers(SphereScene(phong, 200, {SunTowards({2, 3, 3}, Rgb(1)), sky}),
+                      {"ambient", "diffuse", "specular"});
 }
 
 // The largest difference of a component between two pictures.
@@ -85,13 +77,9 @@ Figure LobeFigure() {
             .step = 15};
   plot.y = {.label = "lobe (r.v)^n (1: its peak)", .low = 0, .high = 1};
   for (const double n : kExponents) {
-    Curve curve;
-    curve.title = fmt::format("n = {}", n);
-    for (int i = 0; i <= 360; ++i) {
-      curve.x.push_back(i / 4.0);
-      curve.y.push_back(std::pow(std::max(DirectionAt(i / 4.0).z, 0.0), n));
-    }
-    plot.curves.push_back(std::move(curve));
+    plot.curves.push_back(MakeCurve(fmt::format("n = {}", n), Steps(0, 90, 360), [&](double x) {
+      return std::pow(std::max(DirectionAt(x).z, 0.0), n);
+    }));
   }
   plot.rules.push_back({Rule::Across::kY, 0.5, "half of the peak"});
   return MakeFigure(std::move(plot));

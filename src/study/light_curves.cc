@@ -9,8 +9,10 @@
 #include "color/display.h"
 #include "color/luminance.h"
 #include "color/transfer.h"
-#include "light/irradiance.h"
+#include "light/disk_light.h"
+#include "light/polygon_irradiance.h"
 #include "light/punctual.h"
+#include "light/sphere_light.h"
 #include "scene/light_shapes.h"
 
 namespace nacre {
@@ -74,21 +76,17 @@ bool HasFalloff(const Light& light) {
 }
 
 Plot FalloffPlot(const std::vector<Light>& lights) {
-  constexpr int kPerDecade = 60;
   constexpr double kNearest = 0.1;
   constexpr int kDecades = 3;
+  std::vector<double> distances = Steps(0, kDecades, 60 * kDecades);
+  for (double& distance : distances) distance = kNearest * std::pow(10, distance);
   Plot plot;
   plot.x = {.label = "distance from the light's centre (world units)", .log = true};
   plot.y = {.label = "irradiance facing the light (radiance · sr)", .log = true};
   for (const Light& light : lights) {
-    Curve curve;
-    curve.title = light.name;
-    for (int i = 0; i <= kDecades * kPerDecade; ++i) {
-      const double distance = kNearest * std::pow(10, static_cast<double>(i) / kPerDecade);
-      curve.x.push_back(distance);
-      curve.y.push_back(IrradianceAt(light, distance).value_or(kFromData));
-    }
-    plot.curves.push_back(std::move(curve));
+    plot.curves.push_back(MakeCurve(light.name, distances, [&](double distance) {
+      return IrradianceAt(light, distance).value_or(kFromData);
+    }));
   }
   return plot;
 }
@@ -100,19 +98,15 @@ Plot TonePlot(double exposure_ev) {
             .low = 1e-3,
             .high = 100};
   plot.y = {.label = "display value, sRGB encoded (1: white)", .low = 0, .high = 1};
+  std::vector<double> radiances = Steps(-3, 2, 500);
+  for (double& radiance : radiances) radiance = std::pow(10, radiance);
   for (const std::string& name : ToneOperatorNames()) {
-    DisplaySettings settings;
-    settings.tone = ParseToneOperator(name);
-    settings.exposure_ev = exposure_ev;
-    Curve curve;
-    curve.title =
+    const DisplaySettings settings{.tone = ParseToneOperator(name), .exposure_ev = exposure_ev};
+    const std::string title =
         name == "reinhard_extended" ? fmt::format("{}, white at {:g}", name, settings.white) : name;
-    for (int i = 0; i <= 500; ++i) {
-      const double radiance = std::pow(10, -3 + i / 100.0);
-      curve.x.push_back(radiance);
-      curve.y.push_back(SrgbOetf(DisplayLight(settings, Imath::Color3<double>(radiance)).y));
-    }
-    plot.curves.push_back(std::move(curve));
+    plot.curves.push_back(MakeCurve(title, radiances, [&](double radiance) {
+      return SrgbOetf(DisplayLight(settings, Imath::Color3<double>(radiance)).y);
+    }));
   }
   plot.rules.push_back({Rule::Across::kX, 0.18, "middle grey"});
   return plot;

@@ -1,38 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/material_curves.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
-#include "base/parallel.h"
+#include "base/float_mode.h"
 #include "brdf/ggx.h"
 #include "brdf/phong.h"
 #include "color/luminance.h"
+#include "shading/lobe_residual.h"
+#include "study/reflection.h"
 
 namespace nacre {
 namespace {
 
 const Vec3d kNormal(0, 0, 1);
 constexpr double kGrazing = 89.9;  // degrees: at 90 there is no light
-
-std::vector<double> Steps(double from, double to, double step) {
-  const int count = static_cast<int>(std::lround((to - from) / step));
-  std::vector<double> values;
-  values.reserve(static_cast<size_t>(count) + 1);
-  for (int i = 0; i <= count; ++i) values.push_back(from + (to - from) * i / count);
-  return values;
-}
-
-template <class Function>
-Curve MakeCurve(const std::string& title, const std::vector<double>& x, const Function& f) {
-  Curve curve;
-  curve.title = title;
-  curve.x = x;
-  curve.y.reserve(x.size());
-  for (const double value : x) curve.y.push_back(f(value));
-  return curve;
-}
 
 const MicrofacetModel* MicrofacetOf(const ShadingMaterial& material) {
   return std::get_if<MicrofacetModel>(&material.model);
@@ -61,6 +47,20 @@ std::string AngleSuffix(const CurveOptions& options, const char* what, double an
   return options.angles_deg.size() > 1 ? fmt::format(", {} {:g}°", what, angle) : "";
 }
 
+// The range of angles around the mirror direction in degrees. The light turns twice as fast as the
+// half vector, and at eight times alpha, GGX has fallen to 1/4000 of its peak.
+double HalfRange(const Material& first) {
+  return std::max(2 * 8 * LobeAlpha(first) * 180 / M_PI, 0.1);
+}
+
+Curve LobeCurve(const NamedLobe& lobe, double view_deg, double from, double to) {
+  const ShadingMaterial material = PrepareMaterial(lobe.material);
+  return MakeCurve(lobe.label, Steps(from, to, 480), [&](double degrees) {
+    return Luminance(
+        Reflect(material, Vec3d(0, 0, 1), DirectionAt(degrees), DirectionAt(-view_deg)).specular);
+  });
+}
+
 }  // namespace
 
 double ValueOf(const Rgb& rgb, ColorChannel channel) {
@@ -82,7 +82,7 @@ Plot BrdfPlot(const std::vector<NamedMaterial>& materials, const CurveOptions& o
   plot.x = {.label = "angle of the light (degrees)", .low = -90, .high = 90, .step = 30};
   plot.y = {.label = options.times_cosine ? "BRDF times cosine of the light (1/sr)" : "BRDF (1/sr)",
             .log = options.log};
-  const std::vector<double> angles = Steps(-kGrazing, kGrazing, 2 * kGrazing / 720);
+  const std::vector<double> angles = Steps(-kGrazing, kGrazing, 720);
   for (const NamedMaterial& named : materials) {
     for (const double view : options.angles_deg) {
       const auto value = [&](const auto& reflect, double degrees) {
@@ -106,7 +106,7 @@ Plot PolarPlot(const std::vector<NamedMaterial>& materials, const CurveOptions& 
   Plot plot;
   plot.polar = true;
   plot.y.label = "reflected radiance per unit of irradiance from the light (1/sr)";
-  const std::vector<double> angles = Steps(-kGrazing, kGrazing, 2 * kGrazing / 720);
+  const std::vector<double> angles = Steps(-kGrazing, kGrazing, 720);
   for (const NamedMaterial& named : materials) {
     for (const double light : options.angles_deg) {
       const Vec3d to_light = DirectionAt(-light);
@@ -140,7 +140,7 @@ Plot DistributionPlot(const std::vector<NamedMaterial>& materials) {
   plot.y = {.label = "distribution of normals D (1/sr)", .log = true, .low = 1e-4};
   for (const NamedMaterial& named : materials) {
     if (!HasDistribution(named.material)) continue;
-    plot.curves.push_back(MakeCurve(named.label, Steps(0, 90, 0.125), [&](double degrees) {
+    plot.curves.push_back(MakeCurve(named.label, Steps(0, 90, 720), [&](double degrees) {
       // Light and viewer are both along the half vector.
       const Vec3d half = DirectionAt(degrees);
       const Angles<double> a = ComputeAngles(kNormal, half, half);
@@ -164,7 +164,7 @@ Plot MaskingPlot(const std::vector<NamedMaterial>& materials) {
   for (const NamedMaterial& named : materials) {
     if (!HasMasking(named.material)) continue;
     const MicrofacetModel& model = *MicrofacetOf(named.material);
-    plot.curves.push_back(MakeCurve(named.label, Steps(0, kGrazing, 0.1), [&](double degrees) {
+    plot.curves.push_back(MakeCurve(named.label, Steps(0, kGrazing, 899), [&](double degrees) {
       const double cosine = DirectionAt(degrees).z;
       return 4 * cosine * cosine * VisibilityOf(model, cosine, cosine);
     }));
@@ -181,7 +181,7 @@ Plot FresnelPlot(const std::vector<NamedMaterial>& materials, ColorChannel chann
   for (const NamedMaterial& named : materials) {
     if (!HasFresnel(named.material)) continue;
     const MicrofacetModel& model = *MicrofacetOf(named.material);
-    plot.curves.push_back(MakeCurve(named.label, Steps(0, 90, 0.125), [&](double degrees) {
+    plot.curves.push_back(MakeCurve(named.label, Steps(0, 90, 720), [&](double degrees) {
       const double half_sine = std::sin(degrees * M_PI / 360);
       const double one_minus_cosine = 2 * half_sine * half_sine;
       return ValueOf(FresnelOf(model, 1 - one_minus_cosine, one_minus_cosine), channel);
@@ -201,12 +201,122 @@ Plot AlbedoPlot(const std::vector<NamedMaterial>& materials, ShareOf what, Color
                              : "share of the light that is reflected (1: all)",
             .low = 0};
   for (const NamedMaterial& named : materials) {
-    plot.curves.push_back(MakeCurve(named.label, Steps(0, 89, 1), [&](double degrees) {
+    plot.curves.push_back(MakeCurve(named.label, Steps(0, 89, 89), [&](double degrees) {
       return ValueOf(ReflectedShare(named.material, what, DirectionAt(degrees).z), channel);
     }));
   }
   plot.rules.push_back({Rule::Across::kY, 1, "all of the light"});
   return plot;
+}
+
+Figure LobeFigure(const std::vector<NamedLobe>& lobes) {
+  const double reach = HalfRange(lobes.front().material);
+  Figure figure;
+  figure.columns = 2;
+  figure.width = 1700;
+  figure.height = 1300;
+  for (const double view_deg : kResidualViewsDeg) {
+    const double from = std::max(view_deg - reach, -kGrazing);
+    const double to = std::min(view_deg + reach, kGrazing);
+    Plot plot;
+    plot.title = fmt::format("viewer at {:g}°", view_deg);
+    plot.x = {.label = "angle of the light (degrees)",
+              .low = from == -kGrazing ? -90 : from,
+              .high = to == kGrazing ? 90 : to};
+    plot.y = {.label = "specular radiance per irradiance (1/sr)", .low = 0};
+    double largest = 0;
+    for (const NamedLobe& lobe : lobes) {
+      plot.curves.push_back(LobeCurve(lobe, view_deg, from, to));
+      const std::vector<double>& y = plot.curves.back().y;
+      largest = std::max(largest, *std::max_element(y.begin(), y.end()));
+    }
+    if (largest > 0) plot.y.high = 1.5 * largest;  // leaves room for the legend above the lobes
+    plot.rules.push_back({Rule::Across::kX, view_deg, "mirror"});
+    figure.panels.push_back(std::move(plot));
+  }
+  return figure;
+}
+
+// ---- BRDFs as pictures of their most informative slice
+// -------------------------------------------
+
+namespace {
+
+constexpr int kSlicePoints = 180;       // along each axis, centred in half degrees
+constexpr double kGrazingCosine = 0.1;  // a direction 84 degrees from the normal
+constexpr double kDecades = 1e4;        // maximum of the scale, as in heat maps of errors
+
+Field FieldOf(const ShadingMaterial& material, ColorChannel channel) {
+  Field field;
+  field.label = "BRDF (1/sr)";
+  constexpr size_t kCount = size_t{kSlicePoints} * kSlicePoints;
+  field.x.reserve(kCount);
+  field.y.reserve(kCount);
+  field.values.reserve(kCount);
+  for (int row = 0; row < kSlicePoints; ++row) {
+    for (int column = 0; column < kSlicePoints; ++column) {
+      const double theta_h = 90 * (column + 0.5) / kSlicePoints;
+      const double theta_d = 90 * (row + 0.5) / kSlicePoints;
+      const auto [to_light, to_view] = DirectionsOfSlice(theta_h, theta_d);
+      const Rgb sum = Reflect(material, Vec3d(0, 0, 1), to_light, to_view).Sum();
+      field.x.push_back(theta_h);
+      field.y.push_back(theta_d);
+      field.values.push_back(ValueOf(sum, channel) / to_light.z);
+    }
+  }
+  return field;
+}
+
+// Sets the scale to powers of ten around all values except those for grazing light, at most
+// kDecades apart: for grazing light, BRDFs grow as 1 / n.l in any model, and would leave no colours
+// for the rest.
+void SetScale(std::vector<Plot>* plots) {
+  double high = 0;
+  double low = std::numeric_limits<double>::infinity();
+  for (const Plot& plot : *plots) {
+    const Field& field = *plot.field;
+    for (size_t i = 0; i < field.values.size(); ++i) {
+      const double value = field.values[i];
+      const double n_dot_l = DirectionsOfSlice(field.x[i], field.y[i]).to_light.z;
+      if (!(value > 0) || n_dot_l < kGrazingCosine) continue;
+      high = std::max(high, value);
+      low = std::min(low, value);
+    }
+  }
+  if (high == 0) high = low = 1;  // all black
+  high = std::pow(10, std::ceil(std::log10(high)));
+  low = std::pow(10, std::floor(std::log10(low)));
+  // At least one decade, since a scale has two different ends.
+  low = std::clamp(low, high / kDecades, high / 10);
+  for (Plot& plot : *plots) {
+    plot.field->low = low;
+    plot.field->high = high;
+  }
+}
+
+}  // namespace
+
+SliceDirections DirectionsOfSlice(double theta_h_deg, double theta_d_deg) {
+  const double h = theta_h_deg * M_PI / 180;
+  const double d = theta_d_deg * M_PI / 180;
+  const Vec3d along_half = Vec3d(std::sin(h), 0, std::cos(h)) * std::cos(d);
+  const Vec3d across(0, std::sin(d), 0);
+  return {along_half + across, along_half - across};
+}
+
+std::vector<Plot> SlicePlots(const std::vector<NamedMaterial>& materials, ColorChannel channel) {
+  std::vector<Plot> plots;
+  plots.reserve(materials.size());
+  for (const NamedMaterial& named : materials) {
+    Plot plot;
+    plot.title = named.label;
+    plot.x = {.label = "half vector from the normal (degrees)", .low = 0, .high = 90, .step = 15};
+    plot.y = {.label = "light from the half vector (degrees)", .low = 0, .high = 90, .step = 15};
+    plot.field = FieldOf(named.material, channel);
+    plots.push_back(std::move(plot));
+  }
+  SetScale(&plots);
+  return plots;
 }
 
 }  // namespace nacre

@@ -31,22 +31,27 @@ TextItem Word(const std::string& text, int x, int y, AlignX align) {
 
 }  // namespace
 
-Scene SphereScene(const Material& material, int pixels, double height) {
+Material MaterialOf(const MaterialKind& model) {
+  Material material;
+  material.model = model;
+  return material;
+}
+
+Scene SphereScene(const MaterialKind& model, int pixels, const std::vector<Light>& lights) {
   Scene scene;
   scene.camera.projection = Projection::kOrthographic;
   scene.camera.position = {0, 0, 10};
-  scene.camera.height = height;
+  scene.camera.height = 2.2;
   scene.image.width = scene.image.height = pixels;
-  scene.materials.push_back(material);
+  scene.materials.push_back(MaterialOf(model));
+  scene.lights = lights;
   scene.spheres.push_back({{0, 0, 0}, 1, {0}});
   return scene;
 }
 
 Light SunTowards(const Vec3d& to_light, const Rgb& irradiance) {
-  Light light;
-  light.name = "sun";
-  light.kind = DirectionalLight{.direction_of_travel = -to_light, .irradiance = irradiance};
-  return light;
+  return {.name = "sun",
+          .kind = DirectionalLight{.direction_of_travel = -to_light, .irradiance = irradiance}};
 }
 
 Image RenderLayers(const Scene& scene, const std::vector<std::string>& layers) {

@@ -13,9 +13,12 @@
 
 namespace nacre {
 
-// A sphere of radius 1 at the origin with this material, seen from +z by parallel rays in a square
-// of `height` world units and `pixels` pixels. The scene has no lights.
-Scene SphereScene(const Material& material, int pixels, double height = 2.2);
+using MaterialKind = decltype(Material::model);
+Material MaterialOf(const MaterialKind& model);
+
+// A sphere of radius 1 at the origin with a material of this model, seen from +z by parallel rays
+// in a square of 2.2 world units and `pixels` pixels.
+Scene SphereScene(const MaterialKind& model, int pixels, const std::vector<Light>& lights);
 
 // A directional light; `to_light` points towards it.
 Light SunTowards(const Vec3d& to_light, const Rgb& irradiance);

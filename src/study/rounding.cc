@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/parallel.h"
+#include "base/float_mode.h"
 #include "brdf/ggx.h"
+#include "study/picture.h"
 #include "study/reflection.h"
 #include "visibility/sphere_test.h"
 
@@ -110,12 +111,11 @@ HitError MeasureHits(HitForm form, double distance) {
 double MeasureGgx(GgxForm form, double roughness) {
   constexpr int kSide = 15;
   const FlushDenormals flush;
-  Material material;
-  material.model = MetallicRoughnessMaterial{.base_color = Rgb(1),
-                                             .metallic = 1,
-                                             .roughness = roughness,
-                                             .compensation = Compensation::kNone};
-  const ShadingMaterial prepared = PrepareMaterial(material);
+  const ShadingMaterial prepared =
+      PrepareMaterial(MaterialOf(MetallicRoughnessMaterial{.base_color = Rgb(1),
+                                                           .metallic = 1,
+                                                           .roughness = roughness,
+                                                           .compensation = Compensation::kNone}));
   const double alpha = AlphaFromRoughness(roughness);
   const Vec3d half = (kToLight + kToView).normalized();
   const Vec3d across = (half % Vec3d(0, 1, 0)).normalized();

@@ -17,15 +17,12 @@ constexpr double kPhong = 64;
 const Vec3d kToSun(2, 3, 3);
 
 Rgb8Picture RenderLobe(PhongModel model, double shininess) {
-  Material material;
-  material.model = PhongMaterial{.model = model,
-                                 .convention = PhongConvention::kClassic,
-                                 .color = Rgb(0.8, 0.2, 0.2),
-                                 .ks = Rgb(0.5),
-                                 .shininess = shininess};
-  Scene scene = SphereScene(material, 260);
-  scene.lights = {SunTowards(kToSun, Rgb(1))};
-  return ShowLayer(RenderLayers(scene), "");
+  const PhongMaterial phong{.model = model,
+                            .convention = PhongConvention::kClassic,
+                            .color = Rgb(0.8, 0.2, 0.2),
+                            .ks = Rgb(0.5),
+                            .shininess = shininess};
+  return ShowLayer(RenderLayers(SphereScene(phong, 260, {SunTowards(kToSun, Rgb(1))})), "");
 }
 
 Plot LobePlot(double in_plane) {
@@ -35,13 +32,9 @@ Plot LobePlot(double in_plane) {
       .label = "viewer from the mirror direction (degrees)", .low = 0, .high = 60, .step = 10};
   plot.y = {.label = "lobe (1: its peak)", .low = 0, .high = 1};
   const auto add = [&](const std::string& title, double exponent, double turn) {
-    Curve curve;
-    curve.title = title;
-    for (int i = 0; i <= 240; ++i) {
-      curve.x.push_back(i / 4.0);
-      curve.y.push_back(std::pow(DirectionAt(i / 4.0 * turn).z, exponent));
-    }
-    plot.curves.push_back(std::move(curve));
+    plot.curves.push_back(MakeCurve(title, Steps(0, 60, 240), [&](double degrees) {
+      return std::pow(DirectionAt(degrees * turn).z, exponent);
+    }));
   };
   add(fmt::format("Phong, n = {}", kPhong), kPhong, 1);
   add(fmt::format("Blinn, n = {}", kPhong), kPhong, 0.5);
@@ -55,14 +48,11 @@ Plot AnglePlot(const StudyProgress& progress) {
   plot.x = {.label = "angle of the light (degrees)", .low = 0, .high = 90, .step = 15};
   plot.y = {.label = "best exponent, in Phong's", .low = 0, .high = 4.5, .step = 0.5};
   for (const double n : {16.0, kPhong, 256.0}) {
-    Curve curve;
-    curve.title = fmt::format("n = {}", n);
+    Curve curve = MakeCurve(fmt::format("n = {}", n), Steps(0, 85, 17), [&](double degrees) {
+      progress(0.3 + 0.2 * static_cast<double>(plot.curves.size()) + 0.2 * degrees / 85);
+      return MatchOnHemisphere(n, degrees).exponent / n;
+    });
     curve.style = CurveStyle::kMarkedLine;
-    for (int degrees = 0; degrees <= 85; degrees += 5) {
-      curve.x.push_back(degrees);
-      curve.y.push_back(MatchOnHemisphere(n, degrees).exponent / n);
-      progress(0.3 + 0.2 * static_cast<double>(plot.curves.size()) + 0.2 * degrees / 85.0);
-    }
     plot.curves.push_back(std::move(curve));
   }
   plot.rules.push_back({Rule::Across::kY, 4, "4, the rule of thumb"});

@@ -5,12 +5,31 @@
 
 #include <fmt/format.h>
 
+#include "brdf/phong.h"
 #include "study/material_curves.h"
-#include "study/phong_share.h"
+#include "study/measures.h"
 #include "study/picture.h"
 #include "study/study.h"
 
 namespace nacre {
+
+double PhongShare(const PhongCoefficients& phong, PhongUnits units, double cosine) {
+  const double lobe = PhongLobeIntegral(phong.shininess, cosine);
+  switch (units) {
+    case PhongUnits::kLiteral:
+      return M_PI * phong.kd + phong.ks * lobe / cosine;
+    case PhongUnits::kOverPi:
+      return phong.kd + phong.ks * lobe / cosine / M_PI;
+    case PhongUnits::kModified:
+      return M_PI * phong.kd + phong.ks * lobe;
+    case PhongUnits::kModifiedOverPi:
+      return phong.kd + phong.ks * lobe / M_PI;
+    case PhongUnits::kModifiedNormalised:
+      break;
+  }
+  return phong.kd + phong.ks * PhongNormalization(phong.shininess) * lobe;
+}
+
 namespace {
 
 constexpr double kKd = 0.8, kKs = 0.5;  // from the exercise
@@ -21,13 +40,9 @@ Plot PhongPlot() {
   plot.x = {.label = "angle of the light (degrees)", .low = 0, .high = 90, .step = 15};
   plot.y = {.label = "share that is reflected (1: all)", .low = 0, .high = 3.5, .step = 0.5};
   const auto add = [&](const std::string& title, PhongUnits units, double n) {
-    Curve curve;
-    curve.title = title;
-    for (int degrees = 0; degrees <= 89; ++degrees) {
-      curve.x.push_back(degrees);
-      curve.y.push_back(PhongShare({kKd, kKs, n}, units, std::cos(degrees * M_PI / 180)));
-    }
-    plot.curves.push_back(std::move(curve));
+    plot.curves.push_back(MakeCurve(title, Steps(0, 89, 89), [&](double degrees) {
+      return PhongShare({kKd, kKs, n}, units, std::cos(degrees * M_PI / 180));
+    }));
   };
   add("as lessons write it, n = 64", PhongUnits::kLiteral, 64);
   add("both over pi, n = 64", PhongUnits::kOverPi, 64);
@@ -37,22 +52,17 @@ Plot PhongPlot() {
   return plot;
 }
 
-ShadingMaterial Metal(double roughness, Compensation compensation) {
-  Material material;
-  material.model = MetallicRoughnessMaterial{
-      .base_color = Rgb(1), .metallic = 1, .roughness = roughness, .compensation = compensation};
-  return PrepareMaterial(material);
-}
-
 ShadingMaterial White(double metallic, double roughness, DiffuseCoupling coupling,
                       Compensation compensation) {
-  Material material;
-  material.model = MetallicRoughnessMaterial{.base_color = Rgb(1),
-                                             .metallic = metallic,
-                                             .roughness = roughness,
-                                             .compensation = compensation,
-                                             .diffuse_coupling = coupling};
-  return PrepareMaterial(material);
+  return PrepareMaterial(MaterialOf(MetallicRoughnessMaterial{.base_color = Rgb(1),
+                                                              .metallic = metallic,
+                                                              .roughness = roughness,
+                                                              .compensation = compensation,
+                                                              .diffuse_coupling = coupling}));
+}
+
+ShadingMaterial Metal(double roughness, Compensation compensation) {
+  return White(1, roughness, DiffuseCoupling::kAlbedoScaled, compensation);
 }
 
 ShadingMaterial Dielectric(double roughness, DiffuseCoupling coupling, Compensation compensation) {
@@ -76,13 +86,10 @@ Plot PbrPlot() {
   return plot;
 }
 
-Rgb8Picture FurnacePane(const Material& material) {
-  Scene scene = SphereScene(material, 150);
+Rgb8Picture FurnacePane(const MaterialKind& material) {
+  Scene scene = SphereScene(
+      material, 150, {{.name = "furnace", .kind = EnvironmentLight{.sky = ConstantSky{Rgb(0.5)}}}});
   scene.image.spp = 64;
-  Light light;
-  light.name = "furnace";
-  light.kind = EnvironmentLight{.sky = ConstantSky{Rgb(0.5)}};
-  scene.lights = {light};
   return ShowLayer(RenderLayers(scene), "");
 }
 
@@ -92,15 +99,15 @@ StudyPicture Furnace(const StudyProgress& progress) {
   const double roughnesses[] = {0.1, 0.4, 0.7, 1};
   for (const std::string& row : sheet.rows) {
     for (const double roughness : roughnesses) {
-      Material material;
+      MaterialKind material;
       const double alpha = roughness * roughness;
       if (row == sheet.rows[0]) {
-        material.model = PhongMaterial{.convention = PhongConvention::kClassic,
-                                       .kd = Rgb(kKd),
-                                       .ks = Rgb(kKs),
-                                       .shininess = 2 / (alpha * alpha) - 2};
+        material = PhongMaterial{.convention = PhongConvention::kClassic,
+                                 .kd = Rgb(kKd),
+                                 .ks = Rgb(kKs),
+                                 .shininess = 2 / (alpha * alpha) - 2};
       } else {
-        material.model = MetallicRoughnessMaterial{
+        material = MetallicRoughnessMaterial{
             .base_color = Rgb(1),
             .metallic = 1,
             .roughness = roughness,
@@ -198,9 +205,8 @@ std::vector<StudyNumber> NumbersOf(const Shares& s) {
 std::string EnergyAnswer(const Shares& s) {
   return fmt::format(
       "Phong with kd = {} and ks = {}: as lessons write it, without 1/pi, {:.2f} times the light "
-      "of "
-      "the normal direction is reflected (n = 64). With both terms over pi it is {:.3f} there, but "
-      "{:.3f} at 89° for n = 8: the lobe is not multiplied by the light's cosine, so its share "
+      "of the normal direction is reflected (n = 64). With both terms over pi it is {:.3f} there, "
+      "but {:.3f} at 89° for n = 8: the lobe is not multiplied by the light's cosine, so its share "
       "grows without bound towards grazing light. Modified Phong with its lobe normalised is "
       "bounded by kd + ks = {:.2f}, which is still more than 1: kd + ks <= 1 is the condition, and "
       "the exercise's choice breaks it.\n\n"
@@ -209,12 +215,11 @@ std::string EnergyAnswer(const Shares& s) {
       "dielectric whose base is scaled by 1 - F(v.h) makes light: {:.2f} times of it at n.v = 0.02 "
       "and roughness 0.02. Between the two, the lesson mixes F0 by metallic and scales the base by "
       "both 1 - metallic and 1 - F, so that the metal's reflectance is taken from it twice: a "
-      "white "
-      "half metal of roughness 0.5, seen along its normal, gives back {:.1f} %. Metallic mixes two "
-      "surfaces (glTF 2.0), and only the dielectric has a base to take from. With compensation and "
-      "a base scaled by what the dielectric's albedo leaves, white stays white in the furnace: "
-      "within {:.0e} (metal, Turquin), {:.0e} (metal, Kulla-Conty), {:.0e} (dielectric) and {:.0e} "
-      "(half metal).\n\n"
+      "white half metal of roughness 0.5, seen along its normal, gives back {:.1f} %. Metallic "
+      "mixes two surfaces (glTF 2.0), and only the dielectric has a base to take from. With "
+      "compensation and a base scaled by what the dielectric's albedo leaves, white stays white in "
+      "the furnace: within {:.0e} (metal, Turquin), {:.0e} (metal, Kulla-Conty), {:.0e} "
+      "(dielectric) and {:.0e} (half metal).\n\n"
       "A furnace lights from everywhere. Of light from one grazing direction (n.l = 0.02) a white "
       "dielectric of roughness 0.5 reflects {:.2f} with Turquin's compensation, which is not "
       "reciprocal, and {:.4f} with Kulla and Conty's, which is.",

@@ -7,11 +7,46 @@
 
 #include "brdf/fresnel.h"
 #include "brdf/presets.h"
-#include "study/fresnel_angles.h"
+#include "study/measures.h"
 #include "study/picture.h"
 #include "study/study.h"
 
 namespace nacre {
+
+namespace {
+
+FresnelAngle AngleOf(double cosine) { return {cosine, std::acos(cosine) * 180 / M_PI}; }
+
+}  // namespace
+
+FresnelAngle SchlickAngle(double f0, double reflectance) {
+  return AngleOf(1 - std::pow((reflectance - f0) / (1 - f0), 0.2));
+}
+
+FresnelAngle DielectricAngle(double eta, double reflectance) {
+  double low = 0;
+  double high = 1;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (low + high) / 2;
+    (FresnelDielectric(middle, 1 - middle, eta) > reflectance ? low : high) = middle;
+  }
+  return AngleOf(low);
+}
+
+FresnelGap LargestSchlickError(double eta, double k) {
+  constexpr int kSteps = 2000;
+  const double f0 = FresnelF0(eta, k);
+  FresnelGap gap;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double cosine = static_cast<double>(i) / kSteps;
+    const double exact = k > 0 ? FresnelConductor(cosine, 1 - cosine, eta, k)
+                               : FresnelDielectric(cosine, 1 - cosine, eta);
+    const double difference = std::abs(FresnelSchlick(f0, Power5(1 - cosine)) - exact);
+    if (difference > gap.difference) gap = {difference, cosine};
+  }
+  return gap;
+}
+
 namespace {
 
 template <class Function>
@@ -51,32 +86,25 @@ Plot CurvePlot(bool degrees) {
 }
 
 // A mirror under a uniform radiance of 1, so that it shows its reflectance.
-Rgb8Picture MirrorPane(const Material& material) {
-  Scene scene = SphereScene(material, 240);
-  Light light;
-  light.name = "white";
-  light.kind = EnvironmentLight{.sky = ConstantSky{Rgb(1)}, .background = false};
-  scene.lights = {light};
-  return ShowLayer(RenderLayers(scene), "");
+Rgb8Picture MirrorPane(const MaterialKind& material) {
+  const Light white{.name = "white",
+                    .kind = EnvironmentLight{.sky = ConstantSky{Rgb(1)}, .background = false}};
+  return ShowLayer(RenderLayers(SphereScene(material, 240, {white})), "");
 }
 
 StudyPicture Mirrors() {
   PaneSheet sheet;
-  Material schlick, exact, gold, iron;
-  schlick.model = DielectricMaterial{
+  const DielectricMaterial schlick{
       .base_color = Rgb(0), .roughness = 0, .fresnel = DielectricFresnel::kSchlick};
-  exact.model = DielectricMaterial{.base_color = Rgb(0), .roughness = 0};
+  const DielectricMaterial exact{.base_color = Rgb(0), .roughness = 0};
   const auto metal = [](const char* name) {
     const IndexPreset& preset = *FindIndexPreset(name);
     return ConductorMaterial{.eta = Rgb(preset.eta[0], preset.eta[1], preset.eta[2]),
                              .k = Rgb(preset.k[0], preset.k[1], preset.k[2]),
                              .roughness = 0};
   };
-  iron.model = metal("iron");
-  gold.model = metal("gold");
-  for (const Material* material : {&schlick, &exact, &iron, &gold}) {
-    sheet.panes.push_back(MirrorPane(*material));
-  }
+  sheet.panes = {MirrorPane(schlick), MirrorPane(exact), MirrorPane(metal("iron")),
+                 MirrorPane(metal("gold"))};
   sheet.columns = {"glass, Schlick", "glass, exact", "iron", "gold"};
   return MakeStudyPicture(
       "mirrors", "Black glass and metals under equal light from everywhere: what is seen is F.",
@@ -115,10 +143,9 @@ StudyResult StudyFresnel(const StudyProgress& progress) {
   const std::string table = GapTable(&result);
   result.answer = fmt::format(
       "At {:.3f}° by Schlick's curve (its cosine is 1 - (0.46 / 0.96)^(1/5) = {:.6f}); by "
-      "Fresnel's "
-      "own equations for the index 1.5 at {:.3f}° (cosine {:.6f}). A metal of F0 = 0.9 reflects "
-      "more than that at every angle. Nearly all of the change lies beyond 60°, which is the rim "
-      "of a sphere.\n\n{}",
+      "Fresnel's own equations for the index 1.5 at {:.3f}° (cosine {:.6f}). A metal of F0 = 0.9 "
+      "reflects more than that at every angle. Nearly all of the change lies beyond 60°, which is "
+      "the rim of a sphere.\n\n{}",
       schlick.degrees, schlick.cosine, exact.degrees, exact.cosine, table);
   progress(1);
   return result;

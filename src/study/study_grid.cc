@@ -20,22 +20,18 @@ MetallicRoughnessMaterial GoldOf(double roughness, double metallic) {
 }
 
 Light Sky() {
-  Light light;
-  light.name = "sky";
-  light.shadows = false;  // spheres do not hide the sky from each other, as if each were alone
-  light.kind = EnvironmentLight{.sky = GradientSky{.zenith = Rgb(0.25, 0.45, 0.9),
-                                                   .horizon = Rgb(1.1, 1.05, 1),
-                                                   .ground = Rgb(0.12, 0.09, 0.07)},
-                                .background = false};
-  return light;
+  return {.name = "sky",
+          .shadows = false,  // spheres do not hide the sky from each other, as if each were alone
+          .kind = EnvironmentLight{.sky = GradientSky{.zenith = Rgb(0.25, 0.45, 0.9),
+                                                      .horizon = Rgb(1.1, 1.05, 1),
+                                                      .ground = Rgb(0.12, 0.09, 0.07)},
+                                   .background = false}};
 }
 
 // Five by five spheres, with roughness 0 at the top.
 Scene GridScene() {
   Grid grid;
-  Material gold;
-  gold.model = GoldOf(0, 0);
-  grid.material = gold;
+  grid.material = MaterialOf(GoldOf(0, 0));
   grid.radius = 0.45;
   grid.rows = LinearAxis("roughness", Rgb(0), Rgb(1), 5);
   grid.columns = LinearAxis("metallic", Rgb(0), Rgb(1), 5);
@@ -57,11 +53,7 @@ Rgb8Picture RenderGrid(const Light& light) {
 
 // The largest specular radiance of the smooth and fully metallic sphere.
 double SmoothMetalPeak(const Light& light) {
-  Material material;
-  material.model = GoldOf(0, 1);
-  Scene scene = SphereScene(material, 128);
-  scene.lights = {light};
-  const Image image = RenderLayers(scene, {"specular"});
+  const Image image = RenderLayers(SphereScene(GoldOf(0, 1), 128, {light}), {"specular"});
   const std::vector<float>& specular = image.Find("specular.R")->samples;
   return double{*std::max_element(specular.begin(), specular.end())};
 }
@@ -70,11 +62,10 @@ double SmoothMetalPeak(const Light& light) {
 // the sky in the mirror direction, over all pixels, with one sample each.
 double MirrorError() {
   constexpr int kPixels = 128;
-  Material material;
-  material.model = MetallicRoughnessMaterial{.base_color = Rgb(1), .metallic = 1, .roughness = 0};
-  Scene scene = SphereScene(material, kPixels);
+  Scene scene =
+      SphereScene(MetallicRoughnessMaterial{.base_color = Rgb(1), .metallic = 1, .roughness = 0},
+                  kPixels, {Sky()});
   scene.image.spp = 1;
-  scene.lights = {Sky()};
   const Image image = RenderLayers(scene);
   const auto& sky = std::get<GradientSky>(std::get<EnvironmentLight>(scene.lights[0].kind).sky);
   double largest = 0;
@@ -94,9 +85,8 @@ double MirrorError() {
 
 // The radiance in the mirror direction per unit of irradiance, with light and viewer at 30 degrees.
 double PeakOf(double roughness) {
-  Material material;
-  material.model = GoldOf(roughness, 1);
-  return Reflect(PrepareMaterial(material), Vec3d(0, 0, 1), DirectionAt(-30), DirectionAt(30))
+  return Reflect(PrepareMaterial(MaterialOf(GoldOf(roughness, 1))), Vec3d(0, 0, 1),
+                 DirectionAt(-30), DirectionAt(30))
       .specular.x;
 }
 
@@ -145,16 +135,14 @@ StudyResult StudyGrid(const StudyProgress& progress) {
                     {"peak per irradiance, roughness 1", PeakOf(1), "1/sr"}};
   result.answer = fmt::format(
       "A metal has no diffuse part: all that it shows is what its microfacets mirror, tinted by "
-      "F0. "
-      "At roughness 0 they all lie flat, every ray leaves in the one mirror direction, and the "
+      "F0. At roughness 0 they all lie flat, every ray leaves in the one mirror direction, and the "
       "sphere shows a sharp picture of its surroundings; at roughness 1 they point everywhere, and "
       "the same light is spread over the hemisphere: per unit of irradiance the mirror direction "
       "gets {:.2f}/sr at roughness 1, {:.2f} at 0.5 and {:.0f} at 0.1.\n\n"
       "That needs surroundings. Under a lamp that is a point the smooth metal is black (its "
-      "largest "
-      "highlight here: {:g}): the mirror image of a point has no size, and no pixel can show it. "
-      "Under a sky its largest radiance is {:.3f}, and each pixel is the sky's radiance in the "
-      "mirror direction, to {:.0e} of it.",
+      "largest highlight here: {:g}): the mirror image of a point has no size, and no pixel can "
+      "show it. Under a sky its largest radiance is {:.3f}, and each pixel is the sky's radiance "
+      "in the mirror direction, to {:.0e} of it.",
       PeakOf(1), PeakOf(0.5), PeakOf(0.1), lamp_peak, sky_peak, error);
   progress(1);
   return result;

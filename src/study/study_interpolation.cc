@@ -1,16 +1,60 @@
 // SPDX-License-Identifier: Apache-2.0
 // study/study_interpolation.cc: exercise 3: flat, Gouraud and Phong shading over the number of
 // faces.
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include <fmt/format.h>
 
-#include "study/interpolation.h"
+#include "scene/sphere_mesh.h"
+#include "study/measures.h"
 #include "study/picture.h"
 #include "study/study.h"
 
 namespace nacre {
+
+Image RenderIcosphere(Interpolation interpolation, int subdivisions, int pixels) {
+  const PhongMaterial phong{.convention = PhongConvention::kClassic,
+                            .ka = Rgb(0),
+                            .kd = Rgb(0.7),
+                            .ks = Rgb(0.5),
+                            .shininess = 64};
+  Scene scene = SphereScene(phong, pixels, {SunTowards({2, 3, 3}, Rgb(1))});
+  scene.image.spp = 1;
+  scene.image.shadows = false;
+  scene.spheres.clear();
+  Mesh mesh = MakeMesh(Icosphere{.subdivisions = subdivisions});
+  mesh.material = {0};
+  mesh.interpolation = interpolation;
+  scene.meshes.push_back(std::move(mesh));
+  return RenderLayers(scene, {"diffuse", "specular"});
+}
+
+InterpolationError MeasureInterpolation(const Image& image, const Image& exact) {
+  const std::vector<float>& alpha = exact.Find("A")->samples;
+  const auto measure = [&](const char* channel, double* max, double* rms) {
+    const std::vector<float>& got = image.Find(channel)->samples;
+    const std::vector<float>& truth = exact.Find(channel)->samples;
+    double squares = 0;
+    size_t count = 0;
+    for (size_t i = 0; i < alpha.size(); ++i) {
+      if (alpha[i] == 0) continue;
+      const double difference = double{got[i]} - double{truth[i]};
+      *max = std::max(*max, std::abs(difference));
+      squares += difference * difference;
+      ++count;
+    }
+    *rms = std::sqrt(squares / static_cast<double>(count));
+  };
+  InterpolationError error;
+  measure("diffuse.G", &error.diffuse_max, &error.diffuse_rms);
+  measure("specular.G", &error.specular_max, &error.specular_rms);
+  const std::vector<float>& specular = image.Find("specular.G")->samples;
+  error.specular_peak = double{*std::max_element(specular.begin(), specular.end())};
+  return error;
+}
+
 namespace {
 
 constexpr int kLevels = 7;  // 20 to 81 920 faces

@@ -120,22 +120,18 @@ StudyResult StudyPrecision(const StudyProgress& progress) {
   const double worst = *std::max_element(of_kernel.begin(), of_kernel.end());
   result.figures.push_back({"precision",
                             "Errors of hits and of highlights. The textbook's highlights in float "
-                            "are infinite where their "
-                            "line ends.",
+                            "are infinite where their line ends.",
                             MakeRow({std::move(hits), std::move(ggx)})});
   result.pictures.push_back(FarSpheres());
   result.answer = fmt::format(
       "The quadratic subtracts squares of the distance to find something of the size of the "
-      "radius: "
-      "in float, at 10 000 radii, {:.0f} % of the rays hit or miss wrongly and the normals are "
-      "{:.2g} rad off (rms). nacre measures the centre's distance from the ray instead, forms its "
-      "products exactly and corrects once: {:g} % wrong and {:.0e} rad in double.\n\n"
+      "radius: in float, at 10 000 radii, {:.0f} % of the rays hit or miss wrongly and the normals "
+      "are {:.2g} rad off (rms). nacre measures the centre's distance from the ray instead, forms "
+      "its products exactly and corrects once: {:g} % wrong and {:.0e} rad in double.\n\n"
       "The textbook's GGX forms (n.h)^2 (alpha^2 - 1) + 1, which is alpha^2 at the peak and made "
-      "of "
-      "ones: in float its error at roughness 0.05 is {:.0f} %. nacre's kernels take the sine of "
-      "the "
-      "half angle from |n x (l + v)|, and form it in double for narrow lobes: {:.0e} there, and "
-      "{:.0e} at worst over all roughnesses of the plot.",
+      "of ones: in float its error at roughness 0.05 is {:.0f} %. nacre's kernels take the sine of "
+      "the half angle from |n x (l + v)|, and form it in double for narrow lobes: {:.0e} there, "
+      "and {:.0e} at worst over all roughnesses of the plot.",
       100 * far.wrong, far.normal, 100 * ours.wrong, ours.normal, 100 * textbook, kernel, worst);
   progress(1);
   return result;

@@ -1,27 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
 // study/study_tonemap.cc: one HDR picture shown by each tone operator.
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "color/tone.h"
+#include "color/transfer.h"
 #include "study/light_curves.h"
+#include "study/measures.h"
 #include "study/picture.h"
 #include "study/study.h"
-#include "study/tone_facts.h"
 
 namespace nacre {
+
+double AcesReachesWhite() {
+  double low = 1;
+  double high = 100;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (low + high) / 2;
+    (ToneAces(middle) < 1 ? low : high) = middle;
+  }
+  return high;
+}
+
+GammaGap LargestGammaGap() {
+  GammaGap gap;
+  for (int i = 1; i <= 1000000; ++i) {
+    const double linear = i * 1e-6;
+    const double difference = std::abs(std::pow(linear, 1 / 2.2) - SrgbOetf(linear));
+    if (difference > gap.difference) gap = {difference, linear};
+  }
+  return gap;
+}
+
 namespace {
 
 Image RenderHdr() {
-  Material material;
-  material.model = MetallicRoughnessMaterial{.base_color = Rgb(0.75, 0.12, 0.06), .roughness = 0.3};
-  Scene scene = SphereScene(material, 150);
+  const Light sky{.name = "sky",
+                  .kind = EnvironmentLight{.sky = GradientSky{.zenith = Rgb(0.15, 0.3, 0.7),
+                                                              .horizon = Rgb(0.6, 0.6, 0.6),
+                                                              .ground = Rgb(0.08, 0.06, 0.05)}}};
+  Scene scene =
+      SphereScene(MetallicRoughnessMaterial{.base_color = Rgb(0.75, 0.12, 0.06), .roughness = 0.3},
+                  150, {SunTowards({-1, 1.2, 1}, Rgb(6, 5.6, 5)), sky});
   scene.image.spp = 64;
-  Light sky;
-  sky.name = "sky";
-  sky.kind = EnvironmentLight{.sky = GradientSky{.zenith = Rgb(0.15, 0.3, 0.7),
-                                                 .horizon = Rgb(0.6, 0.6, 0.6),
-                                                 .ground = Rgb(0.08, 0.06, 0.05)}};
-  scene.lights = {SunTowards({-1, 1.2, 1}, Rgb(6, 5.6, 5)), sky};
   return RenderLayers(scene);
 }
 
@@ -35,10 +57,8 @@ StudyPicture Operators(const Image& image) {
   PaneSheet sheet;
   for (const double ev : {-2.0, 0.0, 2.0, 4.0}) {
     for (const std::string& name : ToneOperatorNames()) {
-      DisplaySettings display;
-      display.tone = ParseToneOperator(name);
-      display.exposure_ev = ev;
-      sheet.panes.push_back(ShowLayer(image, "", display));
+      sheet.panes.push_back(
+          ShowLayer(image, "", {.tone = ParseToneOperator(name), .exposure_ev = ev}));
       if (ev == 0) sheet.columns.push_back(name == "reinhard_extended" ? "extended" : name);
     }
     sheet.rows.push_back(fmt::format("{:+g} EV", ev));
@@ -68,12 +88,10 @@ StudyResult StudyTonemap(const StudyProgress& progress) {
                     {"at the linear value", gap.linear, ""}};
   result.answer = fmt::format(
       "The picture's radiance goes up to {:.1f}. Without an operator all above 1 is cut off, "
-      "channel "
-      "by channel, and the red turns to orange and yellow. Reinhard never reaches white (1 becomes "
-      "{:.2f}) and greys the rest; extended Reinhard is white where it is told. ACES (Narkowicz' "
-      "fit) is white from {:.4f} on and makes {:.4f} of middle grey. Khronos' Neutral keeps "
-      "colours "
-      "as they are until near white; AgX turns bright colours pale, as film does.\n\n"
+      "channel by channel, and the red turns to orange and yellow. Reinhard never reaches white (1 "
+      "becomes {:.2f}) and greys the rest; extended Reinhard is white where it is told. ACES "
+      "(Narkowicz' fit) is white from {:.4f} on and makes {:.4f} of middle grey. Khronos' Neutral "
+      "keeps colours as they are until near white; AgX turns bright colours pale, as film does.\n\n"
       "After the operator comes the transfer curve: sRGB's, not x^(1/2.2), which differs by up to "
       "{:.4f} ({:.1f} codes of 255) at the linear value {:.5f}.",
       brightest, reinhard, white, grey, gap.difference, 255 * gap.difference, gap.linear);

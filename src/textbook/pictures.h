@@ -28,7 +28,7 @@ struct TextbookComparison {
   int light_count = 1;  // they share the light's colour; one in the lesson
   TextbookPhong phong{.ka = 0.1, .kd = 0.7, .ks = 0.5, .shininess = 64, .color = {0.8, 0.2, 0.2}};
   TextbookPbr pbr{.albedo = {0.8, 0.2, 0.2}, .metallic = 0, .roughness = 0.4};
-  TextbookFaults faults;
+  TextbookFaults faults{};
 };
 
 // render_sphere_comparison().
@@ -38,7 +38,7 @@ TextbookPicture RenderTextbookComparison(const TextbookComparison& settings);
 struct TextbookGrid {
   int width = 600, height = 400;
   int light_count = 1;
-  TextbookFaults faults;
+  TextbookFaults faults{};
 };
 
 // render_material_grid().

@@ -16,8 +16,7 @@
 #include "texture/mapping.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <class V>
@@ -132,7 +131,6 @@ HWY_INLINE MappedV<V> MapPoint(D d, MappingKind kind, const Vec3V<V>& p) {
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

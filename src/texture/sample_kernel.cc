@@ -11,8 +11,7 @@
 #include "texture/sample-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 
 template <class D>
 HWY_INLINE TexelFloat<D> LevelAt(D d, const MipChain& image, const SampleSettings& settings,
@@ -68,8 +67,7 @@ void SampleTextureT(const MipChain& image, const SampleSettings& settings,
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

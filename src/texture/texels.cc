@@ -93,21 +93,16 @@ HugeVector<float> MakeNextLevel(const TexelView& from, const MipLevel& to) {
   return values;
 }
 
-// The table of code / most, rounded once.
-TexelTable MakeLinearTable(int most) {
+// The table of the values value_of(code), rounded to float once.
+template <class ValueOf>
+TexelTable MakeTable(int codes, const ValueOf& value_of) {
   auto table = std::make_shared<std::vector<float>>();
-  for (int code = 0; code <= most; ++code) {
-    table->push_back(static_cast<float>(static_cast<double>(code) / most));
-  }
+  for (int code = 0; code < codes; ++code) table->push_back(static_cast<float>(value_of(code)));
   return table;
 }
 
-TexelTable MakeHalfTable() {
-  auto table = std::make_shared<std::vector<float>>();
-  for (int code = 0; code < 1 << 16; ++code) {
-    table->push_back(imath_half_to_float(static_cast<uint16_t>(code)));
-  }
-  return table;
+TexelTable MakeLinearTable(int most) {
+  return MakeTable(most + 1, [&](int code) { return static_cast<double>(code) / most; });
 }
 
 // Encodes each value as the code code_of(value) of the table. Returns nothing unless the table has
@@ -147,7 +142,8 @@ Texels::Texels(TexelTable codes, size_t count) : table(std::move(codes)) {
 
 Texels PackTexels(std::span<const float> values) {
   static const TexelTable bytes = MakeLinearTable(255), words = MakeLinearTable(65535);
-  static const TexelTable halves = MakeHalfTable();
+  static const TexelTable halves =
+      MakeTable(1 << 16, [](int code) { return imath_half_to_float(static_cast<uint16_t>(code)); });
   const auto nearest = [](float most) {
     return [most](float value) {
       return value >= 0 && value <= 1 ? static_cast<uint16_t>(value * most + 0.5f) : uint16_t{0};

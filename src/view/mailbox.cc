@@ -32,8 +32,8 @@ void ReadPointer(const char* name, JsonObject* message, std::string* pointer) {
   message->Text(name, pointer);
   const auto depth = static_cast<size_t>(std::count(pointer->begin(), pointer->end(), '/'));
   if (pointer->size() > kMaxPointerBytes || depth > kMaxJsonDepth) {
-    message->faults()->Add(
-        message->path().Member(name).ToString(), "is longer than any scene's pointers",
+    message->Find(name)->AddFault(
+        "is longer than any scene's pointers",
         fmt::format("{} bytes and {} levels at most", kMaxPointerBytes, kMaxJsonDepth));
     pointer->clear();
   }
@@ -42,7 +42,7 @@ void ReadPointer(const char* name, JsonObject* message, std::string* pointer) {
 SetRequest ReadSet(JsonObject* message) {
   SetRequest set;
   ReadPointer("set", message, &set.pointer);
-  if (const Json* value = message->Require("value")) set.value = *value;
+  if (const auto value = message->Require("value")) set.value = value->json;
   message->Whole("gesture", kCounter, &set.gesture);
   message->Whole("serial", kCounter, &set.serial);
   return set;
@@ -88,21 +88,21 @@ Request ReadRequest(ClientId client, std::string_view text) {
   constexpr std::array<std::string_view, 2> kOffered = {"restore", "discard"};
   Request request{client, {}, text.size()};
   size_t step = 0;
-  if (message.Find("set") != nullptr) {
+  if (message.Find("set")) {
     request.what = ReadSet(&message);
-  } else if (message.Find("look") != nullptr) {
+  } else if (message.Find("look")) {
     request.what = ReadLook(&message);
-  } else if (message.Find("samples") != nullptr) {
+  } else if (message.Find("samples")) {
     SamplesRequest samples;
     message.Text("samples", &samples.layer);
     message.Whole("id", Range{0, std::numeric_limits<uint32_t>::max()}, &samples.id);
     request.what = samples;
-  } else if (message.Find("explain") != nullptr) {
+  } else if (message.Find("explain")) {
     ExplainRequest explain;
     message.Whole("explain", kPixel, &explain.x);
     message.Whole("y", kPixel, &explain.y);
     request.what = explain;
-  } else if (message.Find("convert") != nullptr) {
+  } else if (message.Find("convert")) {
     ConvertRequest convert;
     const std::span<const std::string_view> models = FitTargets();
     ReadPointer("convert", &message, &convert.pointer);
@@ -111,17 +111,17 @@ Request ReadRequest(ClientId client, std::string_view text) {
     convert.model = models[model];
     message.Whole("gesture", kCounter, &convert.gesture);
     request.what = convert;
-  } else if (message.Find("keep") != nullptr) {
+  } else if (message.Find("keep")) {
     KeepRequest keep;
     message.Boolean("keep", &keep.keep);
     request.what = keep;
-  } else if (message.Find("take") != nullptr) {
+  } else if (message.Find("take")) {
     message.Choice("take", kFiles, &step);
     request.what = static_cast<TakeRequest>(step);
-  } else if (message.Find("history") != nullptr) {
+  } else if (message.Find("history")) {
     message.Choice("history", kSteps, &step);
     request.what = static_cast<HistoryRequest>(step);
-  } else if (message.Find("offered") != nullptr) {
+  } else if (message.Find("offered")) {
     message.Choice("offered", kOffered, &step);
     request.what = static_cast<OfferedRequest>(step);
   } else {

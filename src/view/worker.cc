@@ -15,8 +15,6 @@
 #include "shading/material_fit.h"
 #include "view/answer.h"
 #include "view/explain.h"
-#include "view/metrics.h"
-#include "view/take.h"
 
 namespace nacre {
 namespace {
@@ -614,12 +612,8 @@ void Worker::Take(ClientId client, TakeRequest what) {
 SharedBytes Worker::TakeExr() {
   plan_.reset();  // it refers to the scene
   document_->UseImage(FullImage());
-  RenderSettings settings = Settings();
+  RenderSettings settings = Settings(true);
   settings.layers = {"all"};
-  if (options_.max_error > 0) {
-    settings.max_error = options_.max_error;
-    settings.max_samples = options_.samples > 0 ? options_.samples : settings.max_samples;
-  }
   const FramePlan plan = MakePlan(document_->scene(), settings, document_->prepared());
   return FileBytes(FileKind::kExr, RenderExr(plan, settings));
 }
@@ -638,9 +632,9 @@ SharedBytes Worker::TakeReport(ClientId client) {
 
 // ---- Rendering ----------------------------------------------------------------------------------
 
-RenderSettings Worker::Settings() {
-  RenderSettings settings;
-  settings.threads = options_.threads;
+RenderSettings Worker::Settings(bool adaptive) {
+  RenderSettings settings = options_.settings;
+  if (!adaptive) settings.max_error = 0;
   settings.cancel = &cancel_;
   if (!layer_.empty()) settings.layers = {layer_};
   return settings;
@@ -682,7 +676,7 @@ void Worker::RenderMoving() {
   plan_.reset();  // refined pictures have more samples
   moved_ = false;
   render_ms_ = MsSince(start);
-  done_ = FullImage().spp == 1 && divisor == FitDivisor() && !(options_.max_error > 0);
+  done_ = FullImage().spp == 1 && divisor == FitDivisor() && !(options_.settings.max_error > 0);
   Publish(done_, true);
   // The time of the first picture is not representative, as it builds the data that later ones
   // reuse.
@@ -712,10 +706,9 @@ void Worker::Adapt(double ms) {
 
 void Worker::Refine() {
   const auto start = Clock::now();
-  RenderSettings settings = Settings();
-  if (options_.max_error > 0 && plan_ && film_.samples > 0) {
-    settings.max_error = options_.max_error;
-    settings.max_samples = options_.samples > 0 ? options_.samples : settings.max_samples;
+  const bool adaptive = options_.settings.max_error > 0;
+  const RenderSettings settings = Settings(adaptive && plan_ && film_.samples > 0);
+  if (settings.max_error > 0) {
     plan_.reset();
     FramePlan plan = MakePlan(document_->scene(), settings, document_->prepared());
     RenderInto(plan, settings, &next_);
@@ -737,9 +730,9 @@ void Worker::Refine() {
     if (film_.samples < spp && MsSince(start) - last_shown < kRefinedEveryMs) continue;
     last_shown = MsSince(start);
     render_ms_ = last_shown;
-    Publish(film_.samples == spp && !(options_.max_error > 0));
-  } while (film_.samples < spp && !cancel_ && !(options_.max_error > 0));
-  done_ = film_.samples == spp && !(options_.max_error > 0);
+    Publish(film_.samples == spp && !adaptive);
+  } while (film_.samples < spp && !cancel_ && !adaptive);
+  done_ = film_.samples == spp && !adaptive;
 }
 
 void Worker::Publish(bool done, bool moving) {

@@ -26,9 +26,8 @@
 namespace nacre {
 
 struct WorkerOptions {
-  int samples = 0;       // per pixel of the refined picture; 0: the scene's
-  double max_error = 0;  // > 0: adaptive sampling of the refined picture, as --max-error
-  int threads = 0;
+  int samples = 0;          // per pixel of the refined picture; 0: the scene's
+  RenderSettings settings;  // of all pictures, but that only the refined one is sampled adaptively
   DisplaySettings display;
   // What the command line specifies, for the page's own command line.
   std::string generator;  // "nacre 0.2.0 (c0ffee)"
@@ -107,7 +106,7 @@ class Worker {
   void Refine();
   void Adapt(double ms);
   void Publish(bool done, bool moving = false);
-  RenderSettings Settings();
+  RenderSettings Settings(bool adaptive = false);
 
   const WorkerOptions options_;
   WorkerSinks sinks_;

@@ -14,11 +14,9 @@
 #include "base/prefetch.h"
 #include "hit/batch.h"
 #include "visibility/camera_packet-inl.h"
-#include "visibility/surface-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // The lanes of one vector of a packet form a group.
@@ -146,7 +144,6 @@ class HitWriter {
   const Pointers3<float> normal_, to_view_;
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

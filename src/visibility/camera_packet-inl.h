@@ -10,14 +10,13 @@
 #endif
 
 #include "base/aligned.h"
-#include "base/geometry-inl.h"
-#include "visibility/inverse_length-inl.h"
+#include "base/target_ops-inl.h"
+#include "base/vec3-inl.h"
 #include "visibility/packet-inl.h"
 #include "visibility/tile_candidates.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 inline constexpr int kCameraPacket = 16;
@@ -81,11 +80,6 @@ HWY_INLINE void SetSphere(const TileCandidate& candidate, int lane, uint32_t bit
   set(d, candidate.projected->scale, packet->projected_scale);
 }
 
-HWY_INLINE Vec3V<hn::Vec<CameraDouble>> LoadLanes(const double (&from)[3][kCameraPacket],
-                                                  int lane) {
-  return Load3(CameraDouble(), from[0] + lane, from[1] + lane, from[2] + lane);
-}
-
 // Loads doubles and rounds them to a vector of floats.
 HWY_INLINE hn::Vec<CameraFloat> LoadRounded(const double* from) {
   const CameraFloat d;
@@ -112,7 +106,7 @@ HWY_INLINE void FillFloatRays(const CameraFrame& frame, CameraPacket* packet) {
     varying.x = hn::MulAdd(step_y.x, y, hn::MulAdd(step_x.x, x, corner.x));
     varying.y = hn::MulAdd(step_y.y, y, hn::MulAdd(step_x.y, x, corner.y));
     varying.z = hn::MulAdd(step_y.z, y, hn::MulAdd(step_x.z, x, corner.z));
-    Store3(varying, d, packet->varying[0] + i, packet->varying[1] + i, packet->varying[2] + i);
+    Store3(varying, d, packet->varying, i);
     hn::Store(kPerspective ? FusedDot(varying, varying) : hn::Set(d, 1.0f), d, packet->dd + i);
   }
 }
@@ -134,8 +128,7 @@ HWY_INLINE uint32_t ProposedLanes(const CameraFrame& frame, const TileCandidate&
   const V radius2 = hn::Set(d, candidate.radius_bound * candidate.radius_bound);
   uint32_t lanes = 0;
   for (size_t i = 0; i < kCameraPacket; i += hn::Lanes(d)) {
-    const Vec3V<V> varying =
-        Load3(d, packet.varying[0] + i, packet.varying[1] + i, packet.varying[2] + i);
+    const Vec3V<V> varying = Load3(d, packet.varying, i);
     const Vec3V<V> to_center = kPerspective ? center : Sub(center, varying);
     const Vec3V<V> direction = kPerspective ? varying : SetVec3(d, frame.forward);
     const Vec3V<V> cross = FusedCross(to_center, direction);
@@ -154,26 +147,18 @@ HWY_INLINE uint32_t ProposedLanes(const CameraFrame& frame, const TileCandidate&
   return lanes & packet.lanes;
 }
 
-// The varying vectors, in double, of the lanes from `lane` on, computed with the operations of
+// Fills in the double rays of the lanes from `lane` on, computed with the operations of
 // MakeCameraRays.
-template <class D>
-HWY_INLINE Vec3V<hn::Vec<D>> ExactVarying(D d, const CameraFrame& frame, int lane,
-                                          const CameraPacket& packet) {
-  const auto x = hn::LoadU(d, packet.film_x + lane);
-  const auto y = hn::LoadU(d, packet.film_y + lane);
-  return MulAdd3(SetVec3(d, frame.step_y), y,
-                 MulAdd3(SetVec3(d, frame.step_x), x, SetVec3(d, frame.corner)));
-}
-
-// Fills in the double rays of the lanes from `lane` on.
 template <bool kPerspective, class D>
 HWY_INLINE void FillExactRays(D d, const CameraFrame& frame, int lane, CameraPacket* packet) {
   using V = hn::Vec<D>;
-  const Vec3V<V> varying = ExactVarying(d, frame, lane, *packet);
+  const V x = hn::LoadU(d, packet->film_x + lane);
+  const V y = hn::LoadU(d, packet->film_y + lane);
+  const Vec3V<V> varying = MulAdd3(SetVec3(d, frame.step_y), y,
+                                   MulAdd3(SetVec3(d, frame.step_x), x, SetVec3(d, frame.corner)));
   const Vec3V<V> direction = kPerspective ? varying : SetVec3(d, frame.forward);
   const V dd = FusedDot(direction, direction);
-  Store3(varying, d, packet->exact_varying[0] + lane, packet->exact_varying[1] + lane,
-         packet->exact_varying[2] + lane);
+  Store3(varying, d, packet->exact_varying, lane);
   hn::Store(dd, d, packet->exact_dd + lane);
   hn::Store(InverseLength(d, dd), d, packet->inverse_length + lane);
 }
@@ -182,10 +167,9 @@ template <bool kPerspective, class D>
 HWY_INLINE Vec3V<hn::Vec<D>> ExactDirection(D d, const CameraFrame& frame, int lane,
                                             const CameraPacket& packet) {
   if constexpr (!kPerspective) return SetVec3(d, frame.forward);
-  return LoadLanes(packet.exact_varying, lane);
+  return Load3(d, packet.exact_varying, lane);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -3,7 +3,6 @@
 // overlap. Each list is in the order of the items, for any number of threads.
 #pragma once
 
-#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>

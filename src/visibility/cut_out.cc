@@ -2,17 +2,12 @@
 #include "visibility/cut_out.h"
 
 #include <algorithm>
-#include <span>
 
 #include "scene/material_parameters.h"
 #include "scene/mesh.h"
 
 namespace nacre {
 namespace {
-
-float LeastOf(std::span<const float> values) {
-  return values.empty() ? 1.0f : *std::min_element(values.begin(), values.end());
-}
 
 // Always samples the full-resolution image: mip levels would close the holes of distant foliage, or
 // lose the leaves.
@@ -32,7 +27,10 @@ std::optional<CutOut> MakeCutOut(const Scene& scene, const Mesh& mesh) {
   CutOut made;
   made.opacity = material.opacity;
   made.cutoff = material.opacity_cutoff;
-  double least = made.opacity * double{LeastOf(mesh.opacities)};
+  double least = made.opacity;
+  if (!mesh.opacities.empty()) {
+    least *= double{*std::min_element(mesh.opacities.begin(), mesh.opacities.end())};
+  }
   if (material.opacity_map.valid()) {
     made.texture = scene.textures[material.opacity_map.index];
     made.image = scene.images[made.texture.image.index].texels;

@@ -12,10 +12,12 @@
 #include <optional>
 #include <vector>
 
-#include "scene/scene.h"
 #include "scene/texture_mapping.h"
 
 namespace nacre {
+
+struct Scene;
+struct Mesh;
 
 struct CutOut {
   uint32_t begin = 0, end = 0;  // the mesh's triangles, numbered as in TraceGeometry

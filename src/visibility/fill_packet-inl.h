@@ -9,17 +9,14 @@
 #endif
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
-#include "base/power_of_two-inl.h"
+#include "base/math-inl.h"
 #include "hit/batch.h"
 #include "visibility/packet-inl.h"
 #include "visibility/triangle_test-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // Flushes to 0 the components that Embree would replace by 1e-18 before it takes their reciprocals,
@@ -50,12 +47,12 @@ HWY_INLINE void FillLanes(D d, hn::Vec<D> t_max, int lane, Packet* packet) {
       hn::DemoteTo(df, hn::Mul(hn::Mul(inverse_dd, scale.power), scale.power));
   hn::Store(inverse_dd, d, packet->inverse_dd + lane);
   hn::Store(scale.power, d, packet->t_scale + lane);
-  store(origin.x, rays.origin_x);
-  store(origin.y, rays.origin_y);
-  store(origin.z, rays.origin_z);
-  store(FlushTiny(d, scaled.x), rays.direction_x);
-  store(FlushTiny(d, scaled.y), rays.direction_y);
-  store(FlushTiny(d, scaled.z), rays.direction_z);
+  store(origin.x, rays.origin[0]);
+  store(origin.y, rays.origin[1]);
+  store(origin.z, rays.origin[2]);
+  store(FlushTiny(d, scaled.x), rays.direction[0]);
+  store(FlushTiny(d, scaled.y), rays.direction[1]);
+  store(FlushTiny(d, scaled.z), rays.direction[2]);
   hn::StoreU(UpperDepth(d, t_max, scale.power), df, rays.depth + lane);
   hn::StoreU(scaled_inverse_dd, df, packet->ray_inverse_dd + lane);
   hn::StoreU(hn::Mul(hn::Sqrt(scaled_inverse_dd), hn::Set(df, 1 + 0x1p-22f)), df,
@@ -63,10 +60,8 @@ HWY_INLINE void FillLanes(D d, hn::Vec<D> t_max, int lane, Packet* packet) {
   store(hn::Mul(SumOfAbs(origin), hn::Set(d, 32 * kFloatUnit)), packet->origin_error);
   if (!packet->geometry->triangles.empty()) {
     const RayShearV<V> shear = MakeShear(d, direction);
-    Store3(shear.x_axis, d, packet->shear[0] + lane, packet->shear[1] + lane,
-           packet->shear[2] + lane);
-    Store3(shear.y_axis, d, packet->shear[3] + lane, packet->shear[4] + lane,
-           packet->shear[5] + lane);
+    Store3(shear.x_axis, d, packet->shear, lane);
+    Store3(shear.y_axis, d, packet->shear + 3, lane);
   }
 }
 
@@ -74,12 +69,10 @@ HWY_INLINE void FillLanes(D d, hn::Vec<D> t_max, int lane, Packet* packet) {
 // `count` hold no rays.
 template <class Batch>
 HWY_INLINE void FillPacket(const Batch& batch, size_t first, Packet* packet) {
-  packet->origin_x = batch.origin.x.data() + first;
-  packet->origin_y = batch.origin.y.data() + first;
-  packet->origin_z = batch.origin.z.data() + first;
-  packet->direction_x = batch.direction.x.data() + first;
-  packet->direction_y = batch.direction.y.data() + first;
-  packet->direction_z = batch.direction.z.data() + first;
+  for (int c = 0; c < 3; ++c) {
+    packet->origin[c] = ChannelOf(batch.origin, c).data() + first;
+    packet->direction[c] = ChannelOf(batch.direction, c).data() + first;
+  }
   const hn::ScalableTag<double> d;
   const int step = static_cast<int>(hn::Lanes(d));
   for (int lane = 0; lane < packet->width; lane += step) {
@@ -91,35 +84,28 @@ HWY_INLINE void FillPacket(const Batch& batch, size_t first, Packet* packet) {
 
 // An upper bound of the coordinates that a point on the primitive was computed from.
 HWY_INLINE double Reach(const TraceGeometry& geometry, uint32_t primitive) {
-  const auto sum_of_abs = [](const Vec3d& v) {
-    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
-  };
   if (primitive == kNoPrimitive) return 0;
   if (primitive < geometry.SphereCount()) {
     const TraceSphere& sphere = geometry.spheres[primitive];
-    return sum_of_abs(sphere.center) + sphere.radius;
+    return nacre::SumOfAbs(sphere.center) + sphere.radius;
   }
   double extent = 0;
   for (const uint32_t vertex : geometry.triangles[primitive - geometry.SphereCount()]) {
-    extent = std::max(extent, sum_of_abs(geometry.positions[vertex]));
+    extent = std::max(extent, nacre::SumOfAbs(geometry.positions[vertex]));
   }
   return extent;
 }
 
 // `starts` are the primitives that the batch's rays start on.
 HWY_INLINE void FillStarts(const AlignedArray<uint32_t>& starts, size_t first, Packet* packet) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const TraceGeometry& geometry = *packet->geometry;
   for (int lane = 0; lane < packet->width; ++lane) {
     const bool holds_ray = (packet->lanes >> lane & 1) != 0;
     const uint32_t start = holds_ray ? starts[first + static_cast<size_t>(lane)] : kNoPrimitive;
     packet->start[lane] = start;
     const bool on_sphere = start < geometry.SphereCount();
-    const TraceSphere sphere = on_sphere ? geometry.spheres[start] : TraceSphere{Vec3d(kNan), kNan};
-    packet->start_sphere[0][lane] = sphere.center.x;
-    packet->start_sphere[1][lane] = sphere.center.y;
-    packet->start_sphere[2][lane] = sphere.center.z;
-    packet->start_sphere[3][lane] = sphere.radius;
+    packet->start_spheres.Set(static_cast<size_t>(lane),
+                              on_sphere ? geometry.spheres[start] : kNoSphere);
     packet->start_extent[lane] = geometry.triangles.empty() ? 0 : Reach(geometry, start);
   }
 }
@@ -153,13 +139,6 @@ HWY_INLINE void FillShadowPacket(const ShadowRayBatch& rays, size_t first, Packe
   FillStarts(rays.primitive, first, packet);
 }
 
-HWY_INLINE void StoreOccluded(const Packet& packet, size_t first, ShadowRayBatch* rays) {
-  for (int lane = 0; lane < packet.width; ++lane) {
-    rays->occluded[first + static_cast<size_t>(lane)] = (packet.occluded >> lane) & 1;
-  }
-}
-
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -7,12 +7,12 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 #include "base/error.h"
 #include "base/parallel.h"
 #include "hit/batch.h"
+#include "scene/scene.h"
 
 namespace nacre {
 namespace {
@@ -76,23 +76,6 @@ double MoveAll(size_t count, int threads, const Move& move) {
 }
 
 }  // namespace
-
-std::vector<uint32_t> FindFirstCoincident(const HugeArray<TraceSphere>& spheres,
-                                          const std::vector<uint32_t>& indices) {
-  const auto key = [&](uint32_t i) {
-    const auto& [center, radius] = spheres[i];
-    return std::make_tuple(center.x, center.y, center.z, radius, i);
-  };
-  std::vector<uint32_t> order = indices;
-  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
-  std::vector<uint32_t> first_of(indices.size());
-  for (size_t i = 0, first = 0; i < order.size(); ++i) {
-    if (!Coincide(spheres[order[i]], spheres[order[first]])) first = i;
-    const auto found = std::lower_bound(indices.begin(), indices.end(), order[i]);
-    first_of[static_cast<size_t>(found - indices.begin())] = order[first];
-  }
-  return first_of;
-}
 
 TraceGeometry MakeTraceGeometry(const Scene& scene, const Vec3d& camera_position, int threads) {
   CheckPrimitiveCount(scene);

@@ -10,17 +10,13 @@
 
 #include "base/huge_pages.h"
 #include "base/vec.h"
-#include "scene/scene.h"
 #include "visibility/cut_out.h"
 #include "visibility/shell_tree.h"
-#include "visibility/trace_sphere.h"
+#include "visibility/sphere_test.h"
 
 namespace nacre {
 
-// For each of these spheres, given by index in ascending order, finds the first of them that
-// coincides with it, which is usually the sphere itself.
-std::vector<uint32_t> FindFirstCoincident(const HugeArray<TraceSphere>& spheres,
-                                          const std::vector<uint32_t>& indices);
+struct Scene;
 
 struct TraceGeometry {
   HugeArray<TraceSphere> spheres;  // in scene order

@@ -8,10 +8,11 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "scene/scene.h"
 #include "visibility/box_trees.h"
 #include "visibility/geometry.h"
 #include "visibility/refine_kernel.h"
-#include "visibility/shell_kernel.h"
+#include "visibility/shell_tree.h"
 
 namespace nacre {
 

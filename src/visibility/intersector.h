@@ -16,12 +16,13 @@
 #include "base/cancel.h"
 #include "base/vec.h"
 #include "hit/batch.h"
-#include "scene/scene.h"
 #include "visibility/light_bins.h"
 #include "visibility/occluder_lists.h"
 #include "visibility/tile_kernel.h"
 
 namespace nacre {
+
+struct Scene;
 
 // The most memory that bins of spheres for camera rays take; beyond it a BVH is better.
 inline constexpr size_t kMaxCameraBinBytes = size_t{384} << 20;

@@ -197,46 +197,35 @@ class Binner {
     return {grid.Column(b.x0), grid.Column(b.x1), grid.Row(b.y0), grid.Row(b.y1)};
   }
 
-  // The boxes of cells that a sphere's projections cover.
-  struct Boxes {
-    int count = 0;
-    int faces[6];
-    CellBox boxes[6];
-    bool large = false;  // they cover too many cells
-  };
-
-  Boxes BoxesOf(const BinnedSphere& sphere) const {
-    Boxes found;
-    int cells = 0;
+  // Calls emit(block) for each block of cells that the sphere's projections cover; for a sphere
+  // that covers too many cells or is too far away, once with the index behind the last block.
+  template <class Emit>
+  void ForBlocks(size_t i, const Emit& emit) const {
+    const double distance = bins_.max_distance - spheres_[i].radius;
+    const bool beyond = distance < 0 || spheres_[i].center.length2() > distance * distance;
+    if (beyond) return emit(block_count_);
+    const BinnedSphere sphere = Binned(i);
+    struct {
+      const LightGrid* grid;
+      CellBox box;
+    } covered[6];
+    int count = 0, cells = 0;
     for (int face = 0; face < (bins_.positional ? 6 : 1); ++face) {
       Bounds b{};
       if (!ProjectToFace(sphere, face, &b)) continue;
-      const CellBox box = CellsOf(bins_.grids[face], b);
-      const int across = box.x1 - box.x0 + 1;
-      const int along = box.y1 - box.y0 + 1;
-      found.large = found.large || across > max_cells_each_ || along > max_cells_each_;
-      cells += found.large ? 0 : across * along;
-      found.faces[found.count] = face;
-      found.boxes[found.count++] = box;
+      const LightGrid& grid = bins_.grids[face];
+      const CellBox box = CellsOf(grid, b);
+      const int across = box.x1 - box.x0 + 1, along = box.y1 - box.y0 + 1;
+      if (std::max(across, along) > max_cells_each_) return emit(block_count_);
+      cells += across * along;
+      if (cells > max_cells_each_) return emit(block_count_);
+      covered[count++] = {&grid, box};
     }
-    found.large = found.large || cells > max_cells_each_;
-    return found;
-  }
-
-  // Calls emit(block) for each block of cells that the sphere covers; for a sphere that is large or
-  // too far away, once with the index behind the last block.
-  template <class Emit>
-  void ForBlocks(size_t i, const Emit& emit) const {
-    const Boxes found = BoxesOf(Binned(i));
-    const double distance = bins_.max_distance - spheres_[i].radius;
-    const bool beyond = distance < 0 || spheres_[i].center.length2() > distance * distance;
-    if (found.large || beyond) return emit(block_count_);
-    for (int k = 0; k < found.count; ++k) {
-      const LightGrid& grid = bins_.grids[found.faces[k]];
-      const CellBox& box = found.boxes[k];
+    for (int k = 0; k < count; ++k) {
+      const auto& [grid, box] = covered[k];
       for (int row = box.y0 / kBlockSize; row <= box.y1 / kBlockSize; ++row) {
         for (int column = box.x0 / kBlockSize; column <= box.x1 / kBlockSize; ++column) {
-          emit(grid.Block(column * kBlockSize, row * kBlockSize));
+          emit(grid->Block(column * kBlockSize, row * kBlockSize));
         }
       }
     }
@@ -314,7 +303,6 @@ class Binner {
   void TakeLarge() {
     const uint32_t begin = block_count_ == 0 ? 0 : block_end_[block_count_ - 1];
     bins_.large.assign(block_numbers_.data() + begin, block_numbers_.data() + block_end_.back());
-    bins_.large_first = FindFirstCoincident(spheres_, bins_.large);
   }
 
   void MeasureOccupancy() {
@@ -357,8 +345,6 @@ bool MoveBins(const TraceGeometry& geometry, LightBins* bins) {
   const Vec3d moved = bins->made_eye - geometry.eye;
   if (!(moved.length() <= bins->max_distance / 250)) return false;
   bins->center = bins->made_center + moved;
-  // Spheres that nearly coincide may do so exactly when other coordinates are rounded.
-  bins->large_first = FindFirstCoincident(geometry.spheres, bins->large);
   return true;
 }
 

@@ -77,8 +77,7 @@ struct LightBins {
   HugeArray<BinnedSphere> binned;  // cell by cell, padded by a vector
   HugeArray<uint32_t> spheres;     // indices of the spheres in `binned`
   std::vector<uint32_t> large;     // spheres that every ray is tested against, in ascending order
-  std::vector<uint32_t> large_first;  // for each of them the first one that coincides with it
-  std::vector<uint32_t> changed;      // spheres changed since; every ray is tested against them
+  std::vector<uint32_t> changed;   // spheres changed since; every ray is tested against them
 
   bool overfull = false;  // no sphere is binned, because there would be too many entries
 

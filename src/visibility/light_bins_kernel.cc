@@ -10,56 +10,16 @@
 #define HWY_TARGET_INCLUDE "visibility/light_bins_kernel.cc"
 #include "hwy/foreach_target.h"
 
-#include "base/geometry-inl.h"
+#include "base/vec3-inl.h"
 #include "visibility/occlusion-inl.h"
 #include "visibility/packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr uint32_t kNoCell = 0xffffffffu;
-
-// One shadow ray of a batch.
-struct OneRay {
-  Vec3d origin, direction;
-  double t_max;
-  uint32_t start;
-  bool outward;
-  double camera_extent;
-};
-
-HWY_INLINE OneRay RayAt(const ShadowRayBatch& rays, size_t i) {
-  return {{rays.origin.x[i], rays.origin.y[i], rays.origin.z[i]},
-          {rays.direction.x[i], rays.direction.y[i], rays.direction.z[i]},
-          rays.t_max[i],
-          rays.primitive[i],
-          rays.outward,
-          rays.camera_extent};
-}
-
-// The exact test of one ray against one sphere.
-HWY_INLINE bool IsOccludedBy(const TraceGeometry& geometry, uint32_t number, const OneRay& ray) {
-  const bool own =
-      number == ray.start || Coincide(geometry.spheres[number], geometry.spheres[ray.start]);
-  if (ray.outward && own) return false;
-  const TraceSphere& sphere = geometry.spheres[number];
-  using Tag = hn::CappedTag<double, 1>;
-  const Tag d;
-  const auto direction = SetVec3(d, ray.direction);
-  const auto inverse_dd = hn::Div(hn::Set(d, 1.0), FusedDot(direction, direction));
-  const auto load = [&]() HWY_ATTR {
-    return ShadowRaysV<Tag>{SetVec3(d, ray.origin), SetVec3(d, ray.direction), hn::Zero(d),
-                            hn::Set(d, ray.t_max), ray.camera_extent};
-  };
-  const auto to_center = SetVec3(d, sphere.center - ray.origin);
-  const auto radius = hn::Set(d, sphere.radius);
-  const auto hit = TestSphere(d, to_center, direction, inverse_dd, radius);
-  const auto own_lane = MaskOfBits(d, own ? 1 : 0, 0);
-  return !hn::AllFalse(d, InTheWay(d, sphere, hit, own_lane, false, hn::Set(d, ray.t_max), load));
-}
 
 // A batch's rays in float, in the coordinates of BinnedSphere, and their cells.
 struct LightSpaceRays {
@@ -91,9 +51,30 @@ HWY_INLINE uint32_t MayMeet(D d, const Vec3V<V>& center, V radius, const Vec3V<V
   return BitsOfMask(d, hn::And(hn::Le(distance2, radius2), hn::Gt(center.z, ray.z)));
 }
 
+// Returns those of `lanes`, as bits, whose rays the sphere occludes; lane 0 is ray `first`.
+template <class D>
+HWY_INLINE uint32_t LanesOccludedBy(D d, const TraceGeometry& geometry, uint32_t number,
+                                    const ShadowRayBatch& rays, size_t first, uint32_t lanes) {
+  const TraceSphere& sphere = geometry.spheres[number];
+  uint32_t own = 0;
+  for (uint32_t left = lanes; left != 0; left &= left - 1) {
+    const int lane = __builtin_ctz(left);
+    const uint32_t start = rays.primitive[first + static_cast<size_t>(lane)];
+    own |= static_cast<uint32_t>(start == number || Coincide(sphere, geometry.spheres[start]))
+           << lane;
+  }
+  if (rays.outward) lanes &= ~own;
+  return OccludedBits(d, sphere, rays, first, lanes, own);
+}
+
+HWY_INLINE bool IsOccludedBy(const TraceGeometry& geometry, uint32_t number,
+                             const ShadowRayBatch& rays, size_t i) {
+  return LanesOccludedBy(hn::CappedTag<double, 1>(), geometry, number, rays, i, 1) != 0;
+}
+
 // Tests one ray against the spheres of its cell, a vector of spheres at a time.
 HWY_INLINE bool OccludedInCell(const TraceGeometry& geometry, const LightBins& bins,
-                               const LightSpaceRays& local, size_t i, const OneRay& ray) {
+                               const LightSpaceRays& local, const ShadowRayBatch& rays, size_t i) {
   const hn::CappedTag<float, kMaxPacketWidth> d;
   using V = hn::Vec<decltype(d)>;
   const Vec3V<V> direction{hn::Set(d, local.x[i]), hn::Set(d, local.y[i]), hn::Set(d, local.z[i])};
@@ -107,37 +88,25 @@ HWY_INLINE bool OccludedInCell(const TraceGeometry& geometry, const LightBins& b
     uint32_t bits = MayMeet(d, center, radius, direction, length, bins.positional);
     for (; bits != 0; bits &= bits - 1) {
       const uint32_t number = bins.spheres[k + static_cast<uint32_t>(__builtin_ctz(bits))];
-      if (IsOccludedBy(geometry, number, ray)) return true;
+      if (IsOccludedBy(geometry, number, rays, i)) return true;
     }
   }
   return false;
 }
 
-// Returns those of `lanes`, as bits, whose rays the sphere occludes; lane 0 is ray `first`.
-HWY_INLINE uint32_t LanesOccludedBy(const TraceGeometry& geometry, uint32_t number,
-                                    const ShadowRayBatch& rays, size_t first, uint32_t lanes) {
-  const hn::ScalableTag<double> d;
-  const TraceSphere& sphere = geometry.spheres[number];
-  uint32_t own = 0;
-  for (uint32_t left = lanes; left != 0; left &= left - 1) {
-    const int lane = __builtin_ctz(left);
-    const uint32_t start = rays.primitive[first + static_cast<size_t>(lane)];
-    own |= static_cast<uint32_t>(start == number || Coincide(sphere, geometry.spheres[start]))
-           << lane;
+// The lanes, as bits, of the rays [first, first + count) that are not known to be occluded.
+HWY_INLINE uint32_t OpenLanes(const ShadowRayBatch& rays, size_t first, size_t count) {
+  uint32_t open = 0;
+  for (size_t lane = 0; lane < count; ++lane) {
+    open |= static_cast<uint32_t>(rays.occluded[first + lane] == 0) << lane;
   }
-  uint32_t occluded = 0;
-  const int step = static_cast<int>(hn::Lanes(d));
-  for (int lane = 0; lanes >> lane != 0; lane += step) {
-    const auto asked = MaskOfBits(d, lanes, lane);
-    if (hn::AllFalse(d, asked)) continue;
-    const auto load = [&]() HWY_ATTR {
-      return LoadShadowRays(d, rays, first + static_cast<size_t>(lane));
-    };
-    const auto blocked =
-        OccludedLanes(d, sphere, load(), asked, MaskOfBits(d, own, lane), rays.outward, load);
-    occluded |= BitsOfMask(d, blocked) << lane;
+  return open;
+}
+
+HWY_INLINE void MarkOccluded(uint32_t lanes, size_t first, ShadowRayBatch* rays) {
+  for (; lanes != 0; lanes &= lanes - 1) {
+    rays->occluded[first + static_cast<size_t>(__builtin_ctz(lanes))] = 1;
   }
-  return occluded;
 }
 
 // Tests rays [begin, end), which share a cell, against its spheres, a vector of rays at a time.
@@ -149,11 +118,8 @@ HWY_INLINE void TestRun(const TraceGeometry& geometry, const LightBins& bins,
   const uint32_t cell = local.cell[begin];
   const size_t step = hn::Lanes(d);
   for (size_t first = begin; first < end; first += step) {
-    uint32_t left = 0;
-    for (size_t lane = 0; lane < std::min(step, end - first); ++lane) {
-      left |= static_cast<uint32_t>(rays->occluded[first + lane] == 0) << lane;
-    }
-    const uint32_t tested = left;
+    const uint32_t tested = OpenLanes(*rays, first, std::min(step, end - first));
+    uint32_t left = tested;
     const Vec3V<V> direction = LoadU3(d, local.x + first, local.y + first, local.z + first);
     const V length = hn::LoadU(d, local.length + first);
     for (uint32_t k = bins.Begin(cell); k < bins.end[cell] && left != 0; ++k) {
@@ -162,17 +128,16 @@ HWY_INLINE void TestRun(const TraceGeometry& geometry, const LightBins& bins,
       const uint32_t bits =
           left & MayMeet(d, center, hn::Set(d, sphere.radius), direction, length, bins.positional);
       if (bits == 0) continue;
-      left &= ~LanesOccludedBy(geometry, bins.spheres[k], *rays, first, bits);
+      left &= ~LanesOccludedBy(hn::ScalableTag<double>(), geometry, bins.spheres[k], *rays, first,
+                               bits);
     }
-    for (uint32_t hit = tested & ~left; hit != 0; hit &= hit - 1) {
-      rays->occluded[first + static_cast<size_t>(__builtin_ctz(hit))] = 1;
-    }
+    MarkOccluded(tested & ~left, first, rays);
   }
 }
 
-HWY_INLINE bool OccludedByAny(const TraceGeometry& geometry, const OneRay& ray) {
-  for (uint32_t i = 0; i < geometry.SphereCount(); ++i) {
-    if (IsOccludedBy(geometry, i, ray)) return true;
+HWY_INLINE bool OccludedByAny(const TraceGeometry& geometry, const ShadowRayBatch& rays, size_t i) {
+  for (uint32_t number = 0; number < geometry.SphereCount(); ++number) {
+    if (IsOccludedBy(geometry, number, rays, i)) return true;
   }
   return false;
 }
@@ -280,31 +245,27 @@ HWY_INLINE void TestLarge(const TraceGeometry& geometry, const LightBins& bins,
   const hn::ScalableTag<double> d;
   const size_t step = hn::Lanes(d);
   const std::vector<uint32_t>& large = bins.large;
-  const auto first_coincident = [&](uint32_t sphere) {
-    const auto found = std::lower_bound(large.begin(), large.end(), sphere);
-    const bool is_large = found != large.end() && *found == sphere;
-    return is_large ? bins.large_first[static_cast<size_t>(found - large.begin())] : kNoPrimitive;
-  };
+  if (large.empty()) {
+    std::fill_n(rays->occluded.data(), rays->count, uint8_t{0});
+    return;
+  }
+  StartSpheres starts{};  // where the rays start, if those are large
   for (size_t first = 0; first < rays->count; first += step) {
     const size_t count = std::min(step, rays->count - first);
-    uint32_t starts[kMaxPacketWidth];
-    for (size_t lane = 0; lane < count; ++lane)
-      starts[lane] = first_coincident(rays->primitive[first + lane]);
+    for (size_t lane = 0; lane < count; ++lane) {
+      const uint32_t start = rays->primitive[first + lane];
+      const bool is_large = std::binary_search(large.begin(), large.end(), start);
+      starts.Set(lane, is_large ? geometry.spheres[start] : kNoSphere);
+    }
     const auto load = [&]() HWY_ATTR { return LoadShadowRays(d, *rays, first); };
     const auto loaded = load();
     uint32_t left = (1u << count) - 1;
     for (size_t i = 0; i < large.size() && left != 0; ++i) {
-      uint32_t own = 0;
-      for (size_t lane = 0; lane < count; ++lane) {
-        own |= static_cast<uint32_t>(starts[lane] == bins.large_first[i]) << lane;
-      }
-      left &= ~BitsOfMask(
-          d, OccludedLanes(d, geometry.spheres[large[i]], loaded, MaskOfBits(d, left, 0),
-                           MaskOfBits(d, own, 0), rays->outward, load));
+      const TraceSphere& sphere = geometry.spheres[large[i]];
+      left &= ~BitsOfMask(d, OccludedLanes(d, sphere, loaded, MaskOfBits(d, left, 0),
+                                           StartsOn(d, starts, 0, sphere), rays->outward, load));
     }
-    for (size_t lane = 0; lane < count; ++lane) {
-      rays->occluded[first + lane] = static_cast<uint8_t>(~(left >> lane) & 1);
-    }
+    StoreOccluded(~left, first, count, rays);
   }
 }
 
@@ -314,14 +275,9 @@ HWY_INLINE void TestChanged(const TraceGeometry& geometry, const LightBins& bins
   for (const uint32_t sphere : bins.changed) {
     for (size_t first = 0; first < rays->count; first += kMaxPacketWidth) {
       const size_t count = std::min<size_t>(kMaxPacketWidth, rays->count - first);
-      uint32_t left = 0;
-      for (size_t lane = 0; lane < count; ++lane) {
-        left |= static_cast<uint32_t>(rays->occluded[first + lane] == 0) << lane;
-      }
-      for (uint32_t hit = LanesOccludedBy(geometry, sphere, *rays, first, left); hit != 0;
-           hit &= hit - 1) {
-        rays->occluded[first + static_cast<size_t>(__builtin_ctz(hit))] = 1;
-      }
+      const uint32_t open = OpenLanes(*rays, first, count);
+      MarkOccluded(LanesOccludedBy(hn::ScalableTag<double>(), geometry, sphere, *rays, first, open),
+                   first, rays);
     }
   }
 }
@@ -351,17 +307,15 @@ void OccludedByBinsT(const TraceGeometry& geometry, const LightBins& bins, Shado
     }
     for (size_t k = i; k < end; ++k) {
       if (rays->occluded[k] != 0) continue;
-      const OneRay ray = RayAt(*rays, k);
-      const bool occluded = cell == kNoCell ? OccludedByAny(geometry, ray)
-                                            : OccludedInCell(geometry, bins, local, k, ray);
+      const bool occluded = cell == kNoCell ? OccludedByAny(geometry, *rays, k)
+                                            : OccludedInCell(geometry, bins, local, *rays, k);
       rays->occluded[k] = occluded ? 1 : 0;
     }
   }
 }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -12,8 +12,7 @@
 #include "visibility/packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -99,24 +98,6 @@ HWY_INLINE hn::Mask<F> SurelyHit(const FloatOccluder& sphere, const Approach& ap
   return hn::And(hn::And(outside, near), hn::And(ahead, before_end));
 }
 
-// Returns those of the rays `pending`, as bits, that the exact test finds to be occluded by a
-// sphere of the list. `own` is the sphere that the rays start on.
-HWY_INLINE uint32_t OccludedExactly(const TraceSphere& sphere, const TraceSphere& own,
-                                    const ShadowRayBatch& rays, size_t first, uint32_t pending) {
-  const D d;
-  const auto none = hn::Lt(hn::Zero(d), hn::Zero(d));
-  const auto starting = Coincide(sphere, own) ? hn::Not(none) : none;
-  uint32_t occluded = 0;
-  for (size_t lane = 0; lane < hn::Lanes(F()); lane += hn::Lanes(d)) {
-    const auto lanes = MaskOfBits(d, pending, static_cast<int>(lane));
-    if (hn::AllFalse(d, lanes)) continue;
-    const auto load = [&]() HWY_ATTR { return LoadShadowRays(d, rays, first + lane); };
-    const auto blocked = OccludedLanes(d, sphere, load(), lanes, starting, rays.outward, load);
-    occluded |= BitsOfMask(d, blocked) << lane;
-  }
-  return occluded;
-}
-
 // The entries of a list that a run of rays is tested against.
 struct ListPart {
   const uint32_t* entries;  // indices of OccluderLists::spheres and floats
@@ -156,7 +137,7 @@ HWY_INLINE uint32_t OccludedByList(const TraceGeometry& geometry, const Occluder
     const uint32_t open = pending & ~(blocked | BitsOfMask(d, SurelyMiss(occluder, approach)));
     if (open != 0) {
       const TraceSphere& sphere = geometry.spheres[lists.spheres[near[k]]];
-      blocked |= OccludedExactly(sphere, own, rays, first, open);
+      blocked |= OccludedBits(D(), sphere, rays, first, open, Coincide(sphere, own) ? open : 0);
     }
     occluded |= blocked;
     pending &= ~blocked;
@@ -164,26 +145,32 @@ HWY_INLINE uint32_t OccludedByList(const TraceGeometry& geometry, const Occluder
   return occluded;
 }
 
-struct MinMax {
-  double low, high;
+struct PointBox {
+  Vec3d low, high;
 };
 
-HWY_INLINE MinMax MinMaxOf(const double* values, size_t first, size_t end) {
+// The box of points [first, end).
+HWY_INLINE PointBox BoxOf(const Soa3<double>& points, size_t first, size_t end) {
   const D d;
   const size_t lanes = hn::Lanes(d);
-  V low = hn::Set(d, values[first]), high = low;
-  size_t i = first;
-  for (; i + lanes <= end; i += lanes) {
-    const V v = hn::LoadU(d, values + i);
-    low = hn::Min(low, v);
-    high = hn::Max(high, v);
+  PointBox box;
+  for (int c = 0; c < 3; ++c) {
+    const double* const values = ChannelOf(points, c).data();
+    V low = hn::Set(d, values[first]), high = low;
+    size_t i = first;
+    for (; i + lanes <= end; i += lanes) {
+      const V v = hn::LoadU(d, values + i);
+      low = hn::Min(low, v);
+      high = hn::Max(high, v);
+    }
+    box.low[c] = hn::GetLane(hn::MinOfLanes(d, low));
+    box.high[c] = hn::GetLane(hn::MaxOfLanes(d, high));
+    for (; i < end; ++i) {
+      box.low[c] = std::min(box.low[c], values[i]);
+      box.high[c] = std::max(box.high[c], values[i]);
+    }
   }
-  MinMax range{hn::GetLane(hn::MinOfLanes(d, low)), hn::GetLane(hn::MaxOfLanes(d, high))};
-  for (; i < end; ++i) {
-    range.low = std::min(range.low, values[i]);
-    range.high = std::max(range.high, values[i]);
-  }
-  return range;
+  return box;
 }
 
 // Rays that leave outward stay above the tangent plane at their origin, except for grazing ones,
@@ -193,9 +180,7 @@ HWY_INLINE size_t FindAbove(const TraceGeometry& geometry, const OccluderLists& 
                             uint32_t start, const ShadowRayBatch& rays, size_t first, size_t end,
                             uint32_t* entries) {
   const TraceSphere& own = geometry.spheres[start];
-  const MinMax box[3] = {MinMaxOf(rays.origin.x.data(), first, end),
-                         MinMaxOf(rays.origin.y.data(), first, end),
-                         MinMaxOf(rays.origin.z.data(), first, end)};
+  const PointBox box = BoxOf(rays.origin, first, end);
   size_t count = 0;
   for (uint32_t i = lists.Begin(start); i < lists.end[start]; ++i) {
     const TraceSphere& sphere = geometry.spheres[lists.spheres[i]];
@@ -204,8 +189,8 @@ HWY_INLINE size_t FindAbove(const TraceGeometry& geometry, const OccluderLists& 
     // planes, times own.radius.
     double highest = 0;
     for (int c = 0; c < 3; ++c) {
-      highest += std::max(offset[c] * (box[c].low - own.center[c]),
-                          offset[c] * (box[c].high - own.center[c]));
+      highest += std::max(offset[c] * (box.low[c] - own.center[c]),
+                          offset[c] * (box.high[c] - own.center[c]));
     }
     const double margin =
         1e-5 * (offset.length() + own.radius + sphere.radius) + 1e-12 * own.center.length();
@@ -217,18 +202,8 @@ HWY_INLINE size_t FindAbove(const TraceGeometry& geometry, const OccluderLists& 
 
 // A ball that contains all positions of the batch.
 TraceSphere BoundPositionsT(const HitBatch& hits) {
-  const MinMax x = MinMaxOf(hits.position.x.data(), 0, hits.count);
-  const MinMax y = MinMaxOf(hits.position.y.data(), 0, hits.count);
-  const MinMax z = MinMaxOf(hits.position.z.data(), 0, hits.count);
-  const Vec3d low(x.low, y.low, z.low), high(x.high, y.high, z.high);
+  const auto [low, high] = BoxOf(hits.position, 0, hits.count);
   return {(low + high) / 2, (high - low).length() / 2 * (1 + 1e-9)};
-}
-
-HWY_INLINE void StoreListOccluded(uint32_t occluded, size_t first, size_t count,
-                                  ShadowRayBatch* rays) {
-  for (size_t lane = 0; lane < count; ++lane) {
-    rays->occluded[first + lane] = static_cast<uint8_t>((occluded >> lane) & 1);
-  }
 }
 
 // Tests rays [first, end), which all start on one sphere.
@@ -241,8 +216,8 @@ HWY_INLINE void OccludedOfRun(const TraceGeometry& geometry, const OccluderLists
   for (; first < end; first += step) {
     const size_t count = std::min(step, end - first);
     const uint32_t lanes = (1u << count) - 1;
-    StoreListOccluded(OccludedByList(geometry, lists, {entries, kept}, start, *rays, first, lanes),
-                      first, count, rays);
+    StoreOccluded(OccludedByList(geometry, lists, {entries, kept}, start, *rays, first, lanes),
+                  first, count, rays);
   }
 }
 
@@ -262,8 +237,7 @@ void OccludedByListsT(const TraceGeometry& geometry, const OccluderLists& lists,
 }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

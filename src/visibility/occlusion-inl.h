@@ -8,15 +8,14 @@
 #define NACRE_VISIBILITY_OCCLUSION_INL_H_
 #endif
 
-#include "base/geometry-inl.h"
+#include "base/vec3-inl.h"
 #include "hit/batch.h"
 #include "visibility/geometry.h"
 #include "visibility/packet-inl.h"
 #include "visibility/sphere_test-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // Shadow rays, one a lane, which are occluded by hits at 0 < t < t_max.
@@ -92,6 +91,17 @@ HWY_INLINE hn::Mask<D> InTheWay(D d, const TraceSphere& sphere, const SphereHitV
   return hn::AndNot(hn::And(unsure, EndsOnSphere(d, load, sphere)), met);
 }
 
+// The lanes whose ray starts on this sphere, or on one that coincides with it.
+template <class D>
+HWY_INLINE hn::Mask<D> StartsOn(D d, const StartSpheres& starts, int lane,
+                                const TraceSphere& sphere) {
+  const auto same = [&](const double* values, double value)
+                        HWY_ATTR { return hn::Eq(hn::Load(d, values + lane), hn::Set(d, value)); };
+  return hn::And(
+      hn::And(same(starts.center[0], sphere.center.x), same(starts.center[1], sphere.center.y)),
+      hn::And(same(starts.center[2], sphere.center.z), same(starts.radius, sphere.radius)));
+}
+
 // Loads a vector of the batch's rays, from any index i on.
 template <class D>
 HWY_INLINE ShadowRaysV<D> LoadShadowRays(D d, const ShadowRayBatch& rays, size_t i) {
@@ -126,7 +136,32 @@ HWY_INLINE hn::Mask<D> OccludedLanes(D d, const TraceSphere& sphere, const Shado
   return hn::And(lanes, InTheWay(d, sphere, hit, own, outward, rays.t_max, load));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+// The subset of `lanes`, as bits, whose rays the sphere occludes, of the batch's rays from `first`
+// on. `own` are the lanes that start on it.
+template <class D>
+HWY_INLINE uint32_t OccludedBits(D d, const TraceSphere& sphere, const ShadowRayBatch& rays,
+                                 size_t first, uint32_t lanes, uint32_t own) {
+  uint32_t occluded = 0;
+  for (int lane = 0; lanes >> lane != 0; lane += static_cast<int>(hn::Lanes(d))) {
+    const auto asked = MaskOfBits(d, lanes, lane);
+    if (hn::AllFalse(d, asked)) continue;
+    const auto load = [&]() HWY_ATTR {
+      return LoadShadowRays(d, rays, first + static_cast<size_t>(lane));
+    };
+    const auto blocked =
+        OccludedLanes(d, sphere, load(), asked, MaskOfBits(d, own, lane), rays.outward, load);
+    occluded |= BitsOfMask(d, blocked) << lane;
+  }
+  return occluded;
+}
+
+// Stores the results of the rays [first, first + count); lane 0 is ray `first`.
+HWY_INLINE void StoreOccluded(uint32_t occluded, size_t first, size_t count, ShadowRayBatch* rays) {
+  for (size_t lane = 0; lane < count; ++lane) {
+    rays->occluded[first + lane] = static_cast<uint8_t>((occluded >> lane) & 1);
+  }
+}
+
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

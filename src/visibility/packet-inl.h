@@ -18,8 +18,7 @@
 #include "visibility/two_product-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // Masks of at most 16 lanes are converted to bits and back through memory. They are never loaded
@@ -50,12 +49,12 @@ HWY_INLINE hn::Mask<D> MaskOfBits(D d, uint32_t bits, int first) {
 
 template <class D>
 HWY_INLINE Vec3V<hn::Vec<D>> Origin(D d, const Packet& packet, int lane) {
-  return Load3(d, packet.origin_x + lane, packet.origin_y + lane, packet.origin_z + lane);
+  return Load3(d, packet.origin, lane);
 }
 
 template <class D>
 HWY_INLINE Vec3V<hn::Vec<D>> Direction(D d, const Packet& packet, int lane) {
-  return Load3(d, packet.direction_x + lane, packet.direction_y + lane, packet.direction_z + lane);
+  return Load3(d, packet.direction, lane);
 }
 
 // The depth limits in float that belong to t, never lower. Demoting is off by at most half a unit
@@ -108,7 +107,6 @@ HWY_INLINE void RecordOccluded(Packet* packet, uint32_t bits) {
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -3,10 +3,12 @@
 // are proposed, and the terms of the exact tests in double.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "hit/camera_frame.h"
-#include "scene/light_shapes.h"
+#include "scene/primitive_range.h"
 #include "visibility/geometry.h"
 
 namespace nacre {
@@ -15,13 +17,23 @@ inline constexpr int kMaxPacketWidth = 16;
 
 // A packet's rays rounded to float, one per lane, where its BVH reads them.
 struct FloatRays {
-  float* origin_x;
-  float* origin_y;
-  float* origin_z;
-  float* direction_x;
-  float* direction_y;
-  float* direction_z;
+  float* origin[3];
+  float* direction[3];
   float* depth;  // limits of the rays: t times Packet::t_scale, rounded up
+};
+
+// Stands for the start of rays that start on no sphere. It coincides with none.
+inline const TraceSphere kNoSphere{Vec3d(std::numeric_limits<double>::quiet_NaN()), 0};
+
+// The spheres that rays start on, by which spheres that coincide with them are recognised.
+struct StartSpheres {
+  alignas(64) double center[3][kMaxPacketWidth];
+  alignas(64) double radius[kMaxPacketWidth];
+
+  void Set(size_t lane, const TraceSphere& sphere) {
+    for (int c = 0; c < 3; ++c) center[c][lane] = sphere.center[c];
+    radius[lane] = sphere.radius;
+  }
 };
 
 // Lanes are numbered as in the batch that the packet is a piece of. Pointers lead to the packet's
@@ -33,12 +45,8 @@ struct Packet {
   ProjectedTestView view;  // from the batch
   FloatRays floats{};
 
-  const double* origin_x;
-  const double* origin_y;
-  const double* origin_z;
-  const double* direction_x;
-  const double* direction_y;
-  const double* direction_z;
+  const double* origin[3];
+  const double* direction[3];
 
   alignas(64) double inverse_dd[kMaxPacketWidth];  // 1 / |direction|^2
   alignas(64) double t_scale[kMaxPacketWidth];     // power of two that direction was divided by
@@ -59,9 +67,7 @@ struct Packet {
   // Where the rays start, for shadow rays, and for a RayBatch whose rays leave surfaces.
   bool from_surfaces = false;
   alignas(64) uint32_t start[kMaxPacketWidth];  // primitive that the ray starts on
-  // If that is a sphere, its centre and radius, by which spheres that coincide with it are
-  // recognised; else NaN.
-  alignas(64) double start_sphere[4][kMaxPacketWidth];
+  StartSpheres start_spheres;
   alignas(64) double start_extent[kMaxPacketWidth];  // upper bound of that primitive's coordinates
 
   // For shadow rays.

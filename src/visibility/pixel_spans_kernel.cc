@@ -5,8 +5,8 @@
 
 #include "base/aligned.h"
 #include "hit/batch.h"
-#include "visibility/pixel_spans.h"
 #include "visibility/sphere_bins.h"
+#include "visibility/tile_kernel.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "visibility/pixel_spans_kernel.cc"
@@ -14,7 +14,7 @@
 
 #include "hwy/highway.h"
 
-#include "base/geometry-inl.h"
+#include "base/vec3-inl.h"
 
 #ifndef NACRE_VISIBILITY_PIXEL_SPANS_KERNEL_ONCE_
 #define NACRE_VISIBILITY_PIXEL_SPANS_KERNEL_ONCE_
@@ -77,8 +77,7 @@ struct OutlineSpans {
 #endif
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -104,7 +103,7 @@ void ComputeOutlines(const Projector& projector, const Window& tile, Outlines* o
   const auto forward = set3(projector.forward);
   const V inverse_pixel = hn::Set(d, projector.inverse_pixel);
   for (size_t i = 0; i < o->count; i += hn::Lanes(d)) {
-    const auto center = Load3(d, o->sphere[0] + i, o->sphere[1] + i, o->sphere[2] + i);
+    const auto center = Load3(d, o->sphere, i);
     const V radius = hn::Load(d, o->sphere[3] + i);
     const V x = Dot(center, right), y = Dot(center, down), z = Dot(center, forward);
     const V product = hn::Mul(hn::Sub(z, radius), hn::Add(z, radius));
@@ -214,8 +213,7 @@ void FindOutlineSpansT(const Projector& projector, double sample_margin, const W
 }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -8,12 +8,11 @@
 #define NACRE_VISIBILITY_PROJECTED_SPHERE_TEST_INL_H_
 #endif
 
-#include "base/geometry-inl.h"
+#include "base/vec3-inl.h"
 #include "visibility/projected_sphere_test.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // The same sphere in all lanes, or one in each.
@@ -94,7 +93,6 @@ HWY_INLINE ProjectedDepthV<D> TestProjectedDepth(D d, const ProjectedSphere& pro
                          hn::Sqrt(hit.discriminant))};
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

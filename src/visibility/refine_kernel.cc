@@ -10,17 +10,15 @@
 #define HWY_TARGET_INCLUDE "visibility/refine_kernel.cc"
 #include "hwy/foreach_target.h"
 
-#include "base/geometry-inl.h"
+#include "base/target_ops-inl.h"
+#include "base/vec3-inl.h"
 #include "hit/shading_normal-inl.h"
-#include "visibility/inverse_length-inl.h"
 #include "visibility/projected_sphere_test-inl.h"
 #include "visibility/sphere_test-inl.h"
-#include "visibility/surface-inl.h"
 #include "visibility/triangle_test-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -32,14 +30,12 @@ using V = hn::Vec<D>;
 constexpr size_t kBlock = 4 * kBatchPadding;
 
 struct alignas(64) Block3 {
-  double x[kBlock], y[kBlock], z[kBlock];
+  double xyz[3][kBlock];
 
   void Set(size_t i, const Vec3d& v) {
-    x[i] = v.x;
-    y[i] = v.y;
-    z[i] = v.z;
+    for (int c = 0; c < 3; ++c) xyz[c][i] = v[c];
   }
-  Vec3V<V> Load(size_t i) const { return Load3(D(), x + i, y + i, z + i); }
+  Vec3V<V> Load(size_t i) const { return Load3(D(), xyz, i); }
 };
 
 // The primitives of a block of hits. Entries of triangles also hold stale spheres, and entries of
@@ -53,8 +49,7 @@ struct Gathered {
   Block3 projected_center = {}, projected_error = {};
   alignas(64) double projected_scale[kBlock] = {};
   Block3 corner[3] = {}, corner_normal[3] = {};
-  alignas(64) double is_triangle[kBlock];  // 1 or 0
-  bool any_sphere = false;
+  alignas(64) double is_triangle[kBlock];           // 1 or 0
   bool any_projected = false, any_general = false;  // spheres, by the test that they use
   bool any_triangle = false;
 };
@@ -163,7 +158,6 @@ HWY_INLINE bool IsStart(const TraceGeometry& geometry, const RayBatch& rays, uin
 
 HWY_INLINE void GatherSphere(const TraceSphere& sphere, const ProjectedTestView& view, size_t i,
                              Gathered* to) {
-  to->any_sphere = true;
   to->is_triangle[i] = 0;
   to->center.Set(i, sphere.center);
   to->radius[i] = sphere.radius;
@@ -183,7 +177,7 @@ HWY_INLINE void Gather(const RefineRequest& request, size_t first, size_t size, 
   const TraceGeometry& geometry = request.geometry;
   const auto& [origin, direction] = std::tie(request.rays.origin, request.rays.direction);
   const uint32_t sphere_count = geometry.SphereCount();
-  to->any_sphere = to->any_projected = to->any_general = to->any_triangle = false;
+  to->any_projected = to->any_general = to->any_triangle = false;
   for (size_t i = 0; i < size; ++i) {
     const uint32_t ray = request.ray_indices[std::min(first + i, request.count - 1)];
     const uint32_t primitive = request.closest.primitive[ray];
@@ -226,10 +220,10 @@ HWY_INLINE void RefineVector(const Gathered& in, size_t i, size_t first, const H
   rays.dd = FusedDot(rays.direction, rays.direction);
   rays.inverse_dd = hn::Div(hn::Set(d, 1.0), rays.dd);
   rays.inverse_length = InverseLength(d, rays.dd);
-  rays.to_view = ToView(rays.direction, rays.inverse_length);
+  rays.to_view = Scale(rays.direction, hn::Neg(rays.inverse_length));
   if (!in.any_triangle) {
     StoreSurfaces(RefineSphere(in, i, rays), first, to);
-  } else if (!in.any_sphere) {
+  } else if (!in.any_projected && !in.any_general) {
     StoreSurfaces(RefineTriangle(in, i, rays), first, to);
   } else {
     const RefinedHit sphere = RefineSphere(in, i, rays);
@@ -271,8 +265,7 @@ double Depth(const TraceSphere& sphere, const Vec3d& origin, const Vec3d& direct
 Products ProductsHere() { return HWY_NATIVE_FMA ? Products::kFused : Products::kRounded; }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -2,6 +2,8 @@
 // visibility/shadow_light.h: the target of shadow rays to a punctual light.
 #pragma once
 
+#include <variant>
+
 #include "base/vec.h"
 #include "scene/light.h"
 
@@ -15,6 +17,15 @@ struct ShadowLight {
 };
 
 // `light` must be punctual.
-ShadowLight MakeShadowLight(const Light& light, const Vec3d& camera_position);
+inline ShadowLight MakeShadowLight(const Light& light, const Vec3d& camera_position) {
+  if (const auto* point = std::get_if<PointLight>(&light.kind)) {
+    return {.positional = true, .position = point->position - camera_position};
+  }
+  if (const auto* spot = std::get_if<SpotLight>(&light.kind)) {
+    return {.positional = true, .position = spot->position - camera_position};
+  }
+  const auto& sun = std::get<DirectionalLight>(light.kind);
+  return {.to_light = -sun.direction_of_travel.normalized()};
+}
 
 }  // namespace nacre

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // visibility/shell_kernel.cc: traverses the tree of shells (shell_tree.h) with packets of rays.
 // Hits in its leaves are decided by the same tests as elsewhere.
-#include "visibility/shell_kernel.h"
-
 #include <algorithm>
 #include <limits>
+
+#include "visibility/shell_tree.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "visibility/shell_kernel.cc"
@@ -14,8 +14,7 @@
 #include "visibility/sphere_packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -149,7 +148,8 @@ struct ShellPacket {
   explicit ShellPacket(const TraceGeometry& geometry) {
     packet.width = std::max(4, 2 * static_cast<int>(hn::Lanes(ShellTag())));
     packet.geometry = &geometry;
-    packet.floats = {floats[0], floats[1], floats[2], floats[3], floats[4], floats[5], floats[6]};
+    packet.floats = {
+        {floats[0], floats[1], floats[2]}, {floats[3], floats[4], floats[5]}, floats[6]};
   }
   ShellPacket(const ShellPacket&) = delete;  // it points into itself
   ShellPacket& operator=(const ShellPacket&) = delete;
@@ -183,13 +183,12 @@ void Occluded(const TraceGeometry& geometry, ShadowRayBatch* rays) {
                  if (target.Contains(member.lowest) && target.Contains(member.highest)) return;
                  OccludeLanes(geometry.spheres[member.lowest], lanes, &packet);
                });
-    StoreOccluded(packet, first, rays);
+    StoreOccluded(packet.occluded, first, shells.Width(), rays);
   }
 }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -30,8 +30,6 @@ struct SpherePoint {
   uint32_t index;
 };
 
-Vec3d CenterOf(const SpherePoint& point) { return {point.at[0], point.at[1], point.at[2]}; }
-
 struct PointBounds {
   double low[4], high[4];
 
@@ -71,7 +69,8 @@ Shell ShellOf(std::span<const SpherePoint> points, const PointBounds& bounds) {
   for (int i = 0; i < 3; ++i) shell.center[i] = MiddleOf(bounds, i);
   shell.inner = std::numeric_limits<double>::infinity();
   for (const SpherePoint& point : points) {
-    const double distance = (CenterOf(point) - shell.center).length();
+    const Vec3d center(point.at[0], point.at[1], point.at[2]);
+    const double distance = (center - shell.center).length();
     shell.inner = std::min(shell.inner, point.at[3] - distance);
     shell.outer = std::max(shell.outer, point.at[3] + distance);
   }

@@ -15,9 +15,14 @@
 
 #include "base/huge_pages.h"
 #include "base/vec.h"
-#include "visibility/trace_sphere.h"
+#include "visibility/sphere_test.h"
 
 namespace nacre {
+
+struct ClosestHits;
+struct RayBatch;
+struct ShadowRayBatch;
+struct TraceGeometry;
 
 // A shell that contains all surface points p of some spheres: inner <= |p - center| <= outer, up to
 // rounding.
@@ -64,5 +69,12 @@ bool AreNested(const HugeArray<TraceSphere>& spheres);
 
 // Takes O(n log n) time on one thread.
 ShellTree BuildShellTree(const HugeArray<TraceSphere>& spheres);
+
+// Finds the rays' first hits on spheres in TraceGeometry::shells, packet by packet, and replaces
+// those in `hits` that are farther.
+void NearerInShells(const TraceGeometry& geometry, const RayBatch& rays, ClosestHits* hits);
+
+// Sets rays->occluded where such a sphere occludes the ray; leaves the others as they are.
+void OccludedInShells(const TraceGeometry& geometry, ShadowRayBatch* rays);
 
 }  // namespace nacre

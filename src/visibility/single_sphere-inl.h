@@ -18,8 +18,7 @@
 #include "visibility/sphere_test-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 inline constexpr int kSingleSphereBlock = 8 * kCameraPacket;
@@ -48,16 +47,6 @@ struct SingleSphereBlock {
   alignas(kVectorBytes) double dd[kSingleSphereBlock];
 };
 
-HWY_INLINE Vec3V<hn::Vec<CameraDouble>> LoadGroup(const double (&from)[3][kSingleSphereBlock],
-                                                  int first) {
-  return Load3(CameraDouble(), from[0] + first, from[1] + first, from[2] + first);
-}
-
-HWY_INLINE void StoreGroup(const Vec3V<hn::Vec<CameraDouble>>& v, int first,
-                           double (&to)[3][kSingleSphereBlock]) {
-  Store3(v, CameraDouble(), to[0] + first, to[1] + first, to[2] + first);
-}
-
 // The first pass: the exact test of the groups' rays, which leaves in `bits` the lanes that hit.
 // Directions are negated, which changes no other bit, because hits keep the direction to the
 // viewer. No depth is computed, which saves a division: a ray hits a sphere in front of the camera
@@ -79,19 +68,19 @@ HWY_NOINLINE HWY_ATTR void TestRays(const CameraFrame& frame, const FilmBatch& f
     // The same operations as in MakeCameraRays.
     const auto backward = MulAdd3(step_y, y, MulAdd3(step_x, x, corner));
     const auto dd = FusedDot(backward, backward);
-    StoreGroup(backward, first, block->backward);
+    Store3(backward, d, block->backward, first);
     hn::Store(InverseLength(d, dd), d, block->inverse_length + first);
     hn::Vec<CameraDouble> discriminant;
     if constexpr (kProjected) {
       const auto hit = TestProjected(d, SetProjectedSphere(d, *candidate.projected), backward, dd);
       discriminant = hit.discriminant;
-      StoreGroup(hit.offset, first, block->moment);
+      Store3(hit.offset, d, block->moment, first);
       hn::Store(BackToHit(hn::Sqrt(discriminant), hit.back), d, block->root + first);
     } else {
       const auto moment = AccurateCross(d, SetVec3(d, candidate.sphere.center), backward);
       discriminant = Discriminant(hn::Set(d, candidate.radius2), dd, moment);
       hn::Store(dd, d, block->dd + first);
-      StoreGroup(moment, first, block->moment);
+      Store3(moment, d, block->moment, first);
       hn::Store(hn::Sqrt(discriminant), d, block->root + first);
     }
     block->bits[g] &= BitsOfMask(d, hn::Ge(discriminant, hn::Zero(d)));
@@ -109,12 +98,12 @@ HWY_NOINLINE HWY_ATTR void AppendBlock(const SingleSphereBlock& block, const Hit
     if (bits == 0) continue;
     const int first = g * kGroupLanes;
     const TileCandidate& candidate = *block.candidate[g];
-    const auto backward = LoadGroup(block.backward, first);
+    const auto backward = Load3(d, block.backward, first);
     const auto inverse_length = hn::Load(d, block.inverse_length + first);
     const auto radius = hn::Set(d, candidate.sphere.radius);
     const auto to_view = Scale(backward, inverse_length);
     const auto root = hn::Load(d, block.root + first);
-    const auto moment = LoadGroup(block.moment, first);
+    const auto moment = Load3(d, block.moment, first);
     Vec3V<hn::Vec<CameraDouble>> normal;
     if constexpr (kProjected) {
       normal = ProjectedNormal(moment, root, to_view, inverse_length);
@@ -130,23 +119,17 @@ HWY_NOINLINE HWY_ATTR void AppendBlock(const SingleSphereBlock& block, const Hit
   }
 }
 
-HWY_INLINE void TestRays(const CameraFrame& frame, const FilmBatch& film,
-                         SingleSphereBlock* block) {
-  if (block->projected) return TestRays<true>(frame, film, block);
-  TestRays<false>(frame, film, block);
-}
-
-HWY_INLINE void AppendBlock(const SingleSphereBlock& block, const HitOutput& to) {
-  if (block.projected) return AppendBlock<true>(block, to);
-  AppendBlock<false>(block, to);
-}
-
 // Appends the hits of the block's groups, and empties the block.
 HWY_INLINE void TraceBlock(const CameraFrame& frame, const FilmBatch& film,
                            SingleSphereBlock* block, const HitOutput& to) {
   if (block->groups == 0) return;
-  TestRays(frame, film, block);
-  AppendBlock(*block, to);
+  if (block->projected) {
+    TestRays<true>(frame, film, block);
+    AppendBlock<true>(*block, to);
+  } else {
+    TestRays<false>(frame, film, block);
+    AppendBlock<false>(*block, to);
+  }
   block->groups = 0;
 }
 
@@ -205,7 +188,6 @@ HWY_INLINE void TraceSingleSphere(const CameraFrame& frame, const TileCandidate&
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -131,32 +131,35 @@ bool BinSpheres(const TraceGeometry& geometry, const CameraFrame& frame, const W
 }
 
 bool ChangeBins(const std::vector<ChangedSphere>& changed, size_t max_entries, SphereBins* bins) {
-  struct Entry {
+  // An entry that goes or comes. That of a sphere that stays in a cell does both, because its pixel
+  // rows may differ.
+  struct Edit {
     size_t cell;
     uint32_t sphere;
+    bool comes;
     uint16_t pixel_rows;
-    bool operator<(const Entry& other) const {
-      return std::tie(cell, sphere) < std::tie(other.cell, other.sphere);
+    bool operator<(const Edit& other) const {
+      return std::tie(cell, sphere, comes) < std::tie(other.cell, other.sphere, other.comes);
     }
   };
-  std::vector<Entry> gone, come;
-  for (const ChangedSphere& changed_sphere : changed) {
-    const uint32_t index = changed_sphere.index;
-    const auto add_to = [&](std::vector<Entry>* entries, const TraceSphere& sphere) {
-      SphereBox box;
-      FindBoxes(*bins, &sphere, 1, &box);
-      ForCells(*bins, box, [&](size_t cell) {
-        const size_t row = cell / static_cast<size_t>(bins->columns);
-        entries->push_back({cell, index, RowsOfCell(box.rows, row)});
-      });
-    };
-    add_to(&gone, changed_sphere.before);
-    add_to(&come, changed_sphere.now);
+  std::vector<Edit> edits;
+  const auto add = [&](const TraceSphere& sphere, uint32_t index, bool comes) {
+    SphereBox box;
+    FindBoxes(*bins, &sphere, 1, &box);
+    ForCells(*bins, box, [&](size_t cell) {
+      const size_t row = cell / static_cast<size_t>(bins->columns);
+      edits.push_back({cell, index, comes, RowsOfCell(box.rows, row)});
+    });
+  };
+  for (const ChangedSphere& sphere : changed) {
+    add(sphere.before, sphere.index, false);
+    add(sphere.now, sphere.index, true);
   }
-  std::sort(gone.begin(), gone.end());
-  std::sort(come.begin(), come.end());
-  if (gone.empty() && come.empty()) return true;
-  const size_t size = bins->spheres.size() - gone.size() + come.size();
+  if (edits.empty()) return true;
+  std::sort(edits.begin(), edits.end());
+  const auto come = static_cast<size_t>(
+      std::count_if(edits.begin(), edits.end(), [](const Edit& edit) { return edit.comes; }));
+  const size_t size = bins->spheres.size() + come - (edits.size() - come);
   if (size > max_entries) return false;
   HugeArray<uint32_t> spheres(size);
   HugeArray<uint16_t> pixel_rows(size);
@@ -168,26 +171,18 @@ bool ChangeBins(const std::vector<ChangedSphere>& changed, size_t max_entries, S
     to += end - from;
     from = end;
   };
-  auto next_gone = gone.begin(), next_come = come.begin();
+  auto edit = edits.begin();
   for (size_t cell = 0; cell < bins->end.size(); ++cell) {
     const uint32_t end = bins->end[cell];
-    const auto place_of = [&](uint32_t sphere) {
+    for (; edit != edits.end() && edit->cell == cell; ++edit) {
       const uint32_t* const list = bins->spheres.data();
-      return static_cast<uint32_t>(std::lower_bound(list + from, list + end, sphere) - list);
-    };
-    for (;;) {
-      const bool goes = next_gone != gone.end() && next_gone->cell == cell;
-      const bool comes = next_come != come.end() && next_come->cell == cell;
-      if (!goes && !comes) break;
-      if (goes && (!comes || next_gone->sphere <= next_come->sphere)) {
-        copy_until(place_of(next_gone->sphere));
-        ++from;
-        ++next_gone;
+      copy_until(
+          static_cast<uint32_t>(std::lower_bound(list + from, list + end, edit->sphere) - list));
+      if (edit->comes) {
+        spheres[to] = edit->sphere;
+        pixel_rows[to++] = edit->pixel_rows;
       } else {
-        copy_until(place_of(next_come->sphere));
-        spheres[to] = next_come->sphere;
-        pixel_rows[to++] = next_come->pixel_rows;
-        ++next_come;
+        ++from;
       }
     }
     copy_until(end);

@@ -8,15 +8,14 @@
 #define NACRE_VISIBILITY_SPHERE_PACKET_INL_H_
 #endif
 
-#include "base/geometry-inl.h"
+#include "base/vec3-inl.h"
 #include "visibility/occlusion-inl.h"
 #include "visibility/packet-inl.h"
 #include "visibility/projected_sphere_test-inl.h"
 #include "visibility/sphere_test-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // The lanes, as bits, whose float rays come within `error` of the sphere at a depth between 0 and
@@ -33,18 +32,15 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <class D>
 HWY_INLINE uint32_t ProposedOfPacket(D d, const Packet& packet, const TraceSphere& sphere) {
   using V = hn::Vec<D>;
-  const Vec3V<V> center{hn::Set(d, static_cast<float>(sphere.center.x)),
-                        hn::Set(d, static_cast<float>(sphere.center.y)),
-                        hn::Set(d, static_cast<float>(sphere.center.z))};
+  const Vec3V<V> center = SetVec3(d, sphere.center);
   const V radius = hn::Set(d, static_cast<float>(sphere.radius));
   const V sphere_error =
       hn::Mul(hn::Add(SumOfAbs(center), radius), hn::Set(d, static_cast<float>(32 * kFloatUnit)));
   const FloatRays& rays = packet.floats;
   uint32_t lanes = 0;
   for (int i = 0; i < packet.width; i += static_cast<int>(hn::Lanes(d))) {
-    const Vec3V<V> origin = Load3(d, rays.origin_x + i, rays.origin_y + i, rays.origin_z + i);
-    const Vec3V<V> direction =
-        Load3(d, rays.direction_x + i, rays.direction_y + i, rays.direction_z + i);
+    const Vec3V<V> origin = Load3(d, rays.origin, i);
+    const Vec3V<V> direction = Load3(d, rays.direction, i);
     const V error = hn::Add(sphere_error, hn::Load(d, packet.origin_error + i));
     const Vec3V<V> to_center = Sub(center, origin);
     const V closest = hn::Mul(Dot(to_center, direction), hn::Load(d, packet.ray_inverse_dd + i));
@@ -69,16 +65,6 @@ HWY_INLINE SphereHitV<D> TestLanes(D d, const Packet& packet, int lane, const Tr
                     hn::Set(d, sphere.radius));
 }
 
-// The lanes whose ray starts on this sphere, or on one that coincides with it.
-template <class D>
-HWY_INLINE hn::Mask<D> StartsOn(D d, const Packet& packet, int lane, const TraceSphere& sphere) {
-  const auto same = [&](int i, double value) HWY_ATTR {
-    return hn::Eq(hn::Load(d, packet.start_sphere[i] + lane), hn::Set(d, value));
-  };
-  return hn::And(hn::And(same(0, sphere.center.x), same(1, sphere.center.y)),
-                 hn::And(same(2, sphere.center.z), same(3, sphere.radius)));
-}
-
 // Records hits of the general test for rays that leave surfaces. For rays that start on this sphere
 // one root is 0, however their origin is rounded, and the other is twice the distance to the
 // closest approach.
@@ -86,7 +72,7 @@ template <class D>
 HWY_INLINE void RecordFromSurfaces(D d, const TraceSphere& sphere, uint32_t primitive,
                                    const SphereHitV<D>& hit, hn::Mask<D> proposed, int lane,
                                    Packet* packet) {
-  const auto is_start = StartsOn(d, *packet, lane, sphere);
+  const auto is_start = StartsOn(d, packet->start_spheres, lane, sphere);
   const auto far = hn::Add(hit.closest, hit.closest);
   const auto met =
       hn::Or(hn::And(is_start, hn::Gt(far, hn::Zero(d))), hn::AndNot(is_start, hit.hit));
@@ -132,7 +118,7 @@ HWY_INLINE void OccludeLanes(const TraceSphere& sphere, uint32_t lanes, Packet* 
     const auto proposed = MaskOfBits(d, lanes, lane);
     if (hn::AllFalse(d, proposed)) continue;
     const auto load = [&]() HWY_ATTR { return ShadowRaysOf(d, *packet, lane); };
-    const auto own = StartsOn(d, *packet, lane, sphere);
+    const auto own = StartsOn(d, packet->start_spheres, lane, sphere);
     const auto in_the_way = InTheWay(d, sphere, TestLanes(d, *packet, lane, sphere), own,
                                      packet->outward, hn::Load(d, packet->t_max + lane), load);
     occluded |= BitsOfMask(d, hn::And(proposed, in_the_way)) << lane;
@@ -140,7 +126,6 @@ HWY_INLINE void OccludeLanes(const TraceSphere& sphere, uint32_t lanes, Packet* 
   RecordOccluded(packet, occluded);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

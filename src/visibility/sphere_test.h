@@ -11,6 +11,19 @@
 
 namespace nacre {
 
+// The relative rounding error of one operation on floats.
+inline constexpr double kFloatUnit = 0x1p-24;
+
+// A sphere as the hit tests read it, relative to the camera.
+struct TraceSphere {
+  Vec3d center;
+  double radius = 0;
+};
+
+inline bool Coincide(const TraceSphere& a, const TraceSphere& b) {
+  return a.center == b.center && a.radius == b.radius;
+}
+
 // Distances along the ray are in units of its direction.
 template <typename Real>
 struct SphereHit {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #undef HWY_TARGET_INCLUDE
@@ -13,13 +12,11 @@
 #include "hwy/foreach_target.h"
 
 #include "visibility/multi_sphere-inl.h"
-#include "visibility/pixel_spans.h"
 #include "visibility/refine_kernel.h"
 #include "visibility/single_sphere-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -34,12 +31,12 @@ HWY_INLINE void AppendHits(const CameraFrame& frame, const CameraPacket& packet,
     if (bits == 0) continue;
     const auto direction = ExactDirection<kPerspective>(d, frame, lane, packet);
     const auto inverse_length = hn::Load(d, packet.inverse_length + lane);
-    const auto normal = LoadLanes(packet.normal, lane);
+    const auto normal = Load3(d, packet.normal, lane);
     const auto radius = hn::Load(d, packet.signed_radius + lane);
     const auto position = [&]() HWY_ATTR {
-      return SpherePosition(LoadLanes(packet.center, lane), normal, radius);
+      return SpherePosition(Load3(d, packet.center, lane), normal, radius);
     };
-    writer.Surfaces(normal, ToView(direction, inverse_length), position, bits,
+    writer.Surfaces(normal, Scale(direction, hn::Neg(inverse_length)), position, bits,
                     first_ray + static_cast<uint32_t>(lane));
     writer.Primitives(packet.primitive + lane, bits);
   }
@@ -47,16 +44,11 @@ HWY_INLINE void AppendHits(const CameraFrame& frame, const CameraPacket& packet,
 
 // Fills the entries behind the last hit, up to a whole vector, with copies of it.
 template <class T>
-void PadArray(size_t count, AlignedArray<T>* array) {
-  std::fill(array->begin() + count, array->begin() + RoundUp(count, kBatchPadding),
-            (*array)[count - 1]);
-}
-
-template <class T>
 void PadSoa(size_t count, Soa3<T>* soa) {
-  PadArray(count, &soa->x);
-  PadArray(count, &soa->y);
-  PadArray(count, &soa->z);
+  for (AlignedArray<T>* const array : {&soa->x, &soa->y, &soa->z}) {
+    std::fill(array->begin() + count, array->begin() + RoundUp(count, kBatchPadding),
+              (*array)[count - 1]);
+  }
 }
 
 void PadHits(const HitOutput& to) {
@@ -183,8 +175,7 @@ void TraceTileT(const CameraFrame& frame, const SphereBins& bins, const TileCand
 }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -11,8 +11,7 @@
 #include "visibility/two_product-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <class V>
@@ -96,7 +95,6 @@ HWY_INLINE hn::Mask<D> ComesFromFront(D d, const TriangleHitV<D>& hit, const Vec
   return hn::Eq(hn::CopySign(along, hit.area), along);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -12,8 +12,7 @@
 #include "base/vec3-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace nacre {
-namespace HWY_NAMESPACE {
+namespace nacre::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <class V>
@@ -73,7 +72,6 @@ HWY_INLINE Vec3V<V> AccurateCross(D d, const Vec3V<V>& a, const Vec3V<V>& b) {
           AccurateDifference(d, a.x, b.y, a.y, b.x)};
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace nacre
+}  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

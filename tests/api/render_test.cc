@@ -110,6 +110,44 @@ TEST_CASE("settings out of range are refused") {
   REQUIRE(code_of([](auto* s) { s->region = {50, 50, 60, 60}; }) == 64);
 }
 
+TEST_CASE("settings by name are those of members, and are refused where they are wrong") {
+  const nacre::Scene scene = FirstScene();
+  nacre::RenderSettings members = Small();
+  members.max_error = 0.2;
+  members.region = {1, 2, 9, 8};
+  members.threads = 1;
+  nacre::RenderSettings named = Small();
+  named.others = {
+      {"max_error", 0.2}, {"region", "1,2,9,8"}, {"intersector", "shells"}, {"threads", 1}};
+  const nacre::Image image = nacre::Render(scene, named);
+  const nacre::Image expected = nacre::Render(scene, members);
+  REQUIRE(image.channels.size() == expected.channels.size());
+  for (size_t i = 0; i < image.channels.size(); ++i) {
+    CHECK(image.channels[i].name == expected.channels[i].name);
+    CHECK(image.channels[i].samples == expected.channels[i].samples);
+  }
+  CHECK(image.metadata.at("nacre:maxError") == expected.metadata.at("nacre:maxError"));
+
+  const auto message_of = [&](const nacre::Parameters& others) -> std::string {
+    nacre::RenderSettings settings = Small();
+    settings.others = others;
+    try {
+      nacre::Render(scene, settings);
+    } catch (const nacre::Error& error) {
+      CHECK(error.exit_code() == 64);
+      return error.what();
+    }
+    return {};
+  };
+  CHECK(message_of({{"max_error", 2}}).find("/max_error: ") != std::string::npos);
+  CHECK(message_of({{"threads", 1.5}}).find("/threads: ") != std::string::npos);
+  CHECK(message_of({{"region", "1,2"}}).find("is not a region") != std::string::npos);
+  CHECK(message_of({{"intersektor", "auto"}}).find("did you mean \"intersector\"?") !=
+        std::string::npos);
+  CHECK(message_of({{"tile", "0/2"}}).find("unknown key") != std::string::npos);
+  for (const auto& [name, meaning] : nacre::NamedSettings()) CHECK_FALSE(meaning.empty());
+}
+
 TEST_CASE("progress reaches 1, and what it throws comes out as it is") {
   nacre::RenderSettings settings = Small();
   double last = 0;

@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "base/float_mode.h"
 #include "base/math_kernel.h"
-#include "base/parallel.h"
 #include "catch.h"
 #include "targets.h"
 

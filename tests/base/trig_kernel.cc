@@ -35,11 +35,6 @@ float EvaluateAtan2UpperT(float y, float x) {
   return hn::GetLane(Atan2Upper(d, hn::Set(d, y), hn::Set(d, x)));
 }
 
-float EvaluateArcExcessT(float tan_half) {
-  const FloatTag d;
-  return hn::GetLane(ArcExcess(d, hn::Set(d, tan_half)));
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace nacre
 HWY_AFTER_NAMESPACE();
@@ -50,16 +45,12 @@ HWY_EXPORT(EvaluateSinTurnsT);
 HWY_EXPORT(EvaluateCosTurnsT);
 HWY_EXPORT(EvaluateAtanRemainderT);
 HWY_EXPORT(EvaluateAtan2UpperT);
-HWY_EXPORT(EvaluateArcExcessT);
 
 float EvaluateSinTurns(float u) { return HWY_DYNAMIC_DISPATCH(EvaluateSinTurnsT)(u); }
 float EvaluateCosTurns(float u) { return HWY_DYNAMIC_DISPATCH(EvaluateCosTurnsT)(u); }
 float EvaluateAtanRemainder(float x) { return HWY_DYNAMIC_DISPATCH(EvaluateAtanRemainderT)(x); }
 float EvaluateAtan2Upper(float y, float x) {
   return HWY_DYNAMIC_DISPATCH(EvaluateAtan2UpperT)(y, x);
-}
-float EvaluateArcExcess(float tan_half) {
-  return HWY_DYNAMIC_DISPATCH(EvaluateArcExcessT)(tan_half);
 }
 }  // namespace nacre
 #endif

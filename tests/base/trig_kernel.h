@@ -8,6 +8,5 @@ float EvaluateSinTurns(float u);
 float EvaluateCosTurns(float u);
 float EvaluateAtanRemainder(float x);
 float EvaluateAtan2Upper(float y, float x);
-float EvaluateArcExcess(float tan_half);
 
 }  // namespace nacre

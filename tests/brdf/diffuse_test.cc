@@ -37,6 +37,12 @@ double DirectionalAlbedo(const Brdf& brdf, double n_dot_v) {
   return sum * 2 * M_PI / (1.0 * kSteps * kSteps);
 }
 
+// EON's, in closed form.
+double EonDirectionalAlbedo(double n_dot_v, double albedo, double roughness) {
+  const double loss = EonScale(roughness) * roughness * EonLoss(n_dot_v);
+  return albedo * (1 - loss) + EonMultipleAlbedo(albedo, roughness) * loss;
+}
+
 const double kRoughnesses[] = {0, 0.01, 0.1, 0.3, 0.5, 0.8, 1};
 const double kCosines[] = {1, 0.8, 0.5, 0.2, 0.05, 1e-3};
 

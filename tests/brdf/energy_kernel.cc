@@ -35,10 +35,12 @@ void EvaluateAlbedosT(const FresnelAlbedoFit& fit, const std::vector<float>& n_d
   AskInPackets<float>(n_dot_v, outputs, [&](const auto& packet) {
     const hn::ScalableTag<float> d;
     const auto mu = packet.Number([](float cosine) { return cosine; });
-    packet.Store(AlbedoOne(d, fit.lobe, mu), &AlbedoOutput::one);
-    packet.Store(AlbedoLoss(d, fit.lobe, mu), &AlbedoOutput::loss);
-    packet.Store(AlbedoSchlick(d, fit.lobe, mu), &AlbedoOutput::schlick);
-    packet.Store(AlbedoFresnel(d, fit, mu), &AlbedoOutput::fresnel);
+    const auto x = ComputeAlbedoVariables(d, fit.lobe.shape, mu);
+    const auto one = AlbedoOne(d, fit.lobe, x);
+    packet.Store(one, &AlbedoOutput::one);
+    packet.Store(AlbedoLoss(d, fit.lobe, x), &AlbedoOutput::loss);
+    packet.Store(AlbedoSchlick(d, fit.lobe, one, x), &AlbedoOutput::schlick);
+    packet.Store(AlbedoFresnel(d, fit, one, x), &AlbedoOutput::fresnel);
   });
 }
 

@@ -7,7 +7,6 @@
 #include <map>
 
 #include "brdf/energy_kernel.h"
-#include "brdf/fresnel_average.h"
 #include "brdf/presets.h"
 #include "catch.h"
 #include "tables.h"

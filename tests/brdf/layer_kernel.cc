@@ -25,7 +25,7 @@ void Evaluate(RoughnessOf roughness_of, const std::vector<LayerQuery<T>>& querie
     const bool each = roughness_of == RoughnessOf::kEach;
     const AnglesV<V> a = ComputeAngles(d, packet.Vector(&Query::n), packet.Vector(&Query::l),
                                        packet.Vector(&Query::v));
-    const CharlieV<V> charlie =
+    const Charlie<V> charlie =
         each ? MakeCharlie(d, packet.Number(&Query::roughness))
              : BroadcastCharlie(d, nacre::MakeCharlie(double{packet.At(0).roughness}));
     packet.Store(CharlieDistribution(d, a, charlie.alpha), &Answer::distribution);
@@ -36,7 +36,7 @@ void Evaluate(RoughnessOf roughness_of, const std::vector<LayerQuery<T>>& querie
     const V albedo_l = CharlieAlbedo(d, charlie, a.n_dot_l);
     packet.Store(albedo_v, &Answer::sheen_albedo_v);
     packet.Store(albedo_l, &Answer::sheen_albedo_l);
-    const SheenScaleV<V> scale =
+    const SheenScale<V> scale =
         ScaleSheen(d, packet.Number(&Query::largest_channel), albedo_v, albedo_l);
     packet.Store(scale.lobe, &Answer::sheen_scale);
     packet.Store(scale.below, &Answer::below_sheen);

@@ -47,11 +47,13 @@ V PdfOf(Lobe lobe, const Inputs& in) {
     case Lobe::kCosine:
       return CosinePdf(d, a.n_dot_l);
     case Lobe::kGgx:
-      return GgxVisiblePdf(d, a, in.width);
-    case Lobe::kPhong:
-      return PhongLobePdf(d, in.n, in.v, in.l, in.width);
+      return GgxVisiblePdf(d, GgxDistribution(d, a, in.width), a.n_dot_v, in.width);
+    case Lobe::kPhong: {
+      const auto cosine = PhongCosine(d, SquaredFromReflection(in.n, in.l, in.v));
+      return PhongLobePdf(d, PhongLobe(d, cosine, in.width), in.width);
+    }
     case Lobe::kBlinn:
-      return BlinnLobePdf(d, a, in.width);
+      return BlinnLobePdf(d, BlinnLobe(d, BlinnSquaredCosine(d, a), in.width), a, in.width);
     case Lobe::kKullaConty:
       return KullaContyPdf(d, a.n_dot_l, in.width);
   }

@@ -40,7 +40,7 @@ void ToneLightT(const DisplaySettings& settings, size_t count, float* r, float* 
     case ToneOperator::kReinhard:
       return run(ReinhardTone());
     case ToneOperator::kReinhardExtended:
-      return run(ReinhardExtendedTone(settings.white));
+      return run(ReinhardExtendedTone{ReinhardExtendedCurve(settings.white)});
     case ToneOperator::kAces:
       return run(AcesTone());
     case ToneOperator::kAgx:

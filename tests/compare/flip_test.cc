@@ -10,7 +10,6 @@
 
 #include "catch.h"
 #include "compare/flip_color.h"
-#include "compare/flip_hdr.h"
 #include "compare/flip_twin.h"
 #include "tables.h"
 #include "targets.h"

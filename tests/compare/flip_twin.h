@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "color/tone.h"
+#include "compare/flip.h"
 #include "compare/flip_color.h"
-#include "compare/flip_filters.h"
-#include "compare/flip_hdr.h"
+#include "compare/flip_rows.h"
 
 namespace nacre::flip_twin {
 

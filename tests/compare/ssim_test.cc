@@ -10,7 +10,6 @@
 #include "color/luminance.h"
 #include "color/transfer.h"
 #include "compare/plane.h"
-#include "compare/ssim_rows.h"
 #include "targets.h"
 
 namespace nacre {

@@ -61,11 +61,12 @@ RENDER_ORDER = """
     film_kernel filter_shares small_triangles adaptive_plan interval interval_kernel sampled_kernel shadow_rays_kernel mesh_windows
     outline_coverage sphere_projections
     prepared_scene camera_cost hits_plan tile_shapes samples hits surfaces
-    direct_plan highlights texel_maps mesh_glints shadow_plan brightest_object direct_batch
+    lights_plan highlights texel_maps mesh_glints shadow_plan brightest_object direct_plan direct_batch
     shadow_origins sampled_shadows sampled_lights mesh_radiance direct mesh_shading
     film hit_positions film_layers
     frame_plan tile_work tile
-    cell_state cell_film dust footprint evidence convergence glints probes rare_triangles rare_texels rare_features adaptive
+    cell dust footprint outline_pixels cell_film evidence cell_state convergence
+    glints probes rare_triangles rare_texels rare_features adaptive
     render forecast
 """.split()
 

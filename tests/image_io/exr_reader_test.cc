@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/image_io/exr_reader_test.cc: EXR files of other makers, and broken ones.
-#include "image_io/exr_reader.h"
-
 #include <cstring>
 
 #include <OpenEXR/ImfChannelList.h>
@@ -17,6 +15,7 @@
 #include <OpenEXR/ImfVecAttribute.h>
 
 #include "image_io/color_channels.h"
+#include "image_io/format_readers.h"
 #include "image_io/read_image.h"
 #include "pictures.h"
 

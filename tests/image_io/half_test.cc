@@ -12,7 +12,7 @@
 
 #include <Imath/half.h>
 
-#include "base/parallel.h"
+#include "base/float_mode.h"
 #include "tables.h"
 #include "targets.h"
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/image_io/hdr_reader_test.cc: Radiance files against Ward's formulas.
-#include "image_io/hdr_reader.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,6 +13,7 @@
 
 #include "base/error.h"
 #include "catch.h"
+#include "image_io/format_readers.h"
 #include "image_io/read_image.h"
 
 namespace nacre {

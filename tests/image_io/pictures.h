@@ -12,8 +12,8 @@
 #include <Imath/half.h>
 
 #include "files.h"
-#include "image_io/exr_reader.h"
 #include "image_io/exr_writer.h"
+#include "image_io/format_readers.h"
 #include "image_io/read_image.h"
 
 namespace nacre {

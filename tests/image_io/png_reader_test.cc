@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/image_io/png_reader_test.cc: every kind of PNG file, and damaged ones.
-#include "image_io/png_reader.h"
-
 #include <cmath>
 #include <random>
 #include <string>
@@ -9,6 +7,7 @@
 
 #include "catch.h"
 #include "files.h"
+#include "image_io/format_readers.h"
 #include "image_io/read_image.h"
 #include "pictures.h"
 #include "png_bytes.h"

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/image_io/tga_reader_test.cc: TGA files of every kind, and broken ones.
-#include "image_io/tga_reader.h"
-
 #include <string>
 #include <vector>
 
 #include "files.h"
+#include "image_io/format_readers.h"
 #include "image_io/read_image.h"
 
 namespace nacre {

@@ -8,7 +8,9 @@
 
 #include "base/target_ops-inl.h"
 #include "light/area_kernel.h"
-#include "light/irradiance-inl.h"
+#include "light/disk_light-inl.h"
+#include "light/polygon_irradiance-inl.h"
+#include "light/sphere_light-inl.h"
 #include "queries-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -44,6 +46,9 @@ DiskLightV<V> LightOf(const Packet<DiskLight<float>>& p) {
 template <class LightV>
 V SolidAngleOf(const LightV& light) {
   return SolidAngle(D(), light);
+}
+V SolidAngleOf(const RectangleLightV<V>& light) {
+  return SolidAngle(D(), ViewOf(D(), ScaleToUnit(D(), light).light));
 }
 V SolidAngleOf(const DiskLightV<V>&) { return hn::Zero(D()); }
 

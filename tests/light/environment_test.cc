@@ -16,6 +16,15 @@
 namespace nacre {
 namespace {
 
+Vec3d DirectionFromLatLong(double u, double v) {
+  const double sin = std::sin(M_PI * v);
+  return {std::sin(2 * M_PI * u) * sin, std::cos(M_PI * v), -std::cos(2 * M_PI * u) * sin};
+}
+
+size_t TexelCount(const EnvironmentMap& map) {
+  return static_cast<size_t>(map.width) * static_cast<size_t>(map.height);
+}
+
 EnvironmentMap MakeMap(int width, int height, const std::vector<Vec3f>& texels, int threads = 1) {
   const auto shared = std::make_shared<std::vector<Vec3f>>(texels);
   return MakeEnvironmentMap(width, height, std::shared_ptr<const Vec3f[]>(shared, shared->data()),
@@ -145,8 +154,8 @@ TEST_CASE("samples follow the pdf: texels by their share, directions evenly with
     CAPTURE(width, height);
     const EnvironmentMap map = RandomMap(width, height);
     const auto columns = static_cast<size_t>(width);
-    std::vector<double> probabilities, counts(map.size());
-    for (size_t i = 0; i < map.size(); ++i) {
+    std::vector<double> probabilities, counts(TexelCount(map));
+    for (size_t i = 0; i < TexelCount(map); ++i) {
       probabilities.push_back(TexelOf(map, i).pdf *
                               TexelSolidAngle(width, height, static_cast<int>(i / columns)));
     }
@@ -182,7 +191,7 @@ TEST_CASE("samples follow the pdf: texels by their share, directions evenly with
 TEST_CASE("the mean of radiance over pdf is the integral of radiance") {
   const EnvironmentMap map = RandomMap(32, 16);
   double integral = 0, mean = 0;
-  for (size_t i = 0; i < map.size(); ++i) {
+  for (size_t i = 0; i < TexelCount(map); ++i) {
     integral += TexelOf(map, i).green * TexelSolidAngle(32, 16, static_cast<int>(i / 32));
   }
   constexpr int kSteps = 1500;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/light/irradiance_test.cc: closed-form irradiance of area lights against the table and,
 // where the table does not go, against quadrature: in double and in float on every target.
-#include "light/irradiance.h"
-
 #include <cmath>
 #include <random>
 
@@ -10,6 +8,7 @@
 #include "light/area_kernel.h"
 #include "light/area_rounding.h"
 #include "light/area_shapes.h"
+#include "light/polygon_irradiance.h"
 #include "tables.h"
 #include "targets.h"
 

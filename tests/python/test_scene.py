@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Scenes, renders and sessions from Python."""
 import copy
+import inspect
 import json
 import os
 import pickle
@@ -296,6 +297,24 @@ def test_a_number_that_is_not_finite_is_told_with_its_place(value, where):
 def test_settings_out_of_range_are_refused(settings, error):
     with pytest.raises(error):
         ball().render(**settings)
+
+
+def test_settings_of_the_table_are_keyword_arguments():
+    plain = list(inspect.signature(nacre.Scene.render).parameters)
+    assert plain == ["self", "width", "height", "samples", "max_error", "seed", "region", "layers", "threads",
+                     "intersector", *nacre._nacre.named_settings(), "progress"]
+    assert list(inspect.signature(nacre.Session.render).parameters) == [*plain, "show"]
+    # As if three were not written out.
+    render = nacre._scene._with_named_settings(nacre.Scene.render.__wrapped__, {
+        "tolerance": "The error of a pixel", "max_error": "The same", "threads": "How many"})
+    assert inspect.signature(render).parameters["tolerance"].default is None
+    assert "\n        tolerance: The error of a pixel.\n" in render.__doc__
+    for settings in {"max_error": 0.1}, {"max_error": None}:
+        assert same(render(ball(), **SMALL, **settings), ball().render(**SMALL, **settings))
+    for settings, error in (({"tolerance": 1}, nacre.Error), ({"max_error": "low"}, nacre.Error),
+                            ({"max_error": 2}, nacre.Error), ({"threads": 1.5}, nacre.Error), ({"x": 1}, TypeError)):
+        with pytest.raises(error):
+            render(ball(), **SMALL, **settings)
 
 
 @pytest.mark.parametrize("call, error", [

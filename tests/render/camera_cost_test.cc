@@ -111,7 +111,7 @@ TEST_CASE("Sessions go from tiles to a tree, and keep the picture's bits", "[cam
   for (int i = 0; i < 6; ++i) {
     CAPTURE(i);
     const FramePlan plan = MakePlan(scene, settings, &prepared);
-    (plan.hits.trace_by_bins ? by_tiles : by_tree) += 1;
+    (plan.hits.trace.by_bins ? by_tiles : by_tree) += 1;
     CHECK(SameBits(RenderImage(plan, settings, nullptr), expected));
   }
   CHECK(by_tiles > 0);
@@ -120,7 +120,7 @@ TEST_CASE("Sessions go from tiles to a tree, and keep the picture's bits", "[cam
   scene.camera.position = {1, 2, 8};
   prepared.versions.Change(ScenePart::kCamera);
   const FramePlan moved = MakePlan(scene, settings, &prepared);
-  CHECK(!moved.hits.trace_by_bins);
+  CHECK(!moved.hits.trace.by_bins);
   const Image picture = RenderImage(moved, settings, nullptr);
   RenderSettings tiles = settings;
   tiles.intersector = IntersectorChoice::kTiles;
@@ -128,7 +128,7 @@ TEST_CASE("Sessions go from tiles to a tree, and keep the picture's bits", "[cam
   scene.image.spp = 64;
   prepared.versions.Change(ScenePart::kImage);
   const FramePlan many = MakePlan(scene, settings, &prepared);
-  CHECK(many.hits.trace_by_bins);
+  CHECK(many.hits.trace.by_bins);
   CHECK(SameBits(RenderImage(many, settings, nullptr), RenderImage(scene, tiles)));
 }
 

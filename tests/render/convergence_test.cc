@@ -18,22 +18,22 @@ size_t CountUnsettledOf(double low, double high, size_t levels) {
   FramePlan plan;
   plan.film.layers.resize(1);
   plan.adaptive.max_error = 0.1;
-  plan.adaptive.levels.resize(levels);
+  plan.adaptive.sampling.levels.resize(levels);
   const auto cell = std::make_unique<CellState>();
   cell->active = {0};
-  cell->samples[0] = 1;
+  cell->samples.count[0] = 1;
   for (size_t r = 0; r < 2; ++r) {
-    for (size_t channel = 0; channel < 3; ++channel) cell->replicate[r][channel][0] = 0.6;
-    cell->replicate[r][3][0] = 1;
+    for (size_t channel = 0; channel < 3; ++channel) cell->samples.sums[r][channel][0] = 0.6;
+    cell->samples.sums[r][3][0] = 1;
   }
-  std::fill_n(cell->sampled_share, kCellPixels, 1.0);
-  cell->outlined = 1;
-  cell->on_outline[0] = cell->sees_background[0] = true;
-  cell->coverage[0] = 0.5;
+  std::fill_n(cell->dust.sampled_share, kCellPixels, 1.0);
+  cell->outlines.blocks = 1;
+  cell->outlines.on_outline[0] = cell->outlines.sees_background[0] = true;
+  cell->outlines.coverage[0] = 0.5;
   for (size_t channel = 0; channel < 3; ++channel) {
-    cell->hit_low[channel][0] = low;
-    cell->hit_high[channel][0] = high;
-    cell->second_highest[channel][0] = cell->highest[channel][0] = 0.6;
+    cell->outlines.hit_low[channel][0] = low;
+    cell->outlines.hit_high[channel][0] = high;
+    cell->evidence.second_highest[channel][0] = cell->evidence.highest[channel][0] = 0.6;
   }
   const Window window{0, 0, kCellSize, kCellSize};
   return CountUnsettled(plan, window, window, cell.get());

@@ -55,21 +55,21 @@ TEST_CASE("pictures without positions have the bits of those with them") {
     for (const bool shadows : {true, false}) {
       scene.image.shadows = shadows;
       const FramePlan plan = MakePlan(scene, {});
-      CHECK_FALSE(plan.hits.all_positions);
+      CHECK_FALSE(plan.hits.arrays.all_positions);
       CHECK(PositionsOf(plan).used == shadows);
       if (shadows) {
         // Some are asked, not all.
-        CHECK(std::count(plan.hits.may_be_shadowed.begin(), plan.hits.may_be_shadowed.end(), 1) >
-              0);
-        CHECK(std::count(plan.hits.may_be_shadowed.begin(), plan.hits.may_be_shadowed.end(), 0) >
-              0);
+        CHECK(std::count(plan.hits.arrays.may_be_shadowed.begin(),
+                         plan.hits.arrays.may_be_shadowed.end(), 1) > 0);
+        CHECK(std::count(plan.hits.arrays.may_be_shadowed.begin(),
+                         plan.hits.arrays.may_be_shadowed.end(), 0) > 0);
       }
       RenderSettings settings;
       settings.threads = 1;
       settings.layers = {"light.lamp", "light.far", "N"};
       const Image got = RenderImage(scene, settings);
       settings.general_path = true;
-      CHECK(MakePlan(scene, settings).hits.all_positions);
+      CHECK(MakePlan(scene, settings).hits.arrays.all_positions);
       CHECK(SameBits(got, RenderImage(scene, settings)));
       // Embree's batches are never known to be of one sphere.
       settings.intersector = IntersectorChoice::kEmbree;
@@ -107,7 +107,7 @@ TEST_CASE("lights found from normals change no more than the last digits") {
 TEST_CASE("whatever reads positions gets them") {
   const Scene scene = LitSpheres();
   const auto all = [](const Scene& changed, const RenderSettings& settings = {}) {
-    return MakePlan(changed, settings).hits.all_positions;
+    return MakePlan(changed, settings).hits.arrays.all_positions;
   };
   CHECK_FALSE(all(scene));
   RenderSettings settings;

@@ -190,7 +190,7 @@ TEST_CASE("bins for shadow rays give the same bits as Embree") {
       RenderSettings settings;
       settings.threads = static_cast<int>(seed % 3);
       CheckSame(scene, settings);
-      for (const PlannedPunctualLight& light : MakePlan(scene, {}).direct.lights) {
+      for (const LightShadows& light : MakePlan(scene, {}).direct.shadows.punctual) {
         CHECK(light.occluders != kAnyLight);
       }
     }
@@ -232,9 +232,9 @@ TEST_CASE("spheres that nothing can shadow need no shadow rays") {
     RenderSettings general;
     general.general_path = true;
     CHECK(SameBits(RenderImage(scene, {}), RenderImage(scene, general)));
-    for (const PlannedPunctualLight& light : MakePlan(scene, {}).direct.lights) {
-      some += light.shadow_rays && !light.shadowed.empty();
-      none += !light.shadow_rays;
+    for (const LightShadows& light : MakePlan(scene, {}).direct.shadows.punctual) {
+      some += light.rays && !light.shadowed.empty();
+      none += !light.rays;
     }
   }
   CHECK(some > 20);
@@ -271,7 +271,7 @@ TEST_CASE("a tree is there where it is needed, and only there") {
     for (const PlanItem& item : plan.why.items) {
       if (item.what == "intersector tree") tree = item.used;
     }
-    return std::pair(plan.hits.trace_by_bins, tree);
+    return std::pair(plan.hits.trace.by_bins, tree);
   };
   Scene scene = RandomScene(0);
   CHECK(uses(scene, {}) == std::pair(true, false));
@@ -311,9 +311,9 @@ TEST_CASE("a light that needs a tree for its shadow rays leaves the others their
   for (const bool first : {true, false}) {
     scene.lights = first ? std::vector{along, across} : std::vector{across, along};
     const FramePlan plan = MakePlan(scene, {});
-    REQUIRE(plan.direct.lights.size() == 2);
-    CHECK(plan.direct.lights[first ? 0 : 1].occluders == kAnyLight);
-    CHECK(plan.direct.lights[first ? 1 : 0].occluders != kAnyLight);
+    REQUIRE(plan.direct.lights.punctual.size() == 2);
+    CHECK(plan.direct.shadows.punctual[first ? 0 : 1].occluders == kAnyLight);
+    CHECK(plan.direct.shadows.punctual[first ? 1 : 0].occluders != kAnyLight);
   }
 }
 

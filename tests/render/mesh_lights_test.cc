@@ -252,11 +252,11 @@ TEST_CASE(
   RenderSettings settings;
   settings.layers = {"id.object"};
   const FramePlan plan = MakePlan(scene, settings);
-  CHECK(plan.direct.sampled_lights.at(0).occluders != kAnyLight);
+  CHECK(plan.direct.shadows.sampled.at(0).occluders != kAnyLight);
   const Image lists = RenderImage(plan, settings, nullptr);
   settings.intersector = IntersectorChoice::kEmbree;
   const FramePlan other = MakePlan(scene, settings);
-  CHECK(other.direct.sampled_lights.at(0).occluders == kAnyLight);
+  CHECK(other.direct.shadows.sampled.at(0).occluders == kAnyLight);
   const Image tree = RenderImage(other, settings, nullptr);
   for (const char* channel : {"R", "G", "B", "id.object"}) {
     CHECK(lists.Find(channel)->samples == tree.Find(channel)->samples);
@@ -266,7 +266,7 @@ TEST_CASE(
   // A triangle of something else may be in the way.
   scene.meshes.push_back(MakeMesh(Icosphere{.center = {0.5, 1, 1}, .radius = 0.2}));
   scene.meshes.back().material = {0};
-  CHECK(MakePlan(scene, {}).direct.sampled_lights.at(0).occluders == kAnyLight);
+  CHECK(MakePlan(scene, {}).direct.shadows.sampled.at(0).occluders == kAnyLight);
 }
 
 }  // namespace

@@ -354,7 +354,7 @@ TEST_CASE("what shading vertices and triangles takes is counted in the picture's
     CHECK(stats.shades >= 2 * points);
     CHECK(stats.shades <= 4 * points);
     CHECK(stats.shadow_rays >= points / 4);
-    CHECK(stats.shades == plan.planning.shades);
+    CHECK(stats.shades == plan.meshes.stats.shades);
   }
 }
 

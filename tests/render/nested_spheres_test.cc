@@ -76,7 +76,7 @@ void FillTheTwo(NestedRandom* random, Scene* scene) {
 }
 
 bool ShellsFind(const Scene& scene, const RenderSettings& settings) {
-  return MakePlan(scene, settings).hits.intersector->SpheresAreNested();
+  return MakePlan(scene, settings).hits.shapes.intersector->SpheresAreNested();
 }
 
 void CheckSamePicture(const Scene& plain, const Scene& filled) {

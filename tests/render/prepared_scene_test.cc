@@ -216,28 +216,28 @@ TEST_CASE("A material's change makes nothing again but what it is made of", "[pr
     prepared.versions.Change(live.Set(pointer, value));
   };
   FramePlan before = plan();
-  const auto map = before.direct.sampled_lights[0].light.mesh;
+  const auto map = before.direct.lights.sampled[0].light.mesh;
   change("/materials/clay/roughness", "0.3");
   FramePlan after = plan();
-  CHECK(after.hits.intersector == before.hits.intersector);
+  CHECK(after.hits.shapes.intersector == before.hits.shapes.intersector);
   change("/materials/clay/opacity_cutoff", "0.75");  // where surfaces are, which trees ask
   after = plan();
-  CHECK(after.hits.intersector != before.hits.intersector);
+  CHECK(after.hits.shapes.intersector != before.hits.shapes.intersector);
   change("/materials/clay/roughness", "0.4");
-  CHECK(plan().hits.intersector == after.hits.intersector);
-  CHECK(after.direct.sampled_lights[0].light.mesh == map);
+  CHECK(plan().hits.shapes.intersector == after.hits.shapes.intersector);
+  CHECK(after.direct.lights.sampled[0].light.mesh == map);
   change("/lights/knot/radiance", "3");
   after = plan();
-  CHECK(after.direct.sampled_lights[0].light.mesh == map);
+  CHECK(after.direct.lights.sampled[0].light.mesh == map);
   change("/camera/fov_y_deg", "30");
-  CHECK(plan().hits.intersector == after.hits.intersector);
+  CHECK(plan().hits.shapes.intersector == after.hits.shapes.intersector);
   // Trees stay where the camera moves, but not where it goes far away.
   for (const char* position : {"[0, 2, 12]", "[11, 1, 1]", "[0, 3, -11]"}) {
     change("/camera/position", position);
-    CHECK(plan().hits.intersector == after.hits.intersector);
+    CHECK(plan().hits.shapes.intersector == after.hits.shapes.intersector);
   }
   change("/camera/position", "[0, 2, 200]");
-  CHECK(plan().hits.intersector != after.hits.intersector);
+  CHECK(plan().hits.shapes.intersector != after.hits.shapes.intersector);
 }
 
 TEST_CASE("Tangents stay where the camera moves, and go with their mesh", "[prepared_scene]") {

@@ -341,7 +341,7 @@ TEST_CASE("an empty scene is its background, without an intersector") {
   scene.image.width = 20;
   scene.image.height = 20;
   scene.background = {0.25, 0.5, 1};
-  CHECK(MakePlan(scene, {}).hits.intersector == nullptr);
+  CHECK(MakePlan(scene, {}).hits.shapes.intersector == nullptr);
   const Image image = RenderImage(scene, Settings(1));
   CHECK(image.Find("R")->samples[123] == 0.25f);
   CHECK(image.Find("B")->samples[399] == 1.0f);

@@ -43,7 +43,7 @@ inline bool IsBeyond(const Image& image, const Image& truth, size_t pixel, doubl
 inline std::vector<bool> ToldIn(const FramePlan& plan) {
   std::vector<bool> told(plan.frame.pixel_count());
   TileWork work;
-  const auto cell_scratch = std::make_unique<CellState>();
+  const auto room = std::make_unique<CellRoom>();
   Strip strip;
   StageClock clock(nullptr);
   for (int y0 = 0; y0 < kSide; y0 += kCellSize) {
@@ -51,11 +51,11 @@ inline std::vector<bool> ToldIn(const FramePlan& plan) {
     for (int x0 = 0; x0 < kSide; x0 += kCellSize) {
       const Window cell{x0, y0, x0 + kCellSize, y0 + kCellSize};
       RenderStats stats;
-      RenderCell(plan, cell, cell, &work, cell_scratch.get(), &strip, &clock, &stats);
-      for (const uint32_t pixel : cell_scratch->active) {
+      RenderCell(plan, cell, cell, &work, room.get(), &strip, &clock, &stats);
+      for (const uint32_t pixel : room->state.active) {
         const FilmPixel at = PixelOf(cell, pixel);
         const Window alone{at.x, at.y, at.x + 1, at.y + 1};
-        if (CountUnsettled(plan, cell, alone, cell_scratch.get()) == 0) continue;
+        if (CountUnsettled(plan, cell, alone, &room->state) == 0) continue;
         told[static_cast<size_t>(at.y * kSide + at.x)] = true;
       }
     }

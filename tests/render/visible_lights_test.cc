@@ -5,8 +5,8 @@
 
 #include "pictures.h"
 #include "render/camera.h"
-#include "render/direct_plan.h"
 #include "render/frame_plan.h"
+#include "render/lights_plan.h"
 #include "render/render.h"
 #include "targets.h"
 #include "visibility/sphere_test.h"

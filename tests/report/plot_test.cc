@@ -9,7 +9,6 @@
 
 #include "base/error.h"
 #include "catch.h"
-#include "report/axis_range.h"
 #include "report/child_process.h"
 #include "report/gnuplot.h"
 #include "report/layout.h"
@@ -283,7 +282,7 @@ TEST_CASE("Programs are those of PATH's absolute folders, and told little") {
     for (const std::string& path :
          {relative, relative + ":" + before, before + ":" + relative, before + "::" + relative}) {
       setenv("PATH", path.c_str(), 1);
-      CHECK(!IsProgramThere("planted-program"));
+      CHECK(!FindProgram("planted-program"));
       CHECK(!RunChild({"planted-program"}, "").found);
     }
   }

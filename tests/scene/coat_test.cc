@@ -4,7 +4,6 @@
 #include "scene/coat.h"
 
 #include "brdf/fresnel.h"
-#include "brdf/fresnel_average.h"
 #include "catch.h"
 
 namespace nacre {

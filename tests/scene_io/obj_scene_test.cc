@@ -11,7 +11,7 @@
 #include "messages.h"
 #include "scene/limits.h"
 #include "scene_io/gltf_builder.h"
-#include "scene_io/obj.h"
+#include "scene_io/model_files.h"
 
 namespace nacre {
 namespace {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // OBJ files, good and bad.
-#include "scene_io/obj.h"
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -16,6 +14,7 @@
 #include "messages.h"
 #include "scene/mesh.h"
 #include "scene_io/gltf_builder.h"
+#include "scene_io/model_files.h"
 #include "scene_io/obj_file.h"
 
 namespace nacre {

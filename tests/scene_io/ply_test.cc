@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // PLY files, good and bad: text, bytes of both orders, any order of properties.
-#include "scene_io/ply.h"
-
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -12,6 +10,7 @@
 #include "color/transfer.h"
 #include "messages.h"
 #include "scene_io/gltf_builder.h"
+#include "scene_io/model_files.h"
 
 namespace nacre {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "base/parallel.h"
+#include "base/float_mode.h"
 #include "brdf/burley.h"
 #include "brdf/ggx.h"
 #include "catch.h"

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/parallel.h"
+#include "base/float_mode.h"
 #include "shading/model_twins.h"
 #include "shading/prepare.h"
 #include "targets.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "base/parallel.h"
+#include "base/float_mode.h"
 #include "brdf/albedo_integral.h"
 #include "catch.h"
 #include "scene/material_parameters.h"

@@ -11,7 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "light/irradiance.h"
+#include "light/disk_light.h"
+#include "light/polygon_irradiance.h"
+#include "light/sphere_light.h"
 #include "scene/sphere_mesh.h"
 #include "shading/light_sampling.h"
 #include "targets.h"

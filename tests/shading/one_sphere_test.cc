@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "base/parallel.h"
+#include "base/float_mode.h"
 #include "shading/model_twins.h"
 #include "shading/prepare.h"
 #include "shading/shade.h"

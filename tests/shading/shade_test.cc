@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "base/parallel.h"
+#include "base/float_mode.h"
 #include "scene/material_parameters.h"
 #include "shading/light_batch.h"
 #include "shading/model_twins.h"

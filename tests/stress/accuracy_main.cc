@@ -7,12 +7,13 @@
 #include <random>
 #include <vector>
 
-#include "base/parallel.h"
+#include "base/float_mode.h"
 #include "base/target.h"
 #include "brdf/albedo.h"
 #include "brdf/albedo_integral.h"
 #include "brdf/ggx.h"
 #include "brdf/phong.h"
+#include "scene/scene.h"
 #include "shading/highlight.h"
 #include "visibility/intersector.h"
 #include "visibility/projected_sphere_test.h"

@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "base/parallel.h"
+#include "scene/scene.h"
 #include "scene/sphere_mesh.h"
 #include "stress/fuzz_draws.h"
 #include "visibility/intersector.h"

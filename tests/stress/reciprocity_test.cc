@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "base/parallel.h"
+#include "base/float_mode.h"
 #include "catch.h"
 #include "shading/shade.h"
 #include "stress/fuzz_draws.h"

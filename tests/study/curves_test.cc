@@ -5,8 +5,7 @@
 
 #include "catch.h"
 #include "shading/material_fit.h"
-#include "study/brdf_slice.h"
-#include "study/lobe_curves.h"
+#include "study/material_curves.h"
 
 namespace nacre {
 namespace {

@@ -7,11 +7,8 @@
 #include "catch.h"
 #include "scene/sphere_mesh.h"
 #include "study/blinn_exponent.h"
-#include "study/fresnel_angles.h"
-#include "study/interpolation.h"
-#include "study/phong_share.h"
+#include "study/measures.h"
 #include "study/rounding.h"
-#include "study/tone_facts.h"
 #include "tables.h"
 
 namespace nacre {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/visibility/pixel_spans_test.cc: no sample outside of a sphere's spans hits it.
-#include "visibility/pixel_spans.h"
-
 #include <cmath>
 
 #include "catch.h"
 #include "targets.h"
 #include "visibility/rays.h"
 #include "visibility/sphere_bins.h"
+#include "visibility/tile_kernel.h"
 
 namespace nacre {
 namespace {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hit/batch.h"
+#include "scene/scene.h"
 #include "visibility/geometry.h"
 #include "visibility/intersector.h"
 #include "visibility/refine_kernel.h"

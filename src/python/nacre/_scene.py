@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Scenes, sessions, and renders of them."""
+import functools
+import inspect
 import json
 import operator
 import sys
-from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import (Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, TypeVar, Union,
+                    cast)
 
 import numpy as np
 
@@ -58,7 +61,7 @@ def _count(value: Optional[int], name: str) -> int:
 def _settings(width: Optional[int], height: Optional[int], samples: Optional[int],
               max_error: Optional[float], seed: Optional[int], region: Optional[Sequence[int]],
               layers: Union[str, Sequence[str]], threads: Optional[int],
-              intersector: str) -> Dict[str, Any]:
+              intersector: str, others: Sequence[Tuple[str, str]]) -> Dict[str, Any]:
     window = (0, 0, 0, 0) if region is None else tuple(whole(x, "region") for x in region)
     if len(window) != 4:
         raise ValueError(f"region is (x0, y0, x1, y1), not {region!r}")
@@ -76,7 +79,30 @@ def _settings(width: Optional[int], height: Optional[int], samples: Optional[int
             "max_error": 0.0 if max_error is None else real(max_error, "max_error"), "seed": seed,
             "region": window, "layers": [text(layer, "a layer") for layer in
                                          ([layers] if isinstance(layers, str) else layers)],
-            "threads": whole(0 if threads is None else threads, "threads"), "intersector": text(intersector, "intersector")}
+            "threads": whole(0 if threads is None else threads, "threads"),
+            "intersector": text(intersector, "intersector"), "others": others}
+
+
+_Render = TypeVar("_Render", bound=Callable[..., Image])
+
+
+def _with_named_settings(render: _Render, named: Mapping[str, str] = _nacre.named_settings()) -> _Render:
+    """Adds an argument, with its documentation, for each setting that the renderer's table has and that
+    is not written out here, where alone type checkers look."""
+    @functools.wraps(render)
+    def with_named(*arguments: Any, **settings: Any) -> Image:
+        given = [(name, settings.pop(name, None)) for name in named]
+        others = [(name, to_json(value, name)) for name, value in given if value is not None]
+        return render(*arguments, **settings, **({"_others": others} if others else {}))
+
+    signature = inspect.signature(render)
+    own = [parameter for name, parameter in signature.parameters.items() if name != "_others"]
+    place = [parameter.name for parameter in own].index("progress")
+    own[place:place] = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None) for name in named]
+    setattr(with_named, "__signature__", signature.replace(parameters=own))
+    meanings = "".join(f"        {name}: {meaning}.\n" for name, meaning in named.items())
+    with_named.__doc__ = (render.__doc__ or "").replace("        progress:", meanings + "        progress:")
+    return cast(_Render, with_named)
 
 
 class _Values:
@@ -289,11 +315,13 @@ class Scene(_Values):
         """In the scene's order."""
         return self._native.light_names()
 
+    @_with_named_settings
     def render(self, *, width: Optional[int] = None, height: Optional[int] = None,
                samples: Optional[int] = None, max_error: Optional[float] = None,
                seed: Optional[int] = None, region: Optional[Sequence[int]] = None,
                layers: Union[str, Sequence[str]] = (), threads: Optional[int] = None,
-               intersector: str = "auto", progress: Progress = None) -> Image:
+               intersector: str = "auto", progress: Progress = None,
+               _others: Sequence[Tuple[str, str]] = ()) -> Image:
         """Renders the scene. Other Python threads run meanwhile, and Ctrl-C ends it.
 
         width, height: pixels; the scene's by default.
@@ -312,7 +340,7 @@ class Scene(_Values):
         try:
             return self._native.render(
                 _settings(width, height, samples, max_error, seed, region, layers, threads,
-                          intersector), report)
+                          intersector, _others), report)
         finally:
             close()
 
@@ -342,12 +370,14 @@ class Session(_Values):
             raise TypeError(f"a nacre.Scene is wanted, not {type(scene).__name__}")
         self._native = _nacre.Session.of(scene._native)
 
+    @_with_named_settings
     def render(self, *, width: Optional[int] = None, height: Optional[int] = None,
                samples: Optional[int] = None, max_error: Optional[float] = None,
                seed: Optional[int] = None, region: Optional[Sequence[int]] = None,
                layers: Union[str, Sequence[str]] = (), threads: Optional[int] = None,
                intersector: str = "auto", progress: Progress = None,
-               show: Optional[Callable[[Image, int], object]] = None) -> Image:
+               show: Optional[Callable[[Image, int], object]] = None,
+               _others: Sequence[Tuple[str, str]] = ()) -> Image:
         """As Scene.render. Raises `nacre.Cancelled` where `cancel` has ended it.
 
         show: called with the means of the first 1, 2, 4, ... samples and their number, and last with
@@ -357,7 +387,7 @@ class Session(_Values):
         try:
             return self._native.render(
                 _settings(width, height, samples, max_error, seed, region, layers, threads,
-                          intersector), report, show)
+                          intersector, _others), report, show)
         finally:
             close()
 
