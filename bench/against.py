@@ -10,6 +10,7 @@ import cases
 import estimates
 import google
 import machine
+import noise
 import report
 from processes import Failed, Runner, output_of, say, scratch_folder
 
@@ -135,11 +136,23 @@ def _common_names(old, new, only):
     for name in sorted(both[0] ^ both[1]):
         say(f"{name}: only in the {'old' if name in both[0] else 'new'} program")
     names = sorted(both[0] & both[1]) + [f"process/{name}" for name in PROCESSES]
+    names += [f"noise/{name}" for name in noise.SCENES]
     return [name for name in names if re.search(only, name)]
 
 
+def compare_noise(old, new, names, root, folder, rounds):
+    """Prints relMSE times time of the scenes; returns whether one grew beyond its limit."""
+    ratios = noise.measure(Runner(new), [build / "nacre" for build in (old, new)],
+                           root / "scenes", folder, names, rounds)
+    rows = [(name, *(f"{ratio:.3f}" for ratio in found), "MORE" if found[2] > noise.LIMIT else "")
+            for name, found in ratios.items()]
+    print(report.table(("noise", "relMSE", "time", "product", ""), rows))
+    print(f"geometric mean of the products: {noise.geometric_mean(ratios):.3f}")
+    return any(found[2] > noise.LIMIT for found in ratios.values())
+
+
 def main(root, arguments):
-    """Exit code 1 if anything is slower."""
+    """Exit code 1 if anything is slower or noisier."""
     rounds = QUICK if arguments.quick else FULL
     revision, old = build_revision(root, arguments.against)
     new = arguments.build
@@ -148,6 +161,8 @@ def main(root, arguments):
     names = _common_names(old, new, arguments.only)
     if not names:
         raise Failed(f"nothing matches {arguments.only}")
+    noisy = [name.removeprefix("noise/") for name in names if name.startswith("noise/")]
+    names = [name for name in names if not name.startswith("noise/")]
     with scratch_folder() as name:
         folder = pathlib.Path(name)
         ratios = _measure(old, new, root, folder, names, rounds)
@@ -160,10 +175,12 @@ def main(root, arguments):
         rows = [(name, f"{middle:.3f}", f"{low:.3f}", f"{high:.3f}",
                  "SLOWER" if name in slower else "")
                 for name, (middle, low, high) in ratios.items()]
-        print(report.table(("benchmark", "new/old", "from", "to", ""), rows))
-        more = False
+        if rows:
+            print(report.table(("benchmark", "new/old", "from", "to", ""), rows))
+        more = bool(noisy) and compare_noise(old, new, noisy, root, folder, rounds.first)
         if arguments.instructions:
-            rows, more = compare_instructions(old, new, root, folder)
+            rows, grew = compare_instructions(old, new, root, folder)
+            more |= grew
             if rows:
                 print(report.table(("callgrind", "new/old", "old", "new", ""), rows))
     unsure = [name for name, (_, low, high) in ratios.items() if high / low > LIMIT ** 2]

@@ -322,7 +322,8 @@ struct RenderSettings {
   // Any thread may set it to true, which ends the render by Cancelled within some milliseconds;
   // before the first pixel, once the current tree, bin or table is built. May be null.
   const std::atomic<bool>* cancel = nullptr;
-  Parameters others;  // settings that have no member here, by name: those of NamedSettings()
+  // Settings by name, those of NamedSettings(). They win over the members of the same name.
+  Parameters others;
 };
 
 // The settings that RenderSettings::others may have, and their meanings.

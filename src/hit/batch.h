@@ -70,6 +70,16 @@ void CopySoa(const Soa3<T>& from, size_t count, Soa3<T>* to) {
   std::copy_n(from.z.data(), count, to->z.data());
 }
 
+// Adds entries [begin, end).
+inline void AddSoa(const Soa3<float>& from, size_t begin, size_t end, Soa3<float>* to) {
+  const auto add = [&](const float* __restrict of, float* __restrict sum) {
+    for (size_t i = begin; i < end; ++i) sum[i] += of[i];
+  };
+  add(from.x.data(), to->x.data());
+  add(from.y.data(), to->y.data());
+  add(from.z.data(), to->z.data());
+}
+
 // Pointers to the arrays of a Soa3, which loops can keep in registers: the compiler must assume
 // that a store changes the pointers in the Soa3 itself.
 template <typename T>

@@ -367,6 +367,7 @@ void RenderCell(const FramePlan& plan, const Window& cell, const Window& part, T
     FillBackground(plan.film, part, strip);
     stats->pixel_samples.Add(0, part.pixel_count());
     clock->Charge(Stage::kFilm);
+    c.active.clear();
     return;
   }
   StartTile(plan.film, cell, kBatchCapacity, &s.film);

@@ -13,11 +13,11 @@ inline constexpr size_t kCommonLevels = 3;
 // After a level: removes the pixels that have converged from the active ones. After a block's
 // common levels the block is removed if all of its pixels are within their tolerances; later,
 // single pixels whose neighbours are not far from their tolerances either.
-void DropConverged(const FramePlan& plan, size_t level, CellState* cell_scratch);
+void DropConverged(const FramePlan& plan, size_t level, CellState* state);
 
 // Counts the pixels in `part` that are still active after the last level and whose relative error
 // may be more than max_error. Here a highlight's error is relative to the highlight, not to white.
 size_t CountUnsettled(const FramePlan& plan, const Window& cell, const Window& part,
-                      CellState* cell_scratch);
+                      CellState* state);
 
 }  // namespace nacre

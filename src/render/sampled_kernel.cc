@@ -19,20 +19,21 @@ using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
 using DD = hn::ScalableTag<double>;
 
-size_t IlluminateAlongT(const LightDirections& directions, const Soa3<float>* normal, size_t count,
+size_t IlluminateAlongT(const LightDirections& directions, const Surface& surface, size_t count,
                         LightBatch* light) {
   const D d;
-  const V zero = hn::Zero(d);
+  const V zero = hn::Zero(d), lowest = hn::Set(d, LowestHeight(surface));
+  const Soa3<float>& horizon = HorizonNormal(surface);
   size_t not_finite = 0;
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
     const Vec3V<V> l = LoadSoa(d, directions.to_light, i);
     // Finite if and only if the direction is.
-    const V height = normal != nullptr ? Dot(LoadSoa(d, *normal, i), l) : Dot(l, l);
+    const V height = Dot(LoadSoa(d, horizon, i), l);
     const auto finite = hn::IsFinite(height);
     if (!hn::AllTrue(d, finite)) {
       not_finite += hn::CountTrue(d, hn::AndNot(finite, hn::FirstN(d, count - i)));
     }
-    const auto faces = hn::And(hn::Gt(height, zero), finite);
+    const auto faces = hn::And(hn::Gt(height, lowest), finite);
     const auto shines = hn::And(hn::Gt(hn::LoadU(d, directions.distance.data() + i), zero), faces);
     StoreSoa(d, l, i, &light->to_light);
     hn::StoreU(hn::IfThenElseZero(shines, hn::Set(d, 1.0f)), d, light->irradiance.data() + i);
@@ -120,9 +121,9 @@ HWY_EXPORT(AddPdfsT);
 HWY_EXPORT(ComputeWeightsT);
 HWY_EXPORT(AddWeightedT);
 
-size_t IlluminateAlong(const LightDirections& directions, const Soa3<float>* normal, size_t count,
+size_t IlluminateAlong(const LightDirections& directions, const Surface& surface, size_t count,
                        LightBatch* light) {
-  return HWY_DYNAMIC_DISPATCH(IlluminateAlongT)(directions, normal, count, light);
+  return HWY_DYNAMIC_DISPATCH(IlluminateAlongT)(directions, surface, count, light);
 }
 
 void AimShadowRays(const LightDirections& directions, const float* irradiance, size_t count,

@@ -11,10 +11,9 @@
 namespace nacre {
 
 // Sets `light` to a light of irradiance 1 from the sampled directions, and 0 where the direction
-// misses the light or the hit faces away from it: where it is below the plane of `normal`, unless
-// that is null. Returns how many directions are not finite: they
-// have irradiance 0, and no shadow ray follows them.
-size_t IlluminateAlong(const LightDirections& directions, const Soa3<float>* normal, size_t count,
+// misses the light or is below the horizon (LowestHeight). Returns how many directions are not
+// finite: they have irradiance 0, and no shadow ray follows them.
+size_t IlluminateAlong(const LightDirections& directions, const Surface& surface, size_t count,
                        LightBatch* light);
 
 // Sets the directions and ends of shadow rays. Rays of lit hits end at the light; the others are

@@ -89,16 +89,10 @@ void HideLightInPlane(const LitBatch& lit) {
   }
 }
 
-// Sets light() to a light of irradiance 1 from the sampled directions. Directions of glossy lobes
-// and mirrors are above the horizon except for rounding errors, which must not hide a lobe that is
-// narrower than these: in normal-mapped batches they are not tested against the horizon.
-void Illuminate(const LitBatch& lit, bool may_be_below_horizon) {
-  const Surface& surface = lit.surface();
-  const Soa3<float>* const horizon = !surface.normal_mapped ? &surface.normal
-                                     : may_be_below_horizon ? &surface.interpolated_normal
-                                                            : nullptr;
+// Sets light() to a light of irradiance 1 from the sampled directions.
+void Illuminate(const LitBatch& lit) {
   lit.batch.stats.directions_not_finite +=
-      IlluminateAlong(lit.room.directions, horizon, lit.count(), &lit.light());
+      IlluminateAlong(lit.room.directions, lit.surface(), lit.count(), &lit.light());
   HideUnreflectedLight(lit.batch);
   HideLightInPlane(lit);
 }
@@ -184,20 +178,28 @@ SamplingStrategies SpecularStrategies(const SampledLight& light) {
   return {HasSampler(light), true};
 }
 
+// How many hits reflect diffusely in closed form, and how many are left to samples.
+struct DiffuseHits {
+  size_t closed_form = 0, sampled = 0;
+};
+
 // Finds the hits whose diffuse reflection has a closed form: those from which the whole light is
-// visible, and whose diffuse term does not depend on the light's direction. Returns their number.
-size_t FindClosedForm(const LitBatch& lit) {
+// visible, and whose diffuse term does not depend on the light's direction.
+DiffuseHits FindClosedForm(const LitBatch& lit) {
   const bool some_see_all = !lit.shadows.rays || !lit.shadows.shadowed.empty();
-  size_t count = 0;
+  DiffuseHits hits;
   for (const MaterialRun& run : lit.runs()) {
-    const bool may_be = lit.planned.closed_form && some_see_all && DiffuseIsFlat(*run.shading);
+    const bool diffuse = HasLobes(*run.shading, LobeKind::kDiffuse);
+    const bool may_be =
+        diffuse && lit.planned.closed_form && some_see_all && DiffuseIsFlat(*run.shading);
     for (size_t i = run.begin; i < run.end; ++i) {
-      lit.room.closed_form[i] =
-          may_be && NeverShadowed(lit.shadows, lit.hits().primitive[i]) ? 1 : 0;
-      count += lit.room.closed_form[i];
+      const bool closed_form = may_be && NeverShadowed(lit.shadows, lit.hits().primitive[i]);
+      lit.room.closed_form[i] = closed_form ? 1 : 0;
+      hits.closed_form += closed_form ? 1 : 0;
+      hits.sampled += diffuse && !closed_form ? 1 : 0;
     }
   }
-  return count;
+  return hits;
 }
 
 // Adds the diffuse reflection of these hits: the irradiance, as if all light came along the normal.
@@ -230,7 +232,7 @@ void AddLightSamples(const LitBatch& lit, const Components& components) {
   const SampledLight& light = lit.planned.light;
   DrawPoints(lit, 0);
   SampleLight(light, lit.hits(), lit.room.points, &lit.room.directions);
-  Illuminate(lit, true);
+  Illuminate(lit);
   AddSampledLight(lit, DiffuseStrategies(light), SpecularStrategies(light), components);
 }
 
@@ -250,7 +252,7 @@ void AddBsdfSamples(const LitBatch& lit, LobeKind kind) {
                 lit.bsdf_room(), &lit.room.directions.to_light);
   }
   FindLight(light, lit.hits(), &lit.room.directions);
-  Illuminate(lit, diffuse);
+  Illuminate(lit);
   AddSampledLight(lit, DiffuseStrategies(light), SpecularStrategies(light), {diffuse, !diffuse});
 }
 
@@ -269,7 +271,7 @@ void AddMirrorReflection(const LitBatch& lit, size_t level) {
     SampleMirror(lit.BsdfOf(run), level, &lit.room.directions.to_light, &reflectance);
   }
   FindLight(lit.planned.light, lit.hits(), &lit.room.directions);
-  Illuminate(lit, false);
+  Illuminate(lit);
   AlignedArray<float>& irradiance = lit.light().irradiance;
   for (size_t i = 0; i < lit.count(); ++i) {
     const bool reflects = (reflectance.x[i] > 0) | (reflectance.y[i] > 0) | (reflectance.z[i] > 0);
@@ -285,9 +287,9 @@ void ShadeBySampledLight(const LitBatch& lit) {
   const bool lobes = std::any_of(lit.runs().begin(), lit.runs().end(), [](const MaterialRun& run) {
     return HasLobes(*run.shading, LobeKind::kGlossy);
   });
-  const size_t in_closed_form = FindClosedForm(lit);
-  const bool sampled_diffuse = in_closed_form < lit.count();
-  if (in_closed_form > 0) AddClosedForm(lit);
+  const DiffuseHits diffuse = FindClosedForm(lit);
+  const bool sampled_diffuse = diffuse.sampled > 0;
+  if (diffuse.closed_form > 0) AddClosedForm(lit);
   if (HasSampler(lit.planned.light) && (lobes || sampled_diffuse)) {
     AddLightSamples(lit, {sampled_diffuse, lobes});
   }

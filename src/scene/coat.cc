@@ -45,4 +45,10 @@ std::vector<Material> CoatsOf(const Material& material) {
   return {coat};
 }
 
+bool RemoveCoats(Material* material) {
+  const bool had = !CoatsOf(*material).empty();
+  if (auto* model = std::get_if<MetallicRoughnessMaterial>(&material->model)) model->coat = 0;
+  return had;
+}
+
 }  // namespace nacre

@@ -17,4 +17,7 @@ inline constexpr size_t kMostCoats = 4;
 // coat's albedo leaves. Only metallic_roughness has a coat today, and one at most.
 std::vector<Material> CoatsOf(const Material& material);
 
+// Removes the coats from a material. Returns whether it had any.
+bool RemoveCoats(Material* material);
+
 }  // namespace nacre

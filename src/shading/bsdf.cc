@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/overloaded.h"
+#include "brdf/angles.h"
 #include "brdf/lobe_sampling.h"
 #include "shading/lobe_chances.h"
 #include "shading/lobe_sample.h"
@@ -41,9 +42,9 @@ const HitParameters* MapsOf(const Level& level) {
   return level.material.by_hit.model ? level.textures : nullptr;
 }
 
-// Normals of meshes may lean away from the viewer: the cosine then counts as 0.
-double NDotV(const Surface& surface, size_t i) {
-  return std::clamp(VectorAt(surface.normal, i).dot(VectorAt(surface.to_view, i)), 0.0, 1.0);
+bool HasLayers(const ShadingMaterial& material, LobeKind kind) {
+  return std::any_of(material.layers.begin(), material.layers.end(),
+                     [&](const LayerModel& layer) { return KindOf(layer) == kind; });
 }
 
 // --- Normal maps. The hemisphere of a mapped normal extends below the unmapped surface, whose
@@ -57,7 +58,8 @@ double NDotV(const Surface& surface, size_t i) {
 // the same way, by a second reflection at an additional facet.
 
 bool HasMirroredLobe(const ShadingMaterial& material) {
-  return material.by_hit.normal && HasSampledLobe(material);
+  return material.by_hit.normal &&
+         (HasSampledLobe(material) || HasLayers(material, LobeKind::kGlossy));
 }
 
 // Makes room->mirrored->light. Returns false if f(l') is 0 at all hits.
@@ -65,14 +67,6 @@ bool MirrorLight(const Level& level, const LightBatch& light, BsdfRoom* room) {
   if (!HasMirroredLobe(level.material)) return false;
   if (!room->mirrored) room->mirrored = std::make_unique<MirroredLobe>();
   return MirrorAtHorizon(level.surface, level.begin, level.end, light, &room->mirrored->light);
-}
-
-void AddRange(const Soa3<float>& from, size_t begin, size_t end, Soa3<float>* to) {
-  for (size_t i = begin; i < end; ++i) {
-    to->x[i] += from.x[i];
-    to->y[i] += from.y[i];
-    to->z[i] += from.z[i];
-  }
 }
 
 // Adds the term f(l') to the sum and the specular component.
@@ -84,8 +78,8 @@ void AddMirroredLobe(const Level& level, const Rgb& color, const LightBatch& lig
   ShadeRun(level.material,
            {level.hits, level.surface, given, &mirrored.light, true, level.textures}, level.begin,
            level.end, &room->shade, &mirrored.radiance);
-  AddRange(mirrored.radiance.specular, level.begin, level.end, &radiance->sum);
-  AddRange(mirrored.radiance.specular, level.begin, level.end, &radiance->specular);
+  AddSoa(mirrored.radiance.specular, level.begin, level.end, &radiance->sum);
+  AddSoa(mirrored.radiance.specular, level.begin, level.end, &radiance->specular);
 }
 
 // What one level reflects, whatever lies over it.
@@ -136,11 +130,9 @@ class LayersAtHit {
   LayersAtHit(const BsdfHits& at, LobeKind kind, size_t i)
       : material_(at.material), kind_(kind), maps_(MapsOf(ModelLevel(at))), i_(i) {
     const double n_dot_v = NDotV(at.surface, i);
-    // Rounded to float as the maps' albedo is, so that a constant map changes no direction.
-    const double below = kind != LobeKind::kDiffuse
-                             ? AlbedosAt(material_, maps_, at.surface, i, n_dot_v).glossy
-                         : maps_ != nullptr ? LargestChannel(Rgb(VectorAt(maps_->albedo, i)))
-                                            : LargestChannel(Rgb(Vec3f(material_.albedo)));
+    const double below = kind == LobeKind::kDiffuse
+                             ? BaseAlbedo(material_, maps_, i)
+                             : AlbedosAt(material_, maps_, at.surface, i, n_dot_v).glossy;
     for (size_t k = 0; k < material_.layers.size(); ++k) {
       if (KindOf(material_.layers[k]) == kind) chance_[k] = LayerChance(Layer(k), n_dot_v, below);
       reflects_ = reflects_ || chance_[k] > 0;
@@ -161,10 +153,7 @@ class LayersAtHit {
   }
 
  private:
-  LayerModel Layer(size_t k) const {
-    const LayerModel& layer = material_.layers[k];
-    return maps_ != nullptr ? LayerAtHit(layer, *maps_, i_) : layer;
-  }
+  LayerModel Layer(size_t k) const { return LayerAtHit(material_.layers[k], maps_, i_); }
 
   const ShadingMaterial& material_;
   LobeKind kind_;
@@ -174,15 +163,32 @@ class LayersAtHit {
   bool reflects_ = false;
 };
 
-bool HasLayers(const ShadingMaterial& material, LobeKind kind) {
-  return std::any_of(material.layers.begin(), material.layers.end(),
-                     [&](const LayerModel& layer) { return KindOf(layer) == kind; });
-}
-
 bool CoatsAreSampled(const ShadingMaterial& material, LobeKind kind) {
   return kind == LobeKind::kGlossy &&
          std::any_of(material.coats.begin(), material.coats.end(),
                      [](const auto& coat) { return HasSampledLobe(*coat); });
+}
+
+// Whether the model has, or with maps may have, a diffuse base. A user model's lobe is glossy if it
+// has a sampler, else diffuse.
+bool HasDiffuse(const ShadingMaterial& material) {
+  return std::visit(Overloaded{[](const std::monostate&) { return false; },
+                               [](const UserModel& user) { return !user.brdf->sample; },
+                               [&](const auto& model) {
+                                 return material.by_hit.model || !IsBlack(model.diffuse);
+                               }},
+                    material.model);
+}
+
+// The pdf of a layer's samples at hit i. Like the model's, glossy ones are mirrored at the horizon.
+double LayerPdfAt(const BsdfHits& at, const LayerModel& layer, size_t i, const Vec3d& to_light) {
+  const Surface& surface = at.surface;
+  const Vec3d n = VectorAt(surface.normal, i), v = VectorAt(surface.to_view, i);
+  const double pdf = LayerPdf(layer, ComputeAngles(n, to_light, v));
+  if (!at.material.by_hit.normal || KindOf(layer) != LobeKind::kGlossy) return pdf;
+  const Vec3d horizon = VectorAt(surface.interpolated_normal, i);
+  const Vec3d mirrored = to_light - horizon * (2 * horizon.dot(to_light));
+  return n.dot(mirrored) > 0 ? pdf + LayerPdf(layer, ComputeAngles(n, mirrored, v)) : pdf;
 }
 
 // Mixes the pdfs of the layers of a kind with that of the model's lobe, which `pdf` holds.
@@ -190,10 +196,11 @@ void MixLayerPdfs(const BsdfHits& at, LobeKind kind, const LightBatch& light, fl
   for (size_t i = at.begin; i < at.end; ++i) {
     const LayersAtHit layers(at, kind, i);
     if (!layers.Reflects()) continue;
-    const double n_dot_l = VectorAt(at.surface.normal, i).dot(VectorAt(light.to_light, i));
+    const Vec3d to_light = VectorAt(light.to_light, i);
+    const double n_dot_l = VectorAt(at.surface.normal, i).dot(to_light);
     double sum = 0, left = 1;
     layers.Visit([&](const LayerModel& layer, double chance) {
-      sum += left * chance * LayerPdf(layer, n_dot_l);
+      sum += left * chance * LayerPdfAt(at, layer, i, to_light);
       left *= 1 - chance;
       return false;
     });
@@ -245,9 +252,10 @@ void ChooseLobes(const BsdfHits& at, LobeKind kind, const float* u, const float*
     if (layers && lobe == StackRoom::kModelLobe) {
       const LayersAtHit at_hit(at, kind, i);
       const Vec3d normal = VectorAt(at.surface.normal, i);
+      const Vec3d to_view = VectorAt(at.surface.to_view, i);
       const bool chosen = at_hit.Visit([&](const LayerModel& layer, double chance) {
         if (!chooser.Takes(chance)) return false;
-        SetVector(SampleLayer(layer, normal, chooser.rest(), v[i]), i, &room->to_light);
+        SetVector(SampleLayer(layer, normal, to_view, chooser.rest(), v[i]), i, &room->to_light);
         return true;
       });
       const bool diffuse = kind == LobeKind::kDiffuse && at_hit.Reflects();
@@ -292,7 +300,7 @@ double TransmittedByLayers(const BsdfHits& at, size_t i) {
   const double n_dot_v = NDotV(at.surface, i);
   double left = 1;
   for (const LayerModel& layer : at.material.layers) {
-    left *= LayerAlbedo(maps != nullptr ? LayerAtHit(layer, *maps, i) : layer, n_dot_v).below;
+    left *= LayerAlbedo(LayerAtHit(layer, maps, i), n_dot_v).below;
   }
   return left;
 }
@@ -359,7 +367,7 @@ void EvaluateBsdf(const BsdfHits& at, const ShadingLight& light, const LightBatc
 
 bool HasLobes(const ShadingMaterial& material, LobeKind kind) {
   if (HasLayers(material, kind) || CoatsAreSampled(material, kind)) return true;
-  return kind == LobeKind::kDiffuse || HasSampledLobe(material);
+  return kind == LobeKind::kDiffuse ? HasDiffuse(material) : HasSampledLobe(material);
 }
 
 void SampleLobes(const BsdfHits& at, LobeKind kind, const float* u, const float* v, BsdfRoom* room,
@@ -378,6 +386,9 @@ void SampleLobes(const BsdfHits& at, LobeKind kind, const float* u, const float*
   }
   if (!stacked) return;
   StackRoom& stack = *room->stack;
+  if (layers && kind == LobeKind::kGlossy && at.material.by_hit.normal) {
+    RaiseAboveHorizon(at.surface, at.begin, at.end, &stack.to_light);
+  }
   if (layers) TakeChosen(at, stack, StackRoom::kSampled, stack.to_light, to_light);
   for (size_t k = 0; coats && k < at.material.coats.size(); ++k) {
     SampleModelLobe(CoatLevel(at, k), rest, v, room, &stack.to_light);
@@ -417,7 +428,7 @@ KindChances KindChancesAt(const BsdfHits& at, size_t i) {
   const double n_dot_v = NDotV(at.surface, i);
   std::vector<LayerModel> layers;
   for (const LayerModel& layer : at.material.layers) {
-    layers.push_back(maps != nullptr ? LayerAtHit(layer, *maps, i) : layer);
+    layers.push_back(LayerAtHit(layer, maps, i));
   }
   return ChancesOfKinds(layers, n_dot_v, AlbedosAt(at.material, maps, at.surface, i, n_dot_v),
                         {CoatsInView(at, i).data(), at.material.coats.size()}, true);
@@ -459,8 +470,7 @@ void SampleBsdf(const BsdfHits& at, const float* u, const float* v, BsdfRoom* ro
   for (size_t i = at.begin; i < at.end; ++i) {
     const Vec3d to_light = VectorAt(samples->to_light, i);
     SetVector(to_light, i, &sample->light.to_light);
-    const Soa3<float>& horizon = surface.interpolated_normal;
-    const bool above = !surface.normal_mapped || VectorAt(horizon, i).dot(to_light) > 0;
+    const bool above = VectorAt(HorizonNormal(surface), i).dot(to_light) > LowestHeight(surface);
     sample->light.irradiance[i] = above ? 1.0f : 0.0f;
   }
   const ShadingLight unit{.form = LightForm::kGiven, .color = Rgb(1, 1, 1)};

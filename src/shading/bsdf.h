@@ -99,7 +99,8 @@ inline bool NeedsLightAtHits(const ShadingMaterial& material) {
 }
 
 // Stores in `radiance` what the hits reflect of the light, f |n.l| times its irradiance and colour,
-// and the pdfs of the light's directions that are asked for. `on_hits` is the light at the hits; it
+// and the pdfs of the light's directions that are asked for, which hold where its irradiance is
+// above 0. `on_hits` is the light at the hits; it
 // may be null unless NeedsLightAtHits or pdfs are asked for. Light from below the horizon is 0.
 // `components` says whether diffuse and specular radiance are stored, too.
 void EvaluateBsdf(const BsdfHits& at, const ShadingLight& light, const LightBatch* on_hits,
@@ -130,8 +131,8 @@ bool SampleMirror(const BsdfHits& at, size_t level, Soa3<float>* to_light, Soa3<
 struct BsdfSamples {
   Soa3<float> to_light;
   Soa3<float> weight;  // f |n.l| / pdf; 0 for directions below the surface
-  // Per solid angle, of all lobes but mirrors; for a sample of a mirror, the probability of the
-  // mirror. 0 where no lobe reflects anything.
+  // Per solid angle, of all lobes but mirrors, if the direction is above the surface; for a sample
+  // of a mirror, the probability of the mirror. 0 where no lobe reflects anything.
   AlignedArray<float> pdf{kBatchCapacity};
   AlignedArray<LobeKind> kind{kBatchCapacity};  // of the lobe that was sampled
 };

@@ -35,10 +35,10 @@ NACRE_DERIVE double DeriveDiffuse(double albedo) { return albedo * M_1_PI; }
 // --- The Phong family. ---
 
 // The scale of the lobe by the material's convention.
-inline double DerivePhongScale(const PhongMaterial& material, double shininess) {
-  if (material.convention == PhongConvention::kClassic) return 1;
-  return material.model == PhongModel::kBlinnPhong ? BlinnNormalization(shininess)
-                                                   : PhongNormalization(shininess);
+inline double DerivePhongScale(PhongModel model, PhongConvention convention, double shininess) {
+  if (convention == PhongConvention::kClassic) return 1;
+  return model == PhongModel::kBlinnPhong ? BlinnNormalization(shininess)
+                                          : PhongNormalization(shininess);
 }
 
 // One channel of a Phong material.

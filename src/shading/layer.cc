@@ -26,12 +26,12 @@ LayerReflection AlbedoOf(const SheenModel& sheen, double n_dot_v) {
   return {sheen.color * (albedo * scale.lobe), scale.below};
 }
 
-Vec3d SampleOf(const SheenModel& sheen, const Vec3d& normal, double u0, double u1) {
+Vec3d SampleOf(const SheenModel& sheen, const Vec3d& normal, const Vec3d&, double u0, double u1) {
   return SampleCharlie(normal, sheen.charlie.roughness, u0, u1);
 }
 
-double PdfOf(const SheenModel& sheen, double n_dot_l) {
-  return CharliePdf(n_dot_l, sheen.charlie.roughness);
+double PdfOf(const SheenModel& sheen, const Angles<double>& a) {
+  return CharliePdf(a.n_dot_l, sheen.charlie.roughness);
 }
 
 SheenModel ModelAtHit(const SheenModel& sheen, const HitParameters& textures, size_t i) {
@@ -87,8 +87,9 @@ LayerReflection LayerAlbedo(const LayerModel& layer, double n_dot_v) {
   return std::visit([&](const auto& model) { return AlbedoOf(model, n_dot_v); }, layer);
 }
 
-LayerModel LayerAtHit(const LayerModel& layer, const HitParameters& textures, size_t i) {
-  return std::visit([&](const auto& model) -> LayerModel { return ModelAtHit(model, textures, i); },
+LayerModel LayerAtHit(const LayerModel& layer, const HitParameters* maps, size_t i) {
+  if (maps == nullptr) return layer;
+  return std::visit([&](const auto& model) -> LayerModel { return ModelAtHit(model, *maps, i); },
                     layer);
 }
 
@@ -101,12 +102,14 @@ double LayerLobeWidth(const LayerModel& layer) {
   return std::visit([](const auto& model) { return WidthOf(model); }, layer);
 }
 
-Vec3d SampleLayer(const LayerModel& layer, const Vec3d& normal, double u0, double u1) {
-  return std::visit([&](const auto& model) { return SampleOf(model, normal, u0, u1); }, layer);
+Vec3d SampleLayer(const LayerModel& layer, const Vec3d& normal, const Vec3d& to_view, double u0,
+                  double u1) {
+  return std::visit([&](const auto& model) { return SampleOf(model, normal, to_view, u0, u1); },
+                    layer);
 }
 
-double LayerPdf(const LayerModel& layer, double n_dot_l) {
-  return std::visit([&](const auto& model) { return PdfOf(model, n_dot_l); }, layer);
+double LayerPdf(const LayerModel& layer, const Angles<double>& angles) {
+  return std::visit([&](const auto& model) { return PdfOf(model, angles); }, layer);
 }
 
 }  // namespace nacre

@@ -46,8 +46,8 @@ std::vector<LayerModel> MakeLayers(const Material& material);
 
 struct HitParameters;
 
-// A layer of a material with maps, with the parameters of hit i.
-LayerModel LayerAtHit(const LayerModel& layer, const HitParameters& textures, size_t i);
+// A layer with the parameters of hit i; the layer itself if `maps` is null.
+LayerModel LayerAtHit(const LayerModel& layer, const HitParameters* maps, size_t i);
 
 // Removes the layers from a material and returns their names.
 std::vector<std::string_view> RemoveLayers(Material* material);
@@ -73,8 +73,9 @@ std::vector<std::pair<std::string_view, double>> LayerTerms(const LayerModel& la
                                                             const Angles<double>& angles);
 
 // Samples a direction to light for the layer's own reflection, with u0 and u1 in [0, 1). LayerPdf
-// is the pdf of a direction at n.l, per solid angle.
-Vec3d SampleLayer(const LayerModel& layer, const Vec3d& normal, double u0, double u1);
-double LayerPdf(const LayerModel& layer, double n_dot_l);
+// is its pdf, per solid angle.
+Vec3d SampleLayer(const LayerModel& layer, const Vec3d& normal, const Vec3d& to_view, double u0,
+                  double u1);
+double LayerPdf(const LayerModel& layer, const Angles<double>& angles);
 
 }  // namespace nacre

@@ -40,7 +40,7 @@ HWY_INLINE void ForEachPacket(const HitBatch& hits, const Surface& surface, Ligh
                               const At& at) {
   const FloatTag d;
   // Normal-mapped hits get light from above the unmapped surface.
-  const Soa3<float>& n = surface.normal_mapped ? surface.interpolated_normal : surface.normal;
+  const Soa3<float>& n = HorizonNormal(surface);
   Soa3<float>& l = result->to_light;
   for (size_t i = 0; i < hits.count; i += hn::Lanes(d)) {
     const LightV light = at(i);
@@ -60,7 +60,7 @@ template <LightForm kForm>
 void EvaluatePositional(const ShadingLight& light, const HitBatch& hits, const Surface& surface,
                         LightBatch* result) {
   const FloatTag d;
-  const Soa3<float>& n = surface.normal_mapped ? surface.interpolated_normal : surface.normal;
+  const Soa3<float>& n = HorizonNormal(surface);
   VisitOffsets(d, light, hits, [&](const auto& offset) HWY_ATTR {
     ForEachPacket(hits, surface, result, [&](size_t i) HWY_ATTR {
       LightV at = PositionalAt<kForm>(d, light, offset(d, i, LoadSoa(d, n, i)));

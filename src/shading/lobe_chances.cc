@@ -95,6 +95,15 @@ ModelAlbedos AlbedosAt(const ShadingMaterial& material, const HitParameters* map
   return AlbedosOfGgx(numbers, n_dot_v);
 }
 
+double BaseAlbedo(const ShadingMaterial& material, const HitParameters* maps, size_t i) {
+  const Rgb color(maps != nullptr ? Vec3f(VectorAt(maps->albedo, i)) : Vec3f(material.albedo));
+  const auto* const model = std::get_if<MicrofacetModel>(&material.model);
+  if (model == nullptr) return LargestChannel(color);
+  const double metallic =
+      maps != nullptr ? NumbersOf(*maps, MappedNumber::kMetallic)[i] : model->metallic;
+  return LargestChannel(color) * (1 - metallic);
+}
+
 double LayerChance(const LayerModel& layer, double n_dot_v, double below_albedo) {
   const LayerReflection albedo = LayerAlbedo(layer, n_dot_v);
   return Fraction(LargestChannel(albedo.lobe), albedo.below * below_albedo);

@@ -47,6 +47,11 @@ ModelAlbedos AlbedosOf(const ShadingMaterial& material, double n_dot_v);
 ModelAlbedos AlbedosAt(const ShadingMaterial& material, const HitParameters* maps,
                        const Surface& surface, size_t i, double n_dot_v);
 
+// About the albedo of the diffuse base in its brightest channel, with the same bits for a constant
+// map as for its constant, so that this changes no direction.
+double BaseAlbedo(const ShadingMaterial& material, const HitParameters* maps = nullptr,
+                  size_t i = 0);
+
 // The probability of sampling a layer rather than what is below it, which has the albedo
 // `below_albedo` by itself.
 double LayerChance(const LayerModel& layer, double n_dot_v, double below_albedo);

@@ -427,14 +427,9 @@ void MirrorDirections(const LobeRange& range, Soa3<float>* to_light) {
 void MirrorReflectances(const ShadingMaterial& material, const LobeRange& range,
                         Soa3<float>* reflectance) {
   auto at_hit = std::get<MicrofacetModel>(material.model);
-  const Soa3<float>& n = range.surface.normal;
-  const Soa3<float>& v = range.surface.to_view;
   for (size_t i = range.begin; i < range.end; ++i) {
-    const double n_dot_v =
-        double{n.x[i]} * v.x[i] + double{n.y[i]} * v.y[i] + double{n.z[i]} * v.z[i];
     if (material.by_hit.model) TakeHit(material, *range.textures, i, &at_hit);
-    const double cosine = std::clamp(n_dot_v, 0.0, 1.0);
-    SetVector(MirrorReflectance(at_hit, cosine), i, reflectance);
+    SetVector(MirrorReflectance(at_hit, NDotV(range.surface, i)), i, reflectance);
   }
 }
 

@@ -139,10 +139,11 @@ void Finish(const TexturedRun& run, const PhongFamilyModel&, HitParameters* t) {
   const auto to = ColumnsIn<PhongConstants<float*>>(t->constants);
   hits.Fill(to.shininess, [&](size_t i) { return exponents[i]; });
   if (run.material.by_hit.width) {
-    hits.Fill(t->phong_scale.data(),
-              [&](size_t i) { return DerivePhongScale(phong, exponents[i]); });
+    hits.Fill(t->phong_scale.data(), [&](size_t i) {
+      return DerivePhongScale(phong.model, phong.convention, exponents[i]);
+    });
   } else {
-    const double scale = DerivePhongScale(phong, phong.shininess);
+    const double scale = DerivePhongScale(phong.model, phong.convention, phong.shininess);
     hits.Fill(t->phong_scale.data(), [&](size_t) { return scale; });
   }
 }

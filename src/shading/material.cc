@@ -49,7 +49,7 @@ PhongFamilyModel MakeModel(const PhongMaterial& material) {
   model.model = material.model;
   model.shininess = material.shininess;
   model.double_terms = material.shininess > kDoubleTermsShininess;
-  const double scale = DerivePhongScale(material, material.shininess);
+  const double scale = DerivePhongScale(material.model, material.convention, material.shininess);
   for (int c = 0; c < 3; ++c) {
     const PhongChannel at =
         DerivePhong(material.convention, material.kd[c], material.color[c], material.ks[c], scale);

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "brdf/fresnel.h"
 #include "brdf/quadrature.h"
+#include "scene/coat.h"
 #include "scene/limits.h"
 #include "scene/material_parameters.h"
 #include "shading/golden.h"
@@ -294,10 +295,7 @@ void NoteLosses(const Material& original, bool to_phong, MaterialFit* fit) {
 
 // The original without the layers over it, which other models do not have.
 Material WithoutLayers(Material material, std::vector<std::string>* notes) {
-  auto* const model = std::get_if<MetallicRoughnessMaterial>(&material.model);
-  if (model == nullptr) return material;
-  if (model->coat > 0) notes->emplace_back("the coat: what is below it is converted");
-  model->coat = 0;
+  if (RemoveCoats(&material)) notes->emplace_back("the coat: what is below it is converted");
   for (const std::string_view layer : RemoveLayers(&material)) {
     notes->push_back(fmt::format("{}: what is below it is converted", layer));
   }

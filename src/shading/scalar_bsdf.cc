@@ -6,7 +6,6 @@
 #include <cmath>
 #include <variant>
 
-#include "base/overloaded.h"
 #include "brdf/burley.h"
 #include "brdf/eon.h"
 #include "brdf/fresnel.h"
@@ -132,10 +131,51 @@ bool IsAbove(const Vec3d& n, const Vec3d& l, const Vec3d& v) { return (n ^ l) > 
 
 double CosineTo(const Vec3d& n, const Vec3d& v) { return std::clamp(n ^ v, 0.0, 1.0); }
 
+// The light's direction mirrored in the surface without normal maps.
+Vec3d MirroredAtHorizon(const Vec3d& unmapped, const Vec3d& l) {
+  return l - unmapped * (2 * (unmapped ^ l));
+}
+
+bool IsBelowHorizon(const StackNormals& normals, const Vec3d& l) {
+  return normals.unmapped && !((*normals.unmapped ^ l) > 0);
+}
+
+// A sample of a glossy lobe, mirrored in the horizon if it is below.
+Vec3d RaisedAboveHorizon(const StackNormals& normals, const Vec3d& n, const Vec3d& l) {
+  return IsBelowHorizon(normals, l) && (n ^ l) > 0 ? MirroredAtHorizon(*normals.unmapped, l) : l;
+}
+
+// The pdf of such samples, of which pdf(l) is that of the lobe.
+template <class Pdf>
+double WithMirroredPdf(const StackNormals& normals, const Vec3d& n, const Vec3d& l,
+                       const Pdf& pdf) {
+  if (!normals.unmapped) return pdf(l);
+  if (IsBelowHorizon(normals, l)) return (n ^ l) > 0 ? 0 : pdf(l);
+  const Vec3d below = MirroredAtHorizon(*normals.unmapped, l);
+  return (n ^ below) > 0 ? pdf(l) + pdf(below) : pdf(l);
+}
+
+// The glossy light that a model with layers reflects from l mirrored in the horizon.
+Rgb MirroredLobe(const ShadingMaterial& material, const StackNormals& normals, const Vec3d& n,
+                 const Vec3d& l, const Vec3d& v) {
+  if (!normals.unmapped) return Rgb(0, 0, 0);
+  const Vec3d below = MirroredAtHorizon(*normals.unmapped, l);
+  if (!IsAbove(n, below, v)) return Rgb(0, 0, 0);
+  Reflection reflected = ReflectModel(material, n, below, v);
+  const Angles<double> angles = ComputeAngles(n, below, v);
+  for (const LayerModel& layer : material.layers) {
+    const LayerReflection terms = EvaluateLayer(layer, angles);
+    reflected.specular *= terms.below;
+    ComponentOf(KindOf(layer), reflected) += terms.lobe;
+  }
+  return reflected.specular;
+}
+
 // Calls use(level) from the bottom up.
 template <class Use>
 void ForEachLevel(const ShadingMaterial& material, const StackNormals& normals, const Vec3d& l,
                   const Vec3d& v, const Use& use) {
+  if (IsBelowHorizon(normals, l)) return;
   const Vec3d& n = normals.model;
   if (IsAbove(n, l, v)) {
     use(StackLevel{"model", 0, ReflectModel(material, n, l, v), Rgb(0, 0, 0)});
@@ -148,10 +188,13 @@ void ForEachLevel(const ShadingMaterial& material, const StackNormals& normals, 
       use(level);
     }
   }
+  const Rgb mirrored = MirroredLobe(material, normals, n, l, v);
+  if (!IsBlack(mirrored)) use(StackLevel{kMirroredLevel, 0, {Rgb(0), mirrored}, Rgb(1)});
   for (size_t k = 0; k < material.coats.size(); ++k) {
     const ShadingMaterial& coat = *material.coats[k];
     const Vec3d& m = normals.coat(k);
-    const Reflection own = IsAbove(m, l, v) ? ReflectModel(coat, m, l, v) : Reflection{};
+    Reflection own = IsAbove(m, l, v) ? ReflectModel(coat, m, l, v) : Reflection{};
+    own.specular += MirroredLobe(coat, normals, m, l, v);
     use(StackLevel{"coat", k, own, TransmittedByCoat(coat, CosineTo(m, v))});
   }
 }
@@ -167,9 +210,8 @@ double KullaContyChance(const MicrofacetModel& model, double n_dot_v) {
   return Fraction(LargestChannel(model.f_multiple) * loss, single);
 }
 
-// Samples the model's glossy lobe.
-Vec3d SampleLobeOf(const ShadingMaterial& material, const Vec3d& n, const Vec3d& v, double u0,
-                   double u1) {
+Vec3d SampleUnmirrored(const ShadingMaterial& material, const Vec3d& n, const Vec3d& v, double u0,
+                       double u1) {
   if (const auto* user = std::get_if<UserModel>(&material.model)) {
     return SampleUser(*user, n, v, u0, u1);
   }
@@ -187,8 +229,15 @@ Vec3d SampleLobeOf(const ShadingMaterial& material, const Vec3d& n, const Vec3d&
   return SampleGgxVisible(n, v, model.alpha, chooser.rest(), u1);
 }
 
-double LobePdfOf(const ShadingMaterial& material, const Vec3d& n, const Vec3d& v, const Vec3d& l) {
-  if (!HasSampledLobe(material)) return 0;
+// Samples the model's glossy lobe.
+Vec3d SampleLobeOf(const ShadingMaterial& material, const StackNormals& normals, const Vec3d& n,
+                   const Vec3d& v, double u0, double u1) {
+  const Vec3d l = SampleUnmirrored(material, n, v, u0, u1);
+  return RaisedAboveHorizon(normals, n, l);
+}
+
+double UnmirroredPdf(const ShadingMaterial& material, const Vec3d& n, const Vec3d& v,
+                     const Vec3d& l) {
   if (const auto* user = std::get_if<UserModel>(&material.model)) return UserPdf(*user, n, v, l);
   if (const auto* phong = std::get_if<PhongFamilyModel>(&material.model)) {
     return phong->model == PhongModel::kBlinnPhong ? BlinnLobePdf(n, v, l, phong->shininess)
@@ -199,6 +248,15 @@ double LobePdfOf(const ShadingMaterial& material, const Vec3d& n, const Vec3d& v
   const double single = (1 - chance) * GgxVisiblePdf(n, v, l, model.alpha);
   if (chance == 0) return single;
   return single + chance * KullaContyPdf(n ^ l, double{KullaContySpread(model.albedo.lobe.shape)});
+}
+
+// The pdf of SampleLobeOf, whose directions below the horizon are mirrored in it.
+double LobePdfOf(const ShadingMaterial& material, const StackNormals& normals, const Vec3d& n,
+                 const Vec3d& v, const Vec3d& l) {
+  if (!HasSampledLobe(material)) return 0;
+  return WithMirroredPdf(normals, n, l, [&](const Vec3d& to_light) {
+    return UnmirroredPdf(material, n, v, to_light);
+  });
 }
 
 // The probabilities in a stack at one view direction.
@@ -222,7 +280,7 @@ StackChances ChancesOf(const ShadingMaterial& material, const StackNormals& norm
   FindCoatChances(coats, albedos.glossy, chances.coats);
   for (const LayerModel& layer : material.layers) {
     const bool diffuse = KindOf(layer) == LobeKind::kDiffuse;
-    const double below = diffuse ? LargestChannel(Rgb(Vec3f(material.albedo))) : albedos.glossy;
+    const double below = diffuse ? BaseAlbedo(material) : albedos.glossy;
     chances.layers.push_back(LayerChance(layer, n_dot_v, below));
   }
   return chances;
@@ -236,15 +294,16 @@ Vec3d SampleKind(const ShadingMaterial& material, const StackNormals& normals,
   if (kind == LobeKind::kGlossy) {
     for (size_t k = material.coats.size(); k-- > 0;) {
       if (!chooser.Takes(chances.coats[k])) continue;
-      return SampleLobeOf(*material.coats[k], normals.coat(k), v, chooser.rest(), u1);
+      return SampleLobeOf(*material.coats[k], normals, normals.coat(k), v, chooser.rest(), u1);
     }
   }
   for (size_t k = material.layers.size(); k-- > 0;) {
     if (KindOf(material.layers[k]) != kind || !chooser.Takes(chances.layers[k])) continue;
-    return SampleLayer(material.layers[k], n, chooser.rest(), u1);
+    const Vec3d l = SampleLayer(material.layers[k], n, v, chooser.rest(), u1);
+    return kind == LobeKind::kGlossy ? RaisedAboveHorizon(normals, n, l) : l;
   }
   return kind == LobeKind::kDiffuse ? SampleCosine(n, chooser.rest(), u1)
-                                    : SampleLobeOf(material, n, v, chooser.rest(), u1);
+                                    : SampleLobeOf(material, normals, n, v, chooser.rest(), u1);
 }
 
 double KindPdf(const ShadingMaterial& material, const StackNormals& normals,
@@ -253,17 +312,21 @@ double KindPdf(const ShadingMaterial& material, const StackNormals& normals,
   double pdf = 0, left = 1;
   for (size_t k = kind == LobeKind::kGlossy ? material.coats.size() : 0; k-- > 0;) {
     if (!(chances.coats[k] > 0)) continue;
-    pdf += left * chances.coats[k] * LobePdfOf(*material.coats[k], normals.coat(k), v, l);
+    pdf += left * chances.coats[k] * LobePdfOf(*material.coats[k], normals, normals.coat(k), v, l);
     left *= 1 - chances.coats[k];
   }
   for (size_t k = material.layers.size(); k-- > 0;) {
     if (KindOf(material.layers[k]) != kind) continue;
-    pdf += left * chances.layers[k] * LayerPdf(material.layers[k], n ^ l);
+    const auto layer_pdf = [&](const Vec3d& to_light) {
+      return LayerPdf(material.layers[k], ComputeAngles(n, to_light, v));
+    };
+    pdf += left * chances.layers[k] *
+           (kind == LobeKind::kGlossy ? WithMirroredPdf(normals, n, l, layer_pdf) : layer_pdf(l));
     left *= 1 - chances.layers[k];
   }
   if (!(left > 0)) return pdf;
-  return pdf +
-         left * (kind == LobeKind::kDiffuse ? CosinePdf(n ^ l) : LobePdfOf(material, n, v, l));
+  return pdf + left * (kind == LobeKind::kDiffuse ? CosinePdf(n ^ l)
+                                                  : LobePdfOf(material, normals, n, v, l));
 }
 
 double PdfOf(const ShadingMaterial& material, const StackNormals& normals,

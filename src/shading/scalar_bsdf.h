@@ -4,6 +4,7 @@
 // pixels, not for rendering: bsdf.h does the same for batches, by kernels in float.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,9 @@ namespace nacre {
 struct StackNormals {
   Vec3d model;
   std::span<const Vec3d> coats;
+  // Of the surface without normal maps, if it has any: no light comes from below its plane, and
+  // glossy lobes that reach below it are mirrored in it, as in bsdf.cc.
+  std::optional<Vec3d> unmapped;
 
   StackNormals(const Vec3d& all) : model(all) {}  // NOLINT(google-explicit-constructor)
   StackNormals(const Vec3d& of_model, std::span<const Vec3d> of_coats)
@@ -32,10 +36,13 @@ struct StackNormals {
 Reflection Reflect(const ShadingMaterial& material, const StackNormals& normals,
                    const Vec3d& to_light, const Vec3d& to_view);
 
+// The level of glossy light that the model reflects by way of the horizon (StackNormals::unmapped).
+inline constexpr std::string_view kMirroredLevel = "mirrored at the horizon";
+
 // One level of a stack: what it reflects itself, and the factor by which it attenuates what all
 // levels below it reflect.
 struct StackLevel {
-  std::string_view name;  // "model", a layer's name, "coat"
+  std::string_view name;  // "model", a layer's name, kMirroredLevel, "coat"
   size_t index;           // among the layers, or among the coats
   Reflection own;
   Rgb below;

@@ -25,6 +25,24 @@ struct Surface : HitDirections {
   Soa3<float> transmittance;
 };
 
+// Normals of meshes may lean away from the viewer: the cosine then counts as 0.
+inline double NDotV(const Surface& surface, size_t i) {
+  return std::clamp(VectorAt(surface.normal, i).dot(VectorAt(surface.to_view, i)), 0.0, 1.0);
+}
+
+// The normals of the plane below which no light comes: the surface without normal maps.
+inline const Soa3<float>& HorizonNormal(const Surface& surface) {
+  return surface.normal_mapped ? surface.interpolated_normal : surface.normal;
+}
+
+// Sampled directions whose cosine with HorizonNormal is at most this are below the horizon. With
+// normal maps, glossy lobes and mirrors are bent and mirrored to above the horizon
+// (hit/shading_normal.h, RaiseAboveHorizon), and may be narrower than what rounding leaves of that:
+// a few units of 2^-24 of a product of unit vectors in float, here with a margin.
+inline float LowestHeight(const Surface& surface) {
+  return surface.normal_mapped ? -0x1p-20f : 0.0f;
+}
+
 // One light at the hits of a batch.
 struct LightBatch {
   // Unit vectors if the light is LightForm::kGiven. After EvaluateLight they are not normalised:

@@ -166,14 +166,10 @@ class RunTexturer {
   // Each layer reflects its albedo of ambient light, and attenuates what is reflected below it.
   void CoverAmbient() {
     const ShadingMaterial& material = run_.material;
-    const Soa3<float>&n = surface_->normal, &v = surface_->to_view;
+    const HitParameters* const maps = material.by_hit.model ? t_ : nullptr;
     for (const LayerModel& layer : material.layers) {
       for (size_t i = run_.begin; i < run_.end; ++i) {
-        const double n_dot_v =
-            double{n.x[i]} * v.x[i] + double{n.y[i]} * v.y[i] + double{n.z[i]} * v.z[i];
-        const LayerReflection albedo =
-            LayerAlbedo(material.by_hit.model ? LayerAtHit(layer, *t_, i) : layer,
-                        std::clamp(n_dot_v, 0.0, 1.0));
+        const LayerReflection albedo = LayerAlbedo(LayerAtHit(layer, maps, i), NDotV(*surface_, i));
         for (int c = 0; c < 3; ++c) {
           float& ambient = ChannelOf(t_->ambient, c)[i];
           ambient =

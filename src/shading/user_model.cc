@@ -225,6 +225,7 @@ Reflection ReflectUser(const UserModel& model, const Vec3d& normal, const Vec3d&
 Vec3d SampleUser(const UserModel& model, const Vec3d& normal, const Vec3d& to_view, double u0,
                  double u1) {
   if (!model.brdf->sample) return SampleCosine(normal, u0, u1);
+  if (!((normal ^ to_view) > 0)) return normal;
   Vec3d to_light;
   Sample(*model.brdf, {1, VectorsOf(normal), VectorsOf(to_view), {}}, &u0, &u1,
          {&to_light.x, &to_light.y, &to_light.z});

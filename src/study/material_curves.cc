@@ -237,8 +237,7 @@ Figure LobeFigure(const std::vector<NamedLobe>& lobes) {
   return figure;
 }
 
-// ---- BRDFs as pictures of their most informative slice
-// -------------------------------------------
+// --- BRDFs as pictures of their most informative slice.
 
 namespace {
 

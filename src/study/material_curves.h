@@ -60,8 +60,7 @@ struct NamedLobe {
 // first lobe's width, so that it falls off almost completely.
 Figure LobeFigure(const std::vector<NamedLobe>& lobes);
 
-// ---- BRDFs as pictures of their most informative slice
-// -------------------------------------------
+// --- BRDFs as pictures of their most informative slice.
 
 // The directions at a point of the slice: the half vector is `theta_h` from the normal, and the
 // light `theta_d` from the half vector, at right angles to the plane of both (phi_d = 90 degrees;

@@ -51,11 +51,18 @@ struct Point {
   Vec3d position, normal, to_view;
 };
 
-// A prepared material, and the normals of its coats, which have normal maps of their own.
+// A prepared material, and the normals at the pixel that maps may have changed.
 struct ExplainedMaterial {
   ShadingMaterial prepared;
-  ShadingMaterial base;  // without coats and layers
-  std::vector<Vec3d> coat_normals;
+  ShadingMaterial base;             // without coats and layers
+  std::vector<Vec3d> coat_normals;  // coats have normal maps of their own
+  std::optional<Vec3d> unmapped;    // without normal maps, if the material or a coat has one
+
+  StackNormals NormalsWith(const Vec3d& model) const {
+    StackNormals normals(model, coat_normals);
+    normals.unmapped = unmapped;
+    return normals;
+  }
 };
 
 // The centre of a light with an extent, for which its angles are reported; nullopt for lights all
@@ -153,7 +160,7 @@ Json CoatTermsJson(const ShadingMaterial& material, size_t k, const StackNormals
 Reflection ReflectedJson(const ExplainedMaterial& material, const Point& point,
                          const Vec3d& to_light, const Rgb& irradiance, Json* json) {
   const ShadingMaterial& prepared = material.prepared;
-  const StackNormals normals(point.normal, material.coat_normals);
+  const StackNormals normals = material.NormalsWith(point.normal);
   const Vec3d& v = point.to_view;
   const Reflection sum = Reflect(prepared, normals, to_light, v);
   const Reflection reflected = {sum.diffuse * irradiance, sum.specular * irradiance};
@@ -187,6 +194,7 @@ Reflection ReflectedJson(const ExplainedMaterial& material, const Point& point,
     const LayerModel& layer = prepared.layers[k];
     cover(NameOf(layer), k, above ? LayerTermsJson(layer, angles) : Json::object());
   }
+  if (material.unmapped) cover(kMirroredLevel, 0, Json::object());
   for (size_t k = 0; k < prepared.coats.size(); ++k) {
     cover("coat", k, CoatTermsJson(prepared, k, normals, to_light, v));
   }
@@ -244,7 +252,7 @@ Json LightJson(const Light& light, const ExplainedMaterial& material, const Poin
 }
 
 // f n.l in the plane of normal and viewer, for light from -90 degrees (on the viewer's side) to 90.
-Json LobeJson(const ShadingMaterial& material, const Point& point) {
+Json LobeJson(const ExplainedMaterial& material, const Point& point) {
   const double n_dot_v = point.normal ^ point.to_view;
   Vec3d across = point.to_view - point.normal * n_dot_v;
   if (!(across.length() > 1e-9)) {
@@ -256,7 +264,8 @@ Json LobeJson(const ShadingMaterial& material, const Point& point) {
   for (int i = -kCurveSteps + 1; i < kCurveSteps; ++i) {
     const double angle = i / kDegrees;
     const Vec3d to_light = point.normal * std::cos(angle) - across * std::sin(angle);
-    const Reflection r = Reflect(material, point.normal, to_light, point.to_view);
+    const Reflection r =
+        Reflect(material.prepared, material.NormalsWith(point.normal), to_light, point.to_view);
     const auto mean = [](const Rgb& rgb) { return (rgb.x + rgb.y + rgb.z) / 3; };
     diffuse.push_back(NumberJson(mean(r.diffuse)));
     specular.push_back(NumberJson(mean(r.specular)));
@@ -386,18 +395,28 @@ Json ExplainPixel(const Scene& scene, const PixelLayers& layers, const PixelWith
   explained.base = explained.prepared;
   explained.base.layers.clear();
   explained.base.coats.clear();
+  const bool base_mapped = own.normal_map.texture.valid() || own.bump_map.texture.valid();
+  const auto normal_with = [&](const Material& other) {
+    return LayerOf(pixel_with(number - 1, other), "N", "XYZ").normalized();
+  };
+  bool any_mapped = base_mapped;
   for (const Material& coat : CoatsOf(own)) {
-    const bool has_own = own.normal_map.texture.valid() || own.bump_map.texture.valid() ||
-                         coat.normal_map.texture.valid();
-    explained.coat_normals.push_back(
-        has_own ? LayerOf(pixel_with(number - 1, coat), "N", "XYZ").normalized() : point.normal);
+    any_mapped = any_mapped || coat.normal_map.texture.valid();
+    const bool has_own = base_mapped || coat.normal_map.texture.valid();
+    explained.coat_normals.push_back(has_own ? normal_with(coat) : point.normal);
+  }
+  if (any_mapped) {
+    Material unmapped = own;
+    unmapped.normal_map = {};
+    unmapped.bump_map = {};
+    explained.unmapped = normal_with(unmapped);
   }
   for (const Light& light : scene.lights) {
     if (std::holds_alternative<AmbientLight>(light.kind)) continue;
     lights.push_back(LightJson(light, explained, point, layers));
   }
   json["lights"] = std::move(lights);
-  json["lobe"] = LobeJson(explained.prepared, point);
+  json["lobe"] = LobeJson(explained, point);
   json["curves"] = CurvesJson(explained.prepared);
   return json;
 }

@@ -249,13 +249,12 @@ HWY_INLINE void TestLarge(const TraceGeometry& geometry, const LightBins& bins,
     std::fill_n(rays->occluded.data(), rays->count, uint8_t{0});
     return;
   }
-  StartSpheres starts{};  // where the rays start, if those are large
+  StartSpheres starts{};  // the spheres that the rays start on
   for (size_t first = 0; first < rays->count; first += step) {
     const size_t count = std::min(step, rays->count - first);
     for (size_t lane = 0; lane < count; ++lane) {
       const uint32_t start = rays->primitive[first + lane];
-      const bool is_large = std::binary_search(large.begin(), large.end(), start);
-      starts.Set(lane, is_large ? geometry.spheres[start] : kNoSphere);
+      starts.Set(lane, start < geometry.SphereCount() ? geometry.spheres[start] : kNoSphere);
     }
     const auto load = [&]() HWY_ATTR { return LoadShadowRays(d, *rays, first); };
     const auto loaded = load();

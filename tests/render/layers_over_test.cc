@@ -54,6 +54,35 @@ TEST_CASE("a white surface stays white under a coat of any roughness, by numbers
   });
 }
 
+// A lobe's directions below the surface were light for the level whose normal faced them.
+TEST_CASE("a white metal under a coat stays white, whatever normals the two are mapped to") {
+  ForEachTarget([](Target) {
+    const auto check = [](bool on_base, bool on_coat) {
+      CAPTURE(on_base, on_coat);
+      MetallicRoughnessMaterial white = WhiteUnderCoat();
+      white.metallic = white.roughness = 1;
+      white.coat_roughness = 0.5;
+      white.coat_ior = 3;
+      Scene scene = OrthographicSphere(white, 64);
+      scene.lights = {WhiteSky()};
+      Material& material = scene.materials[0];
+      auto& model = std::get<MetallicRoughnessMaterial>(material.model);
+      if (on_base) {
+        material.normal_map.texture =
+            AddTexture(&scene, 8, 4, [](int, int) { return Rgb(0.8, 0.5, 0.9); });
+      }
+      if (on_coat) {
+        model.coat_normal_map.texture =
+            AddTexture(&scene, 8, 4, [](int, int) { return Rgb(0.5, 0.2, 0.9); });
+      }
+      CheckWhiteUnderCoat(scene);
+    };
+    check(true, false);
+    check(false, true);
+    check(true, true);
+  });
+}
+
 // The worst error of a sphere's pixels against Reflect at the normals that a layer shows, relative
 // to it; of pixels away from the outline.
 double WorstAgainstTwin(const Scene& scene, const Vec3d& to_light, double irradiance) {

@@ -625,13 +625,21 @@ const Case kCases[] = {
      0.05, 0.01},
 };
 
+// The thread sanitizer would take two hours for the truths. It looks for races, which renders of
+// few samples have as well.
+#if defined(__SANITIZE_THREAD__)
+constexpr bool kTruths = false;
+#else
+constexpr bool kTruths = true;
+#endif
+
 TEST_CASE("what is rare is sampled to the wanted error, or told") {
   for (const Case& c : kCases) {
     Scene scene = c.make();
-    const Image truth = Truth(scene, c.true_samples);
+    const Image truth = Truth(scene, kTruths ? c.true_samples : 16);
     const Shares shares = SharesOf(scene, truth, c.max_error);
     CAPTURE(c.name, c.max_error, shares.untold, shares.told);
-    CHECK(shares.untold <= 0.05);
+    if (kTruths) CHECK(shares.untold <= 0.05);
     CHECK(shares.told <= c.most_told);
   }
 }

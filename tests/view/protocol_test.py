@@ -173,7 +173,8 @@ class ProtocolTest(unittest.TestCase):
         page.until(is_done)
         answer = explained()
         self.assertGreater(self.adds_up(answer), 0)
-        coat, = next(light for light in answer['lights'] if light['name'] == 'sun')['covers']
+        mirrored, coat = next(light for light in answer['lights'] if light['name'] == 'sun')['covers']
+        self.assertEqual(mirrored['name'], 'mirrored at the horizon')
         self.assertGreater(coat['specular'][1], 0.5)
         # The terms are those of the coat's own normal, which has no flakes: the sphere's.
         terms = coat['terms']
@@ -184,9 +185,30 @@ class ProtocolTest(unittest.TestCase):
         self.set(page, '/materials/car paint/normal_map', {'texture': 'flakes', 'scale': 0})
         smooth = explained()
         self.assertGreater(math.dist(smooth['normal'], answer['normal']), 0.05)
-        over_smooth, = next(light for light in smooth['lights'] if light['name'] == 'sun')['covers']
+        over_smooth = next(light for light in smooth['lights'] if light['name'] == 'sun')['covers'][-1]
         for through, without_flakes in zip(coat['below'], over_smooth['below']):
             self.assertAlmostEqual(through, without_flakes, places=6)
+
+    def test_a_lobe_that_leans_below_the_surface_adds_up(self):
+        """What it loses there is reflected by way of the horizon, which the explanation of a pixel names."""
+        sun = {'type': 'directional', 'direction_of_travel': [0.9, -0.4, -0.6], 'irradiance': 2}
+        _, page = self.open(SOURCE / 'scenes/coat_and_sheen.json', *SIZE, '--spp', 1, '--set', f'/lights/sun={json.dumps(sun)}',
+                            '--set', '/materials/car paint/normal_map={"texture": "flakes", "scale": 4}',
+                            '--set', '/materials/car paint/roughness=0.9')
+        page.until(is_done)
+        by_way_of_the_horizon = 0
+        for x in range(36, 58, 2):
+            for y in range(26, 44, 2):
+                page.send({'explain': x, 'y': y})
+                answer = page.until(lambda m: 'explained' in m)['explained']
+                if answer.get('material') != 'car paint':
+                    continue
+                with self.subTest(x=x, y=y):
+                    self.adds_up(answer)
+                sun = next(light for light in answer['lights'] if light['name'] == 'sun')
+                by_way_of_the_horizon += sun['state'] == 'lit' and any(
+                    cover['name'] == 'mirrored at the horizon' and cover['specular'][1] > 1e-3 for cover in sun.get('covers', []))
+        self.assertGreater(by_way_of_the_horizon, 3)
 
     def test_an_explained_lobe_lies_opposite_the_viewer(self):
         _, page = self.open(SOURCE / 'scenes/first_scene.json', *SIZE, '--spp', 1, '--set', '/materials/red/roughness=0.1')

@@ -96,12 +96,14 @@ def _with_named_settings(render: _Render, named: Mapping[str, str] = _nacre.name
         return render(*arguments, **settings, **({"_others": others} if others else {}))
 
     signature = inspect.signature(render)
+    new = [name for name in named if name not in signature.parameters]
     own = [parameter for name, parameter in signature.parameters.items() if name != "_others"]
     place = [parameter.name for parameter in own].index("progress")
-    own[place:place] = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None) for name in named]
+    own[place:place] = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None) for name in new]
     setattr(with_named, "__signature__", signature.replace(parameters=own))
-    meanings = "".join(f"        {name}: {meaning}.\n" for name, meaning in named.items())
-    with_named.__doc__ = (render.__doc__ or "").replace("        progress:", meanings + "        progress:")
+    meanings = "".join(f"        {name}: {named[name]}.\n" for name in new)
+    before, progress, after = (render.__doc__ or "").partition("        progress:")
+    with_named.__doc__ = before + meanings + progress + after
     return cast(_Render, with_named)
 
 
