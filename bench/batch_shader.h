@@ -31,8 +31,9 @@ class BatchShader {
     EvaluateLight(light_, hits, surface, &on_hits_);
     for (size_t i = 0; i < materials_.size(); ++i) {
       PrepareRun(materials_[i], i * run_, (i + 1) * run_, &surface);
-      ShadeRun(materials_[i], {hits, surface, light_, &on_hits_}, i * run_, (i + 1) * run_,
-               &scratch_, radiance);
+      ShadeRun(
+          {{materials_[i], hits, surface, i * run_, (i + 1) * run_}, light_, &on_hits_, radiance},
+          &scratch_);
     }
   }
 

@@ -84,9 +84,10 @@ struct Places {
   bool by_position = false;  // it is evaluated from the hits' positions, as lights near spheres are
 };
 
-// Runs shade(lit, surface, radiance) on a target.
+// Runs shade(lit, surface) for hits of a material on a target.
 template <class Shade>
-void BenchShade(benchmark::State& state, Target target, const Places& places, const Shade& shade) {
+void BenchShade(benchmark::State& state, const ShadingMaterial& material, Target target,
+                const Places& places, const Shade& shade) {
   PinTarget(target);
   const FlushDenormals flush;
   const HitBatch hits = MakeHits(places.in_lobe);
@@ -102,10 +103,14 @@ void BenchShade(benchmark::State& state, Target target, const Places& places, co
   if (!places.by_position && !OffsetFromSpheres({&kSphere, 1}, {0, 0, 0}, &light)) {
     state.SkipWithError("the light is too near for its offset from the sphere");
   }
+  const LitHits lit{{material, hits, surface, 0, kHits},
+                    light,
+                    places.by_position ? &on_hits : nullptr,
+                    &radiance,
+                    false};
   for (auto _ : state) {
     if (places.by_position) EvaluateLight(light, hits, surface, &on_hits);
-    shade(LitHits{hits, surface, light, places.by_position ? &on_hits : nullptr, false}, &surface,
-          &radiance);
+    shade(lit, &surface);
     benchmark::DoNotOptimize(radiance.sum.x.data());
     benchmark::ClobberMemory();
   }
@@ -117,39 +122,30 @@ void BenchKernel(benchmark::State& state, const Material& material, Target targe
                  const Places& places) {
   ShadeScratch scratch;
   const ShadingMaterial prepared = PrepareMaterial(material);
-  BenchShade(state, target, places,
-             [&](const LitHits& lit, Surface* surface, ReflectedRadiance* radiance) {
-               PrepareRun(prepared, 0, kHits, surface);
-               ShadeRun(prepared, lit, 0, kHits, &scratch, radiance);
-             });
+  BenchShade(state, prepared, target, places, [&](const LitHits& lit, Surface* surface) {
+    PrepareRun(prepared, 0, kHits, surface);
+    ShadeRun(lit, &scratch);
+  });
 }
 
-ShadeRange RangeOf(const LitHits& lit, ReflectedRadiance* radiance) {
-  return {lit.hits, lit.surface, lit.light, lit.on_hits, 0, kHits, radiance, lit.components};
-}
-
-using TextbookKernel = void (*)(const TextbookGgxUniforms&, const ShadeRange&);
+using TextbookKernel = void (*)(const TextbookGgxUniforms&, const LitHits&);
 
 void BenchTextbookGgx(benchmark::State& state, TextbookKernel kernel, Target target) {
   const TextbookGgxLight light{{18, 12, 6}, {42, 48, 54}, {4, 3, 1}};
   const float alpha = static_cast<float>(kRoughness * kRoughness);
   const float k = static_cast<float>((kRoughness + 1) * (kRoughness + 1) / 8);
   const TextbookGgxUniforms uniforms{&light, alpha * alpha, k};
-  BenchShade(state, target, {}, [&](const LitHits& lit, Surface*, ReflectedRadiance* radiance) {
-    kernel(uniforms, RangeOf(lit, radiance));
-  });
+  BenchShade(state, {}, target, {}, [&](const LitHits& lit, Surface*) { kernel(uniforms, lit); });
 }
 
-using PhongKernel = void (*)(const PhongUniforms<float>&, const ShadeRange&);
+using PhongKernel = void (*)(const PhongUniforms<float>&, const LitHits&);
 
 void BenchGiven(benchmark::State& state, PhongKernel kernel, PhongModel model, Target target,
                 bool in_lobe) {
   const PhongLight<float> light{{38, 25, 8}, {30, 30, 30}};
   const PhongUniforms<float> uniforms{model, {static_cast<float>(kShininess)}, light, nullptr};
-  BenchShade(state, target, {.in_lobe = in_lobe},
-             [&](const LitHits& lit, Surface*, ReflectedRadiance* radiance) {
-               kernel(uniforms, RangeOf(lit, radiance));
-             });
+  BenchShade(state, {}, target, {.in_lobe = in_lobe},
+             [&](const LitHits& lit, Surface*) { kernel(uniforms, lit); });
 }
 
 struct GivenBench {

@@ -19,13 +19,10 @@ namespace HWY_NAMESPACE {
 // Its numbers are copies: nothing that a kernel stores is in them.
 struct TextbookGgx {
   using Incident = IncidentV;
-  struct View {};
   TextbookGgxLight light;
   float alpha2, k, pi_over_alpha2;
 
-  HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
-  HWY_INLINE ReflectedV Reflect(FloatTag d, const View&, const PacketV& p,
-                                const IncidentV& in) const {
+  HWY_INLINE ReflectedV Reflect(FloatTag d, const PacketV& p, const IncidentV& in) const {
     const FloatV one = hn::Set(d, 1.0f);
     const FloatV smallest = hn::Set(d, 1e-30f);
     const FloatV n_dot_v = hn::Max(FusedDot(p.normal, p.to_view), hn::Zero(d));
@@ -39,7 +36,7 @@ struct TextbookGgx {
     const FloatV denominator = hn::Max(hn::Mul(hn::Mul(q, q), masking), smallest);
     const FloatV lobe = hn::Mul(in.weight, Reciprocal(d, denominator));
     const FloatV weight = Power5(hn::Sub(one, FusedDot(p.to_view, h)));
-    const RgbV fresnel = MulAddRgb(SetRgb(d, light.rest), weight, SetRgb(d, light.f0));
+    const RgbV fresnel = MulAdd3(SetRgb(d, light.rest), weight, SetRgb(d, light.f0));
     const FloatV left = hn::Mul(hn::Sub(one, weight), in.weight);
     return {{ScaledPart(SetRgb(d, light.diffuse), left)}, ScaledPart(fresnel, lobe)};
   }
@@ -48,7 +45,6 @@ struct TextbookGgx {
 // Term by term.
 struct WrittenGgx {
   using Incident = IncidentV;
-  struct View {};
   TextbookGgxLight light;
   float alpha2, k;
 
@@ -62,9 +58,7 @@ struct WrittenGgx {
     return hn::Div(cosine, hn::MulAdd(cosine, hn::Set(d, 1 - k), hn::Set(d, k)));
   }
 
-  HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
-  HWY_INLINE ReflectedV Reflect(FloatTag d, const View&, const PacketV& p,
-                                const IncidentV& in) const {
+  HWY_INLINE ReflectedV Reflect(FloatTag d, const PacketV& p, const IncidentV& in) const {
     const FloatV zero = hn::Zero(d), one = hn::Set(d, 1.0f);
     const Vec3V<FloatV>& offset = in.toward.offset;
     const Vec3V<FloatV> l = Normalize(d, offset), h = Normalize(d, Add(l, p.to_view));
@@ -81,7 +75,7 @@ struct WrittenGgx {
         hn::Div(hn::Mul(distribution, shadowing), hn::Max(four, hn::Set(d, 1e-7f)));
     const FloatV weight = hn::Mul(n_dot_l, OneOver(d, FusedDot(offset, offset)));
     const FloatV power = Power5(hn::Sub(one, v_dot_h));
-    const RgbV fresnel = MulAddRgb(SetRgb(d, light.rest), power, SetRgb(d, light.f0));
+    const RgbV fresnel = MulAdd3(SetRgb(d, light.rest), power, SetRgb(d, light.f0));
     const FloatV left = hn::Mul(hn::Sub(one, power), weight);
     return {{ScaledPart(SetRgb(d, light.diffuse), left)},
             ScaledPart(fresnel, hn::Mul(specular, weight))};
@@ -89,10 +83,9 @@ struct WrittenGgx {
 };
 
 // Phong's cosine as it is written, and what rounding leaves of 1 - c.
-HWY_NOINLINE void FillNaivePhong(const ShadeRange& range, size_t begin, size_t end,
-                                 LobeBlock* block) {
+HWY_NOINLINE void FillNaivePhong(const LitHits& lit, size_t begin, size_t end, LobeBlock* block) {
   const FloatTag d;
-  ForEachLit(d, range, begin, end, [&](const PacketV& p, const LightV& light) HWY_ATTR {
+  ForEachLit(d, lit, begin, end, [&](const PacketV& p, const LightV& light) HWY_ATTR {
     const TowardV& toward = light.toward;
     const FloatV n_dot_l = toward.Dot(p.normal);
     block->Store(d, p.i - begin, light, n_dot_l);
@@ -104,10 +97,10 @@ HWY_NOINLINE void FillNaivePhong(const ShadeRange& range, size_t begin, size_t e
 }
 
 // Blinn's likewise.
-HWY_NOINLINE void FillNaiveBlinnPhong(const ShadeRange& range, size_t begin, size_t end,
+HWY_NOINLINE void FillNaiveBlinnPhong(const LitHits& lit, size_t begin, size_t end,
                                       LobeBlock* block) {
   const FloatTag d;
-  ForEachLit(d, range, begin, end, [&](const PacketV& p, const LightV& light) HWY_ATTR {
+  ForEachLit(d, lit, begin, end, [&](const PacketV& p, const LightV& light) HWY_ATTR {
     block->Store(d, p.i - begin, light, light.toward.Dot(p.normal));
     const Vec3V<FloatV> u = light.toward.Plus(p.to_view);
     const FloatV scale = ReciprocalSqrt(d, hn::Max(FusedDot(u, u), hn::Set(d, 1e-30f)));
@@ -116,41 +109,38 @@ HWY_NOINLINE void FillNaiveBlinnPhong(const ShadeRange& range, size_t begin, siz
   });
 }
 
-template <void (*kFill)(const ShadeRange&, size_t, size_t, LobeBlock*)>
+template <void (*kFill)(const LitHits&, size_t, size_t, LobeBlock*)>
 struct NaiveLobe {
   using Incident = LobeIncidentV;
-  struct View {};
   const PhongUniforms<float>& uniforms;
 
   HWY_INLINE bool ReadsLobe() const { return true; }
-  HWY_INLINE void FillLobe(const ShadeRange& range, size_t begin, size_t end,
-                           LobeBlock* block) const {
-    kFill(range, begin, end, block);
+  HWY_INLINE void FillLobe(const LitHits& lit, size_t begin, size_t end, LobeBlock* block) const {
+    kFill(lit, begin, end, block);
   }
-  HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
-  HWY_INLINE ReflectedV Reflect(FloatTag d, const View&, const PacketV&, const Incident& in) const {
+  HWY_INLINE ReflectedV Reflect(FloatTag d, const PacketV&, const Incident& in) const {
     const FloatV lobe = LobePower(d, in.log2_cosine, hn::Set(d, uniforms.constants.shininess));
     return {{ScaledPart(SetRgb(d, uniforms.light.diffuse), in.weight)},
             ScaledPart(SetRgb(d, uniforms.light.specular), hn::Mul(lobe, in.irradiance))};
   }
 };
 
-void ShadeTextbookGgxT(const TextbookGgxUniforms& uniforms, const ShadeRange& range) {
+void ShadeTextbookGgxT(const TextbookGgxUniforms& uniforms, const LitHits& lit) {
   const float alpha2 = uniforms.alpha2;
   const TextbookGgx ggx{*uniforms.light, alpha2, uniforms.k, 3.14159265f / alpha2};
-  ShadePackets(FloatTag(), ggx, range);
+  ShadePackets(FloatTag(), ggx, lit);
 }
 
-void ShadeWrittenGgxT(const TextbookGgxUniforms& uniforms, const ShadeRange& range) {
-  ShadePackets(FloatTag(), WrittenGgx{*uniforms.light, uniforms.alpha2, uniforms.k}, range);
+void ShadeWrittenGgxT(const TextbookGgxUniforms& uniforms, const LitHits& lit) {
+  ShadePackets(FloatTag(), WrittenGgx{*uniforms.light, uniforms.alpha2, uniforms.k}, lit);
 }
 
-void ShadeNaivePhongT(const PhongUniforms<float>& uniforms, const ShadeRange& range) {
-  ShadePackets(FloatTag(), NaiveLobe<FillNaivePhong>{uniforms}, range);
+void ShadeNaivePhongT(const PhongUniforms<float>& uniforms, const LitHits& lit) {
+  ShadePackets(FloatTag(), NaiveLobe<FillNaivePhong>{uniforms}, lit);
 }
 
-void ShadeNaiveBlinnPhongT(const PhongUniforms<float>& uniforms, const ShadeRange& range) {
-  ShadePackets(FloatTag(), NaiveLobe<FillNaiveBlinnPhong>{uniforms}, range);
+void ShadeNaiveBlinnPhongT(const PhongUniforms<float>& uniforms, const LitHits& lit) {
+  ShadePackets(FloatTag(), NaiveLobe<FillNaiveBlinnPhong>{uniforms}, lit);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -164,20 +154,20 @@ HWY_EXPORT(ShadeWrittenGgxT);
 HWY_EXPORT(ShadeNaivePhongT);
 HWY_EXPORT(ShadeNaiveBlinnPhongT);
 
-void ShadeTextbookGgx(const TextbookGgxUniforms& uniforms, const ShadeRange& range) {
-  HWY_DYNAMIC_DISPATCH(ShadeTextbookGgxT)(uniforms, range);
+void ShadeTextbookGgx(const TextbookGgxUniforms& uniforms, const LitHits& lit) {
+  HWY_DYNAMIC_DISPATCH(ShadeTextbookGgxT)(uniforms, lit);
 }
 
-void ShadeWrittenGgx(const TextbookGgxUniforms& uniforms, const ShadeRange& range) {
-  HWY_DYNAMIC_DISPATCH(ShadeWrittenGgxT)(uniforms, range);
+void ShadeWrittenGgx(const TextbookGgxUniforms& uniforms, const LitHits& lit) {
+  HWY_DYNAMIC_DISPATCH(ShadeWrittenGgxT)(uniforms, lit);
 }
 
-void ShadeNaivePhong(const PhongUniforms<float>& uniforms, const ShadeRange& range) {
-  HWY_DYNAMIC_DISPATCH(ShadeNaivePhongT)(uniforms, range);
+void ShadeNaivePhong(const PhongUniforms<float>& uniforms, const LitHits& lit) {
+  HWY_DYNAMIC_DISPATCH(ShadeNaivePhongT)(uniforms, lit);
 }
 
-void ShadeNaiveBlinnPhong(const PhongUniforms<float>& uniforms, const ShadeRange& range) {
-  HWY_DYNAMIC_DISPATCH(ShadeNaiveBlinnPhongT)(uniforms, range);
+void ShadeNaiveBlinnPhong(const PhongUniforms<float>& uniforms, const LitHits& lit) {
+  HWY_DYNAMIC_DISPATCH(ShadeNaiveBlinnPhongT)(uniforms, lit);
 }
 }  // namespace nacre
 #endif

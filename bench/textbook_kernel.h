@@ -17,13 +17,13 @@ struct TextbookGgxUniforms {
 
 // (n.h)^2 (alpha^2 - 1) + 1 of a normalised h; shadowing as kSchlickDirect. All else is as nacre
 // does it: one division for distribution and shadowing, estimates with a step of Newton's.
-void ShadeTextbookGgx(const TextbookGgxUniforms& uniforms, const ShadeRange& range);
+void ShadeTextbookGgx(const TextbookGgxUniforms& uniforms, const LitHits& lit);
 // D F G / (4 n.l n.v) as books have it: the operations of ShadeGgx in scalar_baseline.cc, with its
 // divisions and roots.
-void ShadeWrittenGgx(const TextbookGgxUniforms& uniforms, const ShadeRange& range);
+void ShadeWrittenGgx(const TextbookGgxUniforms& uniforms, const LitHits& lit);
 // (r.v)^n as 2^(n log2(r.v)).
-void ShadeNaivePhong(const PhongUniforms<float>& uniforms, const ShadeRange& range);
+void ShadeNaivePhong(const PhongUniforms<float>& uniforms, const LitHits& lit);
 // (n.h)^n likewise, of a normalised h.
-void ShadeNaiveBlinnPhong(const PhongUniforms<float>& uniforms, const ShadeRange& range);
+void ShadeNaiveBlinnPhong(const PhongUniforms<float>& uniforms, const LitHits& lit);
 
 }  // namespace nacre

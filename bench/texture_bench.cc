@@ -116,12 +116,15 @@ void BenchMapped(benchmark::State& state, const Material& material, Target targe
   ReflectedRadiance radiance;
   for (auto _ : state) {
     if (prepared.scene_material != nullptr) {
-      TextureHits({textures, prepared, 0, kHits}, &hits, &surface, texture_hits.get());
+      TextureHits({textures, prepared, 0, kHits, hits, surface, *texture_hits});
     }
     PrepareRun(prepared, 0, kHits, &surface, texture_hits.get());
     EvaluateLight(shading_light, hits, surface, &on_hits);
-    ShadeRun(prepared, {hits, surface, shading_light, &on_hits, true, texture_hits.get()}, 0, kHits,
-             &scratch, &radiance);
+    ShadeRun({{prepared, hits, surface, 0, kHits, texture_hits.get()},
+              shading_light,
+              &on_hits,
+              &radiance},
+             &scratch);
     benchmark::DoNotOptimize(radiance.diffuse.x.data());
     benchmark::ClobberMemory();
   }

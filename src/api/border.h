@@ -5,8 +5,6 @@
 
 #include <new>
 #include <string>
-#include <utility>
-#include <vector>
 
 #define NACRE_OWN_SOURCE
 #include "base/error.h"

@@ -25,12 +25,8 @@ namespace {
 
 ShadingMaterial Prepare(const Scene& scene, const std::string& name) {
   const std::shared_ptr<const nacre::Scene> made = scene.impl().Made();
-  std::vector<std::string> names;
   for (const nacre::Material& material : made->materials) {
-    if (material.name != name) {
-      names.push_back(material.name);
-      continue;
-    }
+    if (material.name != name) continue;
     ShadingMaterial prepared = PrepareMaterial(material);
     if (std::holds_alternative<std::monostate>(prepared.model)) {
       throw nacre::Error(ExitCode::kUsage, "Brdf", "\"" + name + "\" is a split",
@@ -40,8 +36,9 @@ ShadingMaterial Prepare(const Scene& scene, const std::string& name) {
     DropMaps(&prepared);
     return prepared;
   }
-  throw nacre::Error(ExitCode::kUsage, "Brdf", "unknown material \"" + name + "\"",
-                     NearestHint(name, names, "Scene::material_names lists them"));
+  throw nacre::Error(
+      ExitCode::kUsage, "Brdf", "unknown material \"" + name + "\"",
+      NearestHint(name, NamesOf(made->materials), "Scene::material_names lists them"));
 }
 
 // Tolerance for |v|^2 of a unit vector. A vector normalised in float arithmetic is off by up to 9
@@ -86,13 +83,9 @@ Vec3d At(const std::array<const double*, 3>& vectors, size_t i) {
   return {vectors[0][i], vectors[1][i], vectors[2][i]};
 }
 
-template <class Values>
-void Resize(size_t count, Values* values) {
-  for (auto& plane : *values) plane.resize(count);
-}
-
-double Dot(const Directions& d, const std::array<const double*, 3>& a, size_t i) {
-  return d.normal[0][i] * a[0][i] + d.normal[1][i] * a[1][i] + d.normal[2][i] * a[2][i];
+template <class Number>
+std::array<std::vector<Number>, 3> Planes(size_t count) {
+  return {std::vector<Number>(count), std::vector<Number>(count), std::vector<Number>(count)};
 }
 
 template <class Number>
@@ -126,7 +119,9 @@ class Batch {
     CopyTo(d.to_view, begin, count, &hits_.to_view);
     CopyTo(d.to_light, begin, count, &lit_.to_light);
     for (size_t i = 0; i < count; ++i) {
-      const bool above = Dot(d, d.to_light, begin + i) > 0 && Dot(d, d.to_view, begin + i) > 0;
+      const Vec3d normal = At(d.normal, begin + i);
+      const bool above =
+          (normal ^ At(d.to_light, begin + i)) > 0 && (normal ^ At(d.to_view, begin + i)) > 0;
       lit_.irradiance[i] = above ? 1.0f : 0.0f;
     }
     PrepareSurface(hits_, &surface_);
@@ -204,9 +199,7 @@ Reflection Brdf::Evaluate(const Vec3& normal, const Vec3& to_view, const Vec3& t
 
 Reflections Brdf::Shade(const Directions& directions) const {
   return AtBorder([&] {
-    Reflections result;
-    Resize(directions.count, &result.diffuse);
-    Resize(directions.count, &result.specular);
+    Reflections result{Planes<float>(directions.count), Planes<float>(directions.count)};
     if (directions.count == 0) return result;
     CheckUnits(directions, "Shade");
     const FlushDenormals flush;  // as in renders
@@ -224,9 +217,7 @@ Reflections Brdf::Shade(const Directions& directions) const {
 ExactReflections Brdf::Evaluate(const Directions& d) const {
   return AtBorder([&] {
     CheckUnits(d, "Evaluate");
-    ExactReflections result;
-    Resize(d.count, &result.diffuse);
-    Resize(d.count, &result.specular);
+    ExactReflections result{Planes<double>(d.count), Planes<double>(d.count)};
     for (size_t i = 0; i < d.count; ++i) {
       const nacre::Reflection own =
           Reflect(impl_->material, At(d.normal, i), At(d.to_light, i), At(d.to_view, i));
@@ -243,8 +234,7 @@ std::array<std::vector<double>, 3> Brdf::Sample(const Directions& d, const doubl
                                                 const double* v) const {
   return AtBorder([&] {
     CheckUnits(d, "Sample", false);
-    std::array<std::vector<double>, 3> to_light;
-    Resize(d.count, &to_light);
+    std::array<std::vector<double>, 3> to_light = Planes<double>(d.count);
     for (size_t i = 0; i < d.count; ++i) {
       if (!(u[i] >= 0 && u[i] < 1 && v[i] >= 0 && v[i] < 1)) {
         throw nacre::Error(ExitCode::kUsage, "Brdf::Sample",
@@ -296,7 +286,7 @@ MicrofacetTerms Brdf::Terms(const Directions& d) const {
     for (auto* values : {&terms.d, &terms.g, &terms.lambda_view, &terms.lambda_light}) {
       values->resize(d.count);
     }
-    Resize(d.count, &terms.f);
+    terms.f = Planes<double>(d.count);
     for (size_t i = 0; i < d.count; ++i) {
       const Angles<double> a = ComputeAngles(At(d.normal, i), At(d.to_light, i), At(d.to_view, i));
       if (!(a.n_dot_l > 0) || !(a.n_dot_v > 0)) continue;

@@ -10,15 +10,8 @@ namespace nacre::v0 {
 namespace {
 
 SampleType ToPublic(nacre::PixelType type) {
-  switch (type) {
-    case nacre::PixelType::kHalf:
-      return SampleType::kHalf;
-    case nacre::PixelType::kFloat:
-      return SampleType::kFloat;
-    case nacre::PixelType::kUint:
-      return SampleType::kUint;
-  }
-  return SampleType::kFloat;
+  if (type == nacre::PixelType::kUint) return SampleType::kUint;
+  return type == nacre::PixelType::kHalf ? SampleType::kHalf : SampleType::kFloat;
 }
 
 }  // namespace

@@ -32,7 +32,29 @@ namespace {
 struct Shown {
   // Throws Error (kUsage) for settings out of range, and if there is no such layer; `what` names
   // the function in errors.
-  Shown(const Image& image, const ToneMapSettings& settings, const std::string& what);
+  Shown(const Image& image, const ToneMapSettings& settings, const std::string& what) {
+    CheckImage(image);
+    if (!(std::abs(settings.exposure) <= 60)) {
+      throw nacre::Error(ExitCode::kUsage, "exposure", "is not within -60 to 60 stops");
+    }
+    display = {.tone = ParseToneOperator(settings.tonemap), .exposure_ev = settings.exposure};
+    const auto transfer = image.metadata.find("transfer");
+    displayed = transfer != image.metadata.end() && transfer->second == "display";
+    const std::string prefix = settings.layer.empty() ? "" : settings.layer + ".";
+    for (size_t c = 0; c < 3; ++c) {
+      rgb[c] = RequireChannel(image, prefix + "RGB"[c], what).samples.data();
+    }
+    const ColorConversion conversion = ConversionToRec709(image.metadata);
+    if (!conversion.matrix) return;
+    const size_t pixels = image.channels[0].samples.size();
+    for (size_t c = 0; c < 3; ++c) {
+      converted_[c].assign(rgb[c], rgb[c] + pixels);
+      rgb[c] = converted_[c].data();
+    }
+    ConvertColors(*conversion.matrix,
+                  {converted_[0].data(), converted_[1].data(), converted_[2].data()}, 1, pixels,
+                  /*clip=*/false);
+  }
 
   nacre::DisplaySettings display;
   bool displayed;  // the values are display values already
@@ -70,30 +92,6 @@ Rgb8Picture ToOwn(const Picture& picture) {
     std::copy_n(picture.rgba.data() + 4 * i, 3, own.rgb8.data() + 3 * i);
   }
   return own;
-}
-
-Shown::Shown(const Image& image, const ToneMapSettings& settings, const std::string& what) {
-  CheckImage(image);
-  if (!(std::abs(settings.exposure) <= 60)) {
-    throw nacre::Error(ExitCode::kUsage, "exposure", "is not within -60 to 60 stops");
-  }
-  display = {.tone = ParseToneOperator(settings.tonemap), .exposure_ev = settings.exposure};
-  const auto transfer = image.metadata.find("transfer");
-  displayed = transfer != image.metadata.end() && transfer->second == "display";
-  const std::string prefix = settings.layer.empty() ? "" : settings.layer + ".";
-  for (size_t c = 0; c < 3; ++c) {
-    rgb[c] = RequireChannel(image, prefix + "RGB"[c], what).samples.data();
-  }
-  const ColorConversion conversion = ConversionToRec709(image.metadata);
-  if (!conversion.matrix) return;
-  const size_t pixels = image.channels[0].samples.size();
-  for (size_t c = 0; c < 3; ++c) {
-    converted_[c].assign(rgb[c], rgb[c] + pixels);
-    rgb[c] = converted_[c].data();
-  }
-  ConvertColors(*conversion.matrix,
-                {converted_[0].data(), converted_[1].data(), converted_[2].data()}, 1, pixels,
-                /*clip=*/false);
 }
 
 // Writes the codes of `count` pixels, row by row from pixel `first` on: R, G and B of each.
@@ -148,15 +146,9 @@ std::vector<uint8_t> EncodeJpeg(const Picture& picture, int quality) {
 namespace {
 
 nacre::PixelType ToFile(SampleType type, bool half_floats) {
-  switch (type) {
-    case SampleType::kHalf:
-      return half_floats ? nacre::PixelType::kHalf : nacre::PixelType::kFloat;
-    case SampleType::kFloat:
-      return nacre::PixelType::kFloat;
-    case SampleType::kUint:
-      return nacre::PixelType::kUint;
-  }
-  return nacre::PixelType::kFloat;
+  if (type == SampleType::kUint) return nacre::PixelType::kUint;
+  const bool half = type == SampleType::kHalf && half_floats;
+  return half ? nacre::PixelType::kHalf : nacre::PixelType::kFloat;
 }
 
 // Parses sixteen numbers, as the reader prints a matrix; nullopt for any other text.

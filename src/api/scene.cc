@@ -6,7 +6,7 @@
 
 #include "api/scene_impl.h"
 #include "scene_io/load_scene.h"
-#include "scene_io/model_tree.h"
+#include "scene_io/scene_json.h"
 
 namespace nacre::v0 {
 
@@ -23,18 +23,15 @@ Scene::~Scene() = default;
 Scene Scene::FromFile(const std::string& path) {
   return AtBorder([&] {
     Scene scene;
-    Impl::Source source;
-    source.allow_paths = false;
     FaultList faults;
     if (IsModelFile(path)) {
-      source.document = DocumentOfModel(path);
+      scene.impl_ = std::make_unique<Impl>(DocumentOfModel(path), &faults);
     } else {
       RefuseOtherModels(path);
       const std::string text = ReadSceneText(path);
-      source.document =
-          ParseDocument({text, path, std::filesystem::path(path).parent_path()}, &faults);
+      scene.impl_ = std::make_unique<Impl>(
+          ParseDocument({text, path, std::filesystem::path(path).parent_path()}, &faults), &faults);
     }
-    scene.impl_ = std::make_unique<Impl>(std::move(source), &faults);
     return scene;
   });
 }
@@ -42,11 +39,8 @@ Scene Scene::FromFile(const std::string& path) {
 Scene Scene::FromJson(const std::string& text, const std::string& folder) {
   return AtBorder([&] {
     Scene scene;
-    Impl::Source source;
-    source.allow_paths = false;
     FaultList faults;
-    source.document = ParseDocument({text, "scene", folder}, &faults);
-    scene.impl_ = std::make_unique<Impl>(std::move(source), &faults);
+    scene.impl_ = std::make_unique<Impl>(ParseDocument({text, "scene", folder}, &faults), &faults);
     return scene;
   });
 }
@@ -142,19 +136,11 @@ size_t Scene::mesh_count() const {
 }
 
 std::vector<std::string> Scene::material_names() const {
-  return AtBorder([&] {
-    std::vector<std::string> names;
-    for (const nacre::Material& material : impl_->Made()->materials) names.push_back(material.name);
-    return names;
-  });
+  return AtBorder([&] { return NamesOf(impl_->Made()->materials); });
 }
 
 std::vector<std::string> Scene::light_names() const {
-  return AtBorder([&] {
-    std::vector<std::string> names;
-    for (const nacre::Light& light : impl_->Made()->lights) names.push_back(light.name);
-    return names;
-  });
+  return AtBorder([&] { return NamesOf(impl_->Made()->lights); });
 }
 
 }  // namespace nacre::v0

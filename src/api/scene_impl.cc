@@ -9,7 +9,6 @@
 #include "scene/fault_list.h"
 #include "scene/limits.h"
 #include "scene/validate.h"
-#include "scene_io/load_scene.h"
 
 namespace nacre::v0 {
 namespace {
@@ -37,10 +36,8 @@ std::vector<nacre::MaterialId> FindMaterials(const std::vector<std::string>& nam
     const auto found = places.find(name);
     ids.push_back(found != places.end() ? nacre::MaterialId{found->second} : nacre::MaterialId{});
     if (found != places.end()) continue;
-    std::vector<std::string> known;
-    for (const nacre::Material& material : scene.materials) known.push_back(material.name);
     faults.Add("material", "unknown material \"" + name + "\"",
-               NearestHint(name, known, "AddMaterial adds one"));
+               NearestHint(name, NamesOf(scene.materials), "AddMaterial adds one"));
   }
   if (faults.count() > 0) throw nacre::Error(ExitCode::kBadInput, faults.All());
   return ids;
@@ -98,7 +95,9 @@ nacre::LiveScene Scene::Impl::MakeLive(const Source& source) {
   return {source.document, OptionsOf(source), append};
 }
 
-Scene::Impl::Impl(Source read, FaultList* faults) : source(std::move(read)) {
+Scene::Impl::Impl(nacre::SceneDocument read, FaultList* faults) {
+  source.document = std::move(read);
+  source.allow_paths = false;
   made_ = std::make_shared<nacre::Scene>(ReadDocument(source.document, OptionsOf(source), faults));
 }
 

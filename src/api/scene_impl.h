@@ -39,7 +39,7 @@ struct Scene::Impl {
 
   Impl() = default;
   // Makes the scene of a document that has just been parsed. `faults` has what parsing found wrong.
-  Impl(Source read, FaultList* faults);
+  Impl(nacre::SceneDocument read, FaultList* faults);
   Impl(const Impl& other) : source(other.source), made_(other.MadeSoFar()) {}
   Impl& operator=(const Impl&) = delete;
 
@@ -57,6 +57,13 @@ struct Scene::Impl {
   mutable std::mutex mutex_;
   mutable std::shared_ptr<const nacre::Scene> made_;
 };
+
+template <class Item>
+std::vector<std::string> NamesOf(const std::vector<Item>& items) {
+  std::vector<std::string> names;
+  for (const Item& item : items) names.push_back(item.name);
+  return names;
+}
 
 // Converts the functions of a user's model. Throws nacre::Error (kUsage) if some are missing.
 std::shared_ptr<const nacre::UserBrdf> ToOwn(const UserBrdf& brdf, const std::string& name);

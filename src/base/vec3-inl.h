@@ -70,6 +70,12 @@ HWY_INLINE Vec3V<V> Negated(const Vec3V<V>& a) {
   return {hn::Neg(a.x), hn::Neg(a.y), hn::Neg(a.z)};
 }
 
+// Component by component.
+template <class V>
+HWY_INLINE Vec3V<V> Mul3(const Vec3V<V>& a, const Vec3V<V>& b) {
+  return {hn::Mul(a.x, b.x), hn::Mul(a.y, b.y), hn::Mul(a.z, b.z)};
+}
+
 template <class V>
 HWY_INLINE Vec3V<V> Scale(const Vec3V<V>& a, V s) {
   return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)};

@@ -20,7 +20,6 @@
 #include "compare/perceptual.h"
 #include "compare/verdict.h"
 #include "image_io/canvas.h"
-#include "image_io/output_file.h"
 #include "image_io/png_writer.h"
 #include "image_io/read_image.h"
 #include "scene_io/json_text.h"
@@ -196,48 +195,42 @@ void AddCompareCommand(CLI::App* app, int* exit_code) {
   command->add_flag("--crop", a->options.crop,
                     "Compare only the pixels that both images have; if not given, display windows "
                     "that differ are a difference");
-  const std::string tolerance = "Tolerances (without any, images must be equal)";
   const auto not_negative = InRange(0, 1e30);
-  command
-      ->add_option("--max-abs", a->tolerances.max_abs,
-                   "A sample may differ by this plus --max-rel times |reference|")
-      ->check(not_negative)
-      ->group(tolerance);
-  command
-      ->add_option("--max-rel", a->tolerances.max_rel,
-                   "Relative tolerance, added to --max-abs; with --max-abs 0, samples whose "
-                   "reference is 0 must be equal")
-      ->check(not_negative)
-      ->group(tolerance);
-  command
-      ->add_option("--fraction", a->tolerances.exceeding_fraction,
-                   "Share of the pixels that may exceed these two")
-      ->check(InRange(0, 1))
-      ->group(tolerance);
-  command
-      ->add_option("--rmse", a->tolerances.rmse,
-                   "Allowed RMSE of a layer; if it is the only tolerance, single samples may "
-                   "differ by any amount")
-      ->check(not_negative)
-      ->group(tolerance);
+  {
+    const InGroup group(command, "Tolerances (without any, images must be equal)");
+    command
+        ->add_option("--max-abs", a->tolerances.max_abs,
+                     "A sample may differ by this plus --max-rel times |reference|")
+        ->check(not_negative);
+    command
+        ->add_option("--max-rel", a->tolerances.max_rel,
+                     "Relative tolerance, added to --max-abs; with --max-abs 0, samples whose "
+                     "reference is 0 must be equal")
+        ->check(not_negative);
+    command
+        ->add_option("--fraction", a->tolerances.exceeding_fraction,
+                     "Share of the pixels that may exceed these two")
+        ->check(InRange(0, 1));
+    command
+        ->add_option("--rmse", a->tolerances.rmse,
+                     "Allowed RMSE of a layer; if it is the only tolerance, single samples may "
+                     "differ by any amount")
+        ->check(not_negative);
+  }
   AddPerceptualOptions(command, &a->perceptual);
-  const std::string map = "Heat map";
-  command->add_option("--heat-map", a->heat_map, "PNG file that shows the error of each pixel")
-      ->group(map);
-  command->add_option("--heat-layer", a->heat_layer, "Layer to show (the beauty, if not given)")
-      ->group(map);
-  command->add_option("--heat-low", a->heat_scale.low, "Error at the dark end of the scale")
-      ->check(InRange(1e-30, 1e30))
-      ->capture_default_str()
-      ->group(map);
-  command->add_option("--heat-high", a->heat_scale.high, "Error at the bright end of the scale")
-      ->check(InRange(1e-30, 1e30))
-      ->capture_default_str()
-      ->group(map);
-  command
-      ->add_flag("--absolute", a->absolute,
-                 "Show absolute errors, not errors relative to sqrt(reference^2 + 0.01^2)")
-      ->group(map);
+  {
+    const InGroup group(command, "Heat map");
+    command->add_option("--heat-map", a->heat_map, "PNG file that shows the error of each pixel");
+    command->add_option("--heat-layer", a->heat_layer, "Layer to show (the beauty, if not given)");
+    command->add_option("--heat-low", a->heat_scale.low, "Error at the dark end of the scale")
+        ->check(InRange(1e-30, 1e30))
+        ->capture_default_str();
+    command->add_option("--heat-high", a->heat_scale.high, "Error at the bright end of the scale")
+        ->check(InRange(1e-30, 1e30))
+        ->capture_default_str();
+    command->add_flag("--absolute", a->absolute,
+                      "Show absolute errors, not errors relative to sqrt(reference^2 + 0.01^2)");
+  }
   command->add_flag("--json", a->json, "Print the result as JSON");
   MoveBehindHelpAll(command, {"--part", "--crop", "--fraction", "--heat-layer", "--heat-low",
                               "--heat-high", "--absolute"});

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "base/error.h"
 #include "cli/commands.h"
 #include "cli/difference_page.h"
 #include "cli/outputs.h"
@@ -16,7 +15,7 @@
 #include "cli/usage_error.h"
 #include "image_io/output_file.h"
 #include "scene_io/load_scene.h"
-#include "scene_io/material_json.h"
+#include "scene_io/scene_json.h"
 #include "scene_io/sheet_axis.h"
 #include "shading/material_fit.h"
 #include "study/material_curves.h"
@@ -115,10 +114,9 @@ Json DrawPage(const ConvertArguments& arguments, const Json& given, const Materi
   const Json fitted = MaterialJson(fit.fitted);
   Json source = given;
   source.erase("name");
-  DifferencePage page{source, fitted, MaterialLabel(given), arguments.to, arguments.sheet.title,
-                      {}};
-  if (page.title.empty()) page.title = fmt::format("{} as {}", page.a_label, arguments.to);
-  if (page.title == "-") page.title.clear();
+  const std::string label = MaterialLabel(given);
+  DifferencePage page{source, fitted, label, arguments.to, {}, {}};
+  page.title = SheetTitle(arguments.sheet, fmt::format("{} as {}", label, arguments.to));
   page.footer = {"A  " + DescribeMaterial(MaterialJson(original)), "B  " + DescribeMaterial(fitted),
                  fmt::format("lobe rms {} (closed form {}); light: {}", RmsText(fit.residual.rms),
                              RmsText(fit.guess_residual.rms),

@@ -77,19 +77,15 @@ std::string Words(const std::vector<std::string>& words) {
 
 std::string CommandCases(const CLI::App& command) {
   std::vector<std::string> names;
-  std::string choices;
+  std::string choices, positional;
   for (const CLI::Option* option : Options(command)) {
-    const std::vector<std::string> own = NamesOf(*option);
+    const std::vector<std::string> own = NamesOf(*option), values = ChoicesOf(*option);
     names.insert(names.end(), own.begin(), own.end());
-    if (own.empty() || !TakesValue(*option) || ChoicesOf(*option).empty()) continue;
-    choices +=
-        fmt::format("        {}) words={} ;;\n", fmt::join(own, "|"), Words(ChoicesOf(*option)));
-  }
-  std::string positional;
-  for (const CLI::Option* option : Options(command)) {
-    if (NamesOf(*option).empty() && !ChoicesOf(*option).empty()) {
-      positional +=
-          fmt::format("      [[ $current == -* ]] || words={}\n", Words(ChoicesOf(*option)));
+    if (values.empty()) continue;
+    if (own.empty()) {
+      positional += fmt::format("      [[ $current == -* ]] || words={}\n", Words(values));
+    } else if (TakesValue(*option)) {
+      choices += fmt::format("        {}) words={} ;;\n", fmt::join(own, "|"), Words(values));
     }
   }
   return fmt::format(

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "cli/commands.h"
+#include "cli/help_text.h"
 #include "cli/outputs.h"
 #include "cli/print.h"
 #include "cli/progress.h"
@@ -28,23 +29,10 @@ struct Sheet {
   Scene (*scene)();
 };
 
-// Wraps words at column 100; continuation lines are indented.
-std::string Wrap(std::string_view words, size_t indent) {
-  constexpr size_t kColumns = 100;
-  std::string text;
-  while (words.size() > kColumns - indent) {
-    const size_t space = words.rfind(' ', kColumns - indent);
-    if (space == std::string_view::npos) break;
-    text += fmt::format("{}\n{:{}}", words.substr(0, space), "", indent);
-    words.remove_prefix(space + 1);
-  }
-  return text.append(words);
-}
-
 void PrintEntry(const FaultEntry& entry, const LessonPictures& lesson) {
   std::string text = fmt::format("{:<4} {}\n", entry.id, entry.title);
   const auto line = [&](std::string_view name, std::string_view words) {
-    text += fmt::format("     {:<7} {}\n", name, Wrap(words, 13));
+    text += fmt::format("     {:<7} {}\n", name, WrapWordsAt(std::string(words), 13, 13, 100));
   };
   line("lesson", entry.lesson);
   line("right", entry.right);

@@ -141,12 +141,9 @@ std::string FixedParameters(const Axes& axes) {
 SheetText MakeText(const Axes& axes, const SheetOptions& sheet, const Lighting& lighting) {
   const bool has_base = axes.rows.kind != Kind::kMaterial && axes.columns.kind != Kind::kMaterial;
   SheetText text;
-  text.title = sheet.title;
-  if (text.title.empty()) {
-    text.title = fmt::format("{}{} by {}", has_base ? axes.material_label + ": " : "",
-                             axes.rows.name, axes.columns.name);
-  }
-  if (text.title == "-") text.title.clear();
+  text.title =
+      SheetTitle(sheet, fmt::format("{}{} by {}", has_base ? axes.material_label + ": " : "",
+                                    axes.rows.name, axes.columns.name));
   text.row_name = axes.rows.name;
   text.row_labels = axes.rows.labels;
   text.column_name = axes.columns.name;
@@ -162,8 +159,7 @@ void RunGrid(const GridArguments& arguments) {
   const auto rows = static_cast<int>(axes.rows.values.size());
   const auto columns = static_cast<int>(axes.columns.values.size());
   const Lighting lighting = MakeLighting(arguments.sheet.lighting, std::max(rows, columns) / 2.0);
-  SheetRequest request = MakeSheetRequest(arguments.sheet, options, rows, columns);
-  request.light_ground = IsLightGround(lighting, options);
+  const SheetRequest request = MakeSheetRequest(arguments.sheet, options, lighting, rows, columns);
   const SheetText text = options.labels ? MakeText(axes, arguments.sheet, lighting) : SheetText{};
   const SheetPage page = LayOutSheet(text, request);
   const std::string scene = SheetScene(GridShapes(axes), Json::object(), request, page, lighting);

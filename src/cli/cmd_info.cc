@@ -16,20 +16,16 @@
 #include "cli/print.h"
 #include "cli/render_options.h"
 #include "color/primaries.h"
-#include "image_io/oiio.h"
+#include "image_io/format_readers.h"
 #include "image_io/read_image.h"
-#include "image_io/verify_image.h"
 #include "output/metadata.h"
 #include "scene/hash.h"
+#include "scene/primitives.h"
 #include "scene_io/load_scene.h"
 #include "visibility/box_trees.h"
 
 namespace nacre {
 namespace {
-
-std::string TypeName(PixelType type) {
-  return type == PixelType::kHalf ? "half" : type == PixelType::kFloat ? "float" : "uint";
-}
 
 std::string WindowText(const Window& w) {
   return fmt::format("{}x{} at {},{}", w.width(), w.height(), w.x0, w.y0);
@@ -42,7 +38,7 @@ void PrintPart(const ImagePart& part, const std::string& indent) {
   for (const ImagePart::PartChannel& channel : part.channels) {
     const bool sampled = channel.x_sampling != 1 || channel.y_sampling != 1;
     channels.push_back(
-        channel.name + ":" + TypeName(channel.type) +
+        channel.name + ":" + PixelTypeName(channel.type) +
         (sampled ? fmt::format("/{}x{}", channel.x_sampling, channel.y_sampling) : std::string()));
   }
   PrintOut("{}channels        {}\n", indent, fmt::format("{}", fmt::join(channels, " ")));
@@ -88,13 +84,11 @@ std::string CountAndNames(const std::vector<Item>& items) {
 
 void PrintScene(const std::string& path, const LoadOptions& options) {
   const Scene scene = LoadScene(path, options);
-  size_t triangles = 0;
-  for (const Mesh& mesh : scene.meshes) triangles += mesh.triangles.size() / 3;
   PrintOut("{}\n", path);
   PrintOut("  image       {}x{}, {} sample{} a pixel\n", scene.image.width, scene.image.height,
            scene.image.spp, scene.image.spp == 1 ? "" : "s");
   PrintOut("  spheres     {}\n", scene.spheres.size());
-  PrintOut("  meshes      {} with {} triangles\n", scene.meshes.size(), triangles);
+  PrintOut("  meshes      {} with {} triangles\n", scene.meshes.size(), CountTriangles(scene));
   PrintOut("  materials   {}\n", CountAndNames(scene.materials));
   PrintOut("  lights      {}\n", CountAndNames(scene.lights));
   MaterialTraits traits = 0;

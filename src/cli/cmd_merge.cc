@@ -5,7 +5,6 @@
 #include <memory>
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 #include "base/path.h"
 #include "base/strip.h"
@@ -14,6 +13,7 @@
 #include "cli/outputs.h"
 #include "cli/print.h"
 #include "cli/progress.h"
+#include "image_io/exr_container.h"
 #include "image_io/png_writer.h"
 #include "output/metadata.h"
 
@@ -23,8 +23,7 @@ namespace {
 struct MergeArguments {
   std::vector<std::string> tiles;
   std::vector<std::string> outputs;
-  std::string tonemap = "neutral";
-  double exposure = 0;
+  DisplaySettings display;
   std::string target = "auto";
   bool small = false;
   bool quiet = false;
@@ -33,9 +32,8 @@ struct MergeArguments {
 // The output files, to which tiles are added from the top down.
 class MergedFiles {
  public:
-  MergedFiles(const MergeArguments& arguments, const ExrBandHeader& whole) : whole_(whole) {
-    display_.tone = ParseToneOperator(arguments.tonemap);
-    display_.exposure_ev = arguments.exposure;
+  MergedFiles(const MergeArguments& arguments, const ExrBandHeader& whole)
+      : whole_(whole), display_(arguments.display) {
     const auto& attributes = whole.header.attributes;
     PngHeader png;
     png.width = whole.header.display.width();
@@ -46,10 +44,11 @@ class MergedFiles {
       // A file not made by nacre may have an attribute of this name, but of another type.
       if (const auto* text = std::get_if<std::string>(&found->second)) png.text[name] = *text;
     }
-    png.text["nacre:tonemap"] = arguments.tonemap;
+    png.text["nacre:tonemap"] = ToneOperatorName(display_.tone);
     for (const std::string& path : arguments.outputs) {
       if (HasExtension(path, ".exr")) {
-        exr_.push_back(std::make_unique<ExrBandWriter>(path, whole));
+        exr_.push_back(
+            std::make_unique<ExrContainer>(path, nullptr, whole.header, whole.compression));
       } else {
         png_.push_back(std::make_unique<PngWriter>(
             path, png,
@@ -72,7 +71,8 @@ class MergedFiles {
 
   void Finish() {
     if (!png_.empty()) FlushPng();
-    for (const auto& exr : exr_) exr->Finish();
+    // On the disk before they have their names, because the tiles are deleted then.
+    for (const auto& exr : exr_) exr->Finish(/*sync=*/true);
     for (const auto& png : png_) png->Finish();
   }
 
@@ -107,7 +107,7 @@ class MergedFiles {
 
   const ExrBandHeader& whole_;
   DisplaySettings display_;
-  std::vector<std::unique_ptr<ExrBandWriter>> exr_;
+  std::vector<std::unique_ptr<ExrContainer>> exr_;
   std::vector<std::unique_ptr<PngWriter>> png_;
   std::vector<std::vector<float>> planes_;
   std::vector<uint8_t> rgb8_;  // the current strip, as far as it is complete
@@ -166,7 +166,7 @@ void AddMergeCommand(CLI::App* app, int*) {
       ->required()
       ->type_name("FILE")
       ->allow_extra_args(false);
-  AddDisplayOptions(command, &arguments->tonemap, &arguments->exposure);
+  AddDisplayOptions(command, &arguments->display);
   AddTargetOption(command, &arguments->target)
       ->description("SIMD target that PNG files are made on; auto: that of the tiles");
   command->add_flag("--small", arguments->small,

@@ -12,7 +12,7 @@
 #include "cli/print.h"
 #include "cli/render_job.h"
 #include "scene_io/load_scene.h"
-#include "scene_io/material_json.h"
+#include "scene_io/scene_json.h"
 #include "scene_io/sheet_axis.h"
 
 namespace nacre {
@@ -50,9 +50,7 @@ Side ReadSide(const std::string& option, const std::string& text) {
 }
 
 std::string Title(const PairArguments& arguments, const Side& a, const Side& b) {
-  if (arguments.sheet.title == "-") return {};
-  if (!arguments.sheet.title.empty()) return arguments.sheet.title;
-  return fmt::format("{} and {}", a.label, b.label);
+  return SheetTitle(arguments.sheet, fmt::format("{} and {}", a.label, b.label));
 }
 
 std::vector<std::string> Footer(const PairArguments& arguments, const Side& a, const Side& b) {
@@ -65,34 +63,24 @@ void RenderBoth(const PairArguments& arguments, const Side& a, const Side& b) {
   const RenderOptions& options = arguments.options;
   const bool split = arguments.layout == "split";
   const Lighting lighting = MakeLighting(arguments.sheet.lighting, split ? 0.5 : 1, split);
-  SheetRequest request = MakeSheetRequest(arguments.sheet, options, 1, split ? 1 : 2);
-  request.light_ground = IsLightGround(lighting, options);
+  const SheetRequest request =
+      MakeSheetRequest(arguments.sheet, options, lighting, 1, split ? 1 : 2);
   SheetText text;
   if (options.labels) {
     text.title = Title(arguments, a, b);
     text.footer = Footer(arguments, a, b);
-    if (split) {
-      text.column_labels = {"A | B"};
-    } else {
-      text.column_labels = {"A: " + a.label, "B: " + b.label};
-    }
+    text.column_labels = {"A | B"};
+    if (!split) text.column_labels = {"A: " + a.label, "B: " + b.label};
   }
   const SheetPage page = LayOutSheet(text, request);
-  const auto sphere = [](double x, const char* material) -> Json {
-    return {{"type", "sphere"},
-            {"center", {x, 0, 0}},
-            {"radius", kSheetSphereRadius},
-            {"material", material}};
-  };
   Json materials = {{"a", a.json}, {"b", b.json}};
   Json shapes = Json::array();
   if (split) {
     const double at = (page.left + page.cell / 2) / page.width;
     materials["a | b"] = {{"model", "split"}, {"at", Json::array({at})}, {"materials", {"a", "b"}}};
-    shapes.push_back(sphere(0, "a | b"));
+    shapes.push_back(SheetSphere(0, "a | b"));
   } else {
-    shapes.push_back(sphere(-0.5, "a"));
-    shapes.push_back(sphere(0.5, "b"));
+    shapes = {SheetSphere(-0.5, "a"), SheetSphere(0.5, "b")};
   }
   const std::string scene = SheetScene(shapes, materials, request, page, lighting);
   RunRenderJob(

@@ -43,14 +43,17 @@ ColorChannel ParseChannel(const std::string& name) {
   return ColorChannel::kLuminance;
 }
 
-// Throws Error (kBadInput) unless `has` is true for every material.
-void Require(const std::vector<NamedMaterial>& materials, bool (*has)(const ShadingMaterial&),
-             const char* what, const char* hint) {
+// ReadPlotMaterials. Throws Error (kBadInput) unless `has` is true for every material.
+std::vector<NamedMaterial> ReadMaterialsWith(const PlotArguments& a,
+                                             const std::vector<PlotItem>& defaults,
+                                             bool (*has)(const ShadingMaterial&), const char* what,
+                                             const char* hint) {
+  std::vector<NamedMaterial> materials = ReadPlotMaterials(a.inputs, defaults);
   for (const NamedMaterial& named : materials) {
-    if (!has(named.material)) {
-      throw Error(ExitCode::kBadInput, named.label, fmt::format("has no {}", what), hint);
-    }
+    if (has(named.material)) continue;
+    throw Error(ExitCode::kBadInput, named.label, fmt::format("has no {}", what), hint);
   }
+  return materials;
 }
 
 // The options with defaults filled in.
@@ -63,44 +66,6 @@ CurveOptions Complete(const PlotArguments& arguments) {
 
 // The panels of a figure.
 using Plots = std::vector<Plot>;
-
-Plots DrawBrdf(const PlotArguments& a) {
-  return {BrdfPlot(ReadPlotMaterials(a.inputs, DefaultModels()), Complete(a))};
-}
-
-Plots DrawPolar(const PlotArguments& a) {
-  return {PolarPlot(ReadPlotMaterials(a.inputs, DefaultModels()), Complete(a))};
-}
-
-Plots DrawSlice(const PlotArguments& a) {
-  return SlicePlots(ReadPlotMaterials(a.inputs, DefaultModels()), Complete(a).channel);
-}
-
-Plots DrawDistribution(const PlotArguments& a) {
-  const std::vector<NamedMaterial> materials = ReadPlotMaterials(a.inputs, DefaultDistributions());
-  Require(materials, HasDistribution, "distribution of normals",
-          "blinn_phong and the models with a roughness above 0 have one");
-  return {DistributionPlot(materials)};
-}
-
-Plots DrawMasking(const PlotArguments& a) {
-  const std::vector<NamedMaterial> materials = ReadPlotMaterials(a.inputs, DefaultMaskings());
-  Require(materials, HasMasking, "masking", "the models with a roughness have one");
-  return {MaskingPlot(materials)};
-}
-
-Plots DrawFresnel(const PlotArguments& a) {
-  const std::vector<NamedMaterial> materials = ReadPlotMaterials(a.inputs, DefaultInterfaces());
-  Require(materials, HasFresnel, "Fresnel term", "the models with a roughness have one");
-  return {FresnelPlot(materials, Complete(a).channel)};
-}
-
-Plots DrawAlbedo(const PlotArguments& a) {
-  return {AlbedoPlot(ReadPlotMaterials(a.inputs, DefaultAlbedos()),
-                     a.one_light ? ShareOf::kOneLight : ShareOf::kFurnace, Complete(a).channel)};
-}
-
-Plots DrawTone(const PlotArguments& a) { return {TonePlot(a.exposure)}; }
 
 Plots DrawFalloff(const PlotArguments& a) {
   std::vector<Light> lights;
@@ -128,6 +93,8 @@ Plots DrawFalloff(const PlotArguments& a) {
   return {FalloffPlot(lights)};
 }
 
+constexpr char kWithRoughness[] = "the models with a roughness have one";
+
 struct PlotKind {
   const char* name;
   const char* help;
@@ -137,27 +104,57 @@ struct PlotKind {
 const std::vector<PlotKind> kPlotKinds = {
     {"brdf",
      "the BRDF over the light's angle in the plane of incidence",
-     DrawBrdf,
+     [](const PlotArguments& a) -> Plots {
+       return {BrdfPlot(ReadPlotMaterials(a.inputs, DefaultModels()), Complete(a))};
+     },
      {"--material", "--angle", "--channel", "--log", "--cosine", "--kernel"}},
     {"polar",
      "how light from one angle is reflected, as a lobe",
-     DrawPolar,
+     [](const PlotArguments& a) -> Plots {
+       return {PolarPlot(ReadPlotMaterials(a.inputs, DefaultModels()), Complete(a))};
+     },
      {"--material", "--angle", "--channel", "--kernel"}},
     {"slice",
      "the BRDF as colours over the angles of half vector and light",
-     DrawSlice,
+     [](const PlotArguments& a) {
+       return SlicePlots(ReadPlotMaterials(a.inputs, DefaultModels()), Complete(a).channel);
+     },
      {"--material", "--channel"}},
-    {"ndf", "the distribution of the microfacets' normals", DrawDistribution, {"--material"}},
-    {"masking", "the share of microfacets that are lit and seen", DrawMasking, {"--material"}},
+    {"ndf",
+     "the distribution of the microfacets' normals",
+     [](const PlotArguments& a) -> Plots {
+       return {DistributionPlot(
+           ReadMaterialsWith(a, DefaultDistributions(), HasDistribution, "distribution of normals",
+                             "blinn_phong and the models with a roughness above 0 have one"))};
+     },
+     {"--material"}},
+    {"masking",
+     "the share of microfacets that are lit and seen",
+     [](const PlotArguments& a) -> Plots {
+       return {MaskingPlot(
+           ReadMaterialsWith(a, DefaultMaskings(), HasMicrofacets, "masking", kWithRoughness))};
+     },
+     {"--material"}},
     {"fresnel",
      "the reflectance of the interface over the angle of incidence",
-     DrawFresnel,
+     [](const PlotArguments& a) -> Plots {
+       return {FresnelPlot(ReadMaterialsWith(a, DefaultInterfaces(), HasMicrofacets, "Fresnel term",
+                                             kWithRoughness),
+                           Complete(a).channel)};
+     },
      {"--material", "--channel"}},
     {"albedo",
      "the directional albedo: how much light is reflected in all",
-     DrawAlbedo,
+     [](const PlotArguments& a) -> Plots {
+       return {AlbedoPlot(ReadPlotMaterials(a.inputs, DefaultAlbedos()),
+                          a.one_light ? ShareOf::kOneLight : ShareOf::kFurnace,
+                          Complete(a).channel)};
+     },
      {"--material", "--channel", "--one-light"}},
-    {"tone", "every tone operator", DrawTone, {"--exposure"}},
+    {"tone",
+     "every tone operator",
+     [](const PlotArguments& a) -> Plots { return {TonePlot(a.exposure)}; },
+     {"--exposure"}},
     {"falloff", "a light's irradiance over its distance", DrawFalloff, {"--light"}},
 };
 

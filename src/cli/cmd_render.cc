@@ -4,7 +4,6 @@
 #include <set>
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 #include "base/error.h"
 #include "cli/commands.h"

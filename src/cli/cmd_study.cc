@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // cli/cmd_study.cc: nacre study: answers the lesson's exercises with a folder of pictures,
 // diagrams, numbers and explanations.
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -15,7 +14,6 @@
 #include "cli/commands.h"
 #include "cli/print.h"
 #include "cli/progress.h"
-#include "cli/text_output.h"
 #include "image_io/output_file.h"
 #include "image_io/png_writer.h"
 #include "report/plot.h"

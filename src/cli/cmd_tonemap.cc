@@ -14,7 +14,6 @@
 #include "cli/print.h"
 #include "cli/render_options.h"
 #include "image_io/color_channels.h"
-#include "image_io/output_file.h"
 #include "image_io/png_writer.h"
 #include "image_io/read_image.h"
 #include "scene/limits.h"
@@ -25,8 +24,7 @@ namespace {
 struct TonemapArguments {
   std::string input, output;
   std::string layer, part;
-  std::string tonemap = "neutral";
-  double exposure = 0;
+  DisplaySettings display;
   std::string target = "auto";
   bool small = false;
 };
@@ -49,8 +47,7 @@ ColorChannels RequireColors(const ImageFile& image, const TonemapArguments& argu
   }
   std::vector<std::string> names;
   for (const Channel& channel : channels) {
-    const size_t dot = channel.name.rfind('.');
-    names.push_back(dot == std::string::npos ? channel.name : channel.name.substr(0, dot));
+    names.push_back(channel.name.substr(0, channel.name.rfind('.')));
   }
   const std::string nearest = NearestName(layer, names);
   throw Error(ExitCode::kBadInput, image.path,
@@ -128,16 +125,15 @@ void RunTonemap(const TonemapArguments& arguments) {
   const auto target = image.parts.front().metadata.find("nacre:target");
   ApplyTargetOf(arguments.target,
                 target != image.parts.front().metadata.end() ? target->second : "");
-  const DisplaySettings display{.tone = ParseToneOperator(arguments.tonemap),
-                                .exposure_ev = arguments.exposure};
   PngHeader header;
   header.width = shown.window.width();
   header.height = shown.window.height();
-  header.text = {{"Software", "nacre"}, {"nacre:tonemap", arguments.tonemap}};
+  header.text = {{"Software", "nacre"},
+                 {"nacre:tonemap", ToneOperatorName(arguments.display.tone)}};
   PngWriter png(arguments.output, header, {.small = arguments.small});
   std::atomic<size_t> nan_pixels{0};
   png.WriteAll([&](size_t first, size_t count, uint8_t* rgb8) {
-    nan_pixels += EncodeDisplay(display, shown.From(0, first), shown.From(1, first),
+    nan_pixels += EncodeDisplay(arguments.display, shown.From(0, first), shown.From(1, first),
                                 shown.From(2, first), count, rgb8);
   });
   png.Finish();
@@ -156,7 +152,7 @@ void AddTonemapCommand(CLI::App* app, int*) {
   command->add_option("--layer", arguments->layer,
                       "Layer to show instead of the beauty, e.g. diffuse");
   command->add_option("--part", arguments->part, "Part of an EXR file that has several");
-  AddDisplayOptions(command, &arguments->tonemap, &arguments->exposure);
+  AddDisplayOptions(command, &arguments->display);
   AddTargetOption(command, &arguments->target)
       ->description("SIMD target; auto: the one that nacre rendered the input on, if it did");
   command->add_flag("--small", arguments->small, "Smaller file, several times slower to write");

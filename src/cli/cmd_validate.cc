@@ -3,8 +3,6 @@
 // images.
 #include <memory>
 
-#include <fmt/format.h>
-
 #include "base/error.h"
 #include "cli/commands.h"
 #include "cli/help_text.h"

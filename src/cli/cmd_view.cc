@@ -19,7 +19,6 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -46,8 +45,6 @@
 
 namespace nacre {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct ViewArguments {
   std::vector<std::string> inputs;
@@ -152,8 +149,7 @@ LoadOptions MakeViewLoadOptions(const RenderOptions& options) {
 PerceptualArguments ShownAs(const DisplaySettings& display) {
   PerceptualArguments shown;
   shown.metrics = {"ssim", "flip"};
-  shown.tonemap = ToneOperatorName(display.tone);
-  shown.exposure = display.exposure_ev;
+  shown.display = display;
   return shown;
 }
 
@@ -226,9 +222,7 @@ void RunImages(const ViewArguments& arguments, const CLI::App& command, int* exi
   RefuseOptions(
       command, [&](const CLI::Option& option) { return !of_scenes.contains(option.get_name()); },
       "images", "it is for scenes, which are rendered");
-  PerceptualArguments shown = ShownAs({});
-  shown.tonemap = options.tonemap;
-  shown.exposure = options.exposure;
+  const PerceptualArguments shown = ShownAs(options.display);
   const auto keys = [&] {
     std::vector<std::string> all;
     for (const std::string& path : arguments.inputs) all.push_back(KeyOfFile(path));
@@ -294,7 +288,7 @@ std::unique_ptr<EditsFile> OpenEdits(const std::string& scene, bool quiet) {
 }
 
 void RunView(const ViewArguments& arguments, const CLI::App& command, int* exit_code) {
-  const StopsInTime stops(kEndsWithin);
+  const std::jthread stops = StopInTime(kEndsWithin);
   const RenderOptions& options = arguments.options;
   ApplyTarget(options.target);
   const std::vector<std::string>& inputs = arguments.inputs;
@@ -313,8 +307,7 @@ void RunView(const ViewArguments& arguments, const CLI::App& command, int* exit_
   WorkerOptions work;
   work.samples = options.spp.value_or(0);
   work.settings = MakeRenderSettings(options);
-  work.display.tone = ParseToneOperator(options.tonemap);
-  work.display.exposure_ev = options.exposure;
+  work.display = options.display;
   work.file = scene;
   const std::string generator = fmt::format("nacre {} ({})", kVersion, kCommit);
   work.generator = generator;
@@ -329,8 +322,7 @@ void RunView(const ViewArguments& arguments, const CLI::App& command, int* exit_
   Worker worker(open, work);
 
   const std::string title = scene.empty() ? "nacre view" : fmt::format("{} - nacre view", scene);
-  Server server(MakeServerOptions(arguments),
-                MakeViewPage(title, generator, options.tonemap, options.exposure),
+  Server server(MakeServerOptions(arguments), MakeViewPage(title, generator, options.display),
                 {[&](ClientId id) { worker.Opened(id); }, [&](ClientId id) { worker.Closed(id); },
                  [&](ClientId id, std::string_view text) { worker.Receive(id, text); },
                  [&](double ms, size_t bytes) { worker.Ready(ms, bytes); }, [] {}, NoteOtherName});
@@ -362,11 +354,10 @@ void AddViewCommand(CLI::App* app, int* exit_code) {
       ->capture_default_str();
   command->add_flag("--no-open", arguments->no_open, "Open no browser, only print the address");
   RenderOptions* const o = &arguments->options;
-  AddDisplayOptions(command, &o->tonemap, &o->exposure);
-  command->get_option("--tonemap")
-      ->description(fmt::format("Tone operator that the page opens with: {}",
-                                fmt::join(ToneOperatorNames(), ", ")));
-  command->get_option("--exposure")->description("Exposure in stops that the page opens with");
+  AddDisplayOptions(command, &o->display,
+                    fmt::format("Tone operator that the page opens with: {}",
+                                fmt::join(ToneOperatorNames(), ", ")),
+                    "Exposure in stops that the page opens with");
   command->add_option("--size", o->size, "Width and height in pixels")->type_name("WxH");
   command
       ->add_option("--spp", o->spp,

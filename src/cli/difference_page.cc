@@ -26,28 +26,14 @@ constexpr double kMeasureLine = 1.35;  // line spacing, in multiples of the text
 constexpr double kScaleText = 0.8;     // in multiples of the text size
 constexpr const char* kScaleCaption = "largest of the channels, linear";
 
-struct Panel {
-  Image image;
-  const std::vector<float>& Channel(const char* name) const { return image.Find(name)->samples; }
-};
-
-RenderSettings MakeSettings(const RenderOptions& options) {
-  RenderSettings settings = MakeRenderSettings(options);
-  settings.on_progress = [](double) { ThrowIfStopped(); };
-  return settings;
-}
-
 // Renders one sphere into a square of `side` pixels.
-Panel RenderPanel(const Json& material, int side, const SheetOptions& sheet,
+Image RenderPanel(const Json& material, int side, const SheetOptions& sheet,
                   const RenderOptions& options, const Lighting& lighting,
                   const std::string& command, const std::vector<std::string>& outputs) {
   SheetPage page;
   page.width = page.height = side;
   page.cell = side;
-  const Json shapes = Json::array({{{"type", "sphere"},
-                                    {"center", {0, 0, 0}},
-                                    {"radius", kSheetSphereRadius},
-                                    {"material", material}}});
+  const Json shapes = Json::array({SheetSphere(0, material)});
   RenderOptions alone = options;
   alone.size.clear();
   const std::string text = SheetScene(shapes, Json::object(), SheetRequest{}, page, lighting);
@@ -56,18 +42,20 @@ Panel RenderPanel(const Json& material, int side, const SheetOptions& sheet,
   load.on_file = [&](const std::filesystem::path& file) { read.push_back(file.string()); };
   const Scene scene = LoadSheet(text, command, sheet, page, load);
   CheckOutputsAreNoInputs(outputs, read);
-  return {RenderImage(scene, MakeSettings(options))};
+  RenderSettings settings = MakeRenderSettings(options);
+  settings.on_progress = [](double) { ThrowIfStopped(); };
+  return RenderImage(scene, settings);
 }
 
-DifferenceMeasures Measure(const Panel& a, const Panel& b) {
+DifferenceMeasures Measure(const Image& a, const Image& b) {
   DifferenceMeasures measures;
-  const std::vector<float>& alpha = a.Channel("A");
+  const std::vector<float>& alpha = a.Find("A")->samples;
   double squares = 0;
   double sum = 0;
   size_t count = 0;
   for (const char* name : {"R", "G", "B"}) {
-    const std::vector<float>& x = a.Channel(name);
-    const std::vector<float>& y = b.Channel(name);
+    const std::vector<float>& x = a.Find(name)->samples;
+    const std::vector<float>& y = b.Find(name)->samples;
     for (size_t i = 0; i < x.size(); ++i) {
       if (!(alpha[i] > 0)) continue;
       const double difference = static_cast<double>(x[i]) - static_cast<double>(y[i]);
@@ -92,21 +80,16 @@ HeatScale ScaleFor(double max) {
   return scale;
 }
 
-Rgb8Picture Show(const Panel& panel, const RenderOptions& options) {
-  return ShowImage(panel.image,
-                   {.tone = ParseToneOperator(options.tonemap), .exposure_ev = options.exposure});
-}
-
 // Colours each pixel by the largest difference of its channels, blended with `ground` by coverage.
-Rgb8Picture ShowDifference(const Panel& a, const Panel& b, const HeatScale& scale,
+Rgb8Picture ShowDifference(const Image& a, const Image& b, const HeatScale& scale,
                            const Rgb8& ground, int side) {
   Rgb8Picture picture{side, side, {}};
-  const std::vector<float>& alpha = a.Channel("A");
+  const std::vector<float>& alpha = a.Find("A")->samples;
   for (size_t i = 0; i < alpha.size(); ++i) {
     double worst = 0;
     for (const char* name : {"R", "G", "B"}) {
-      worst = std::max(worst, std::abs(static_cast<double>(a.Channel(name)[i]) -
-                                       static_cast<double>(b.Channel(name)[i])));
+      worst = std::max(worst, std::abs(static_cast<double>(a.Find(name)->samples[i]) -
+                                       static_cast<double>(b.Find(name)->samples[i])));
     }
     const Rgb8 color = worst > 0 ? HeatColor(scale.Position(worst)) : kHeatEqual;
     const double covered = std::clamp(double{alpha[i]}, 0.0, 1.0);
@@ -210,8 +193,7 @@ DifferenceMeasures DrawDifference(const DifferencePage& difference, const SheetO
   CheckOutputsAreNoInputs(outputs, InputFiles(sheet.lighting));
   ApplyTarget(options.target);
   const Lighting lighting = MakeLighting(sheet.lighting, 0.5);
-  SheetRequest request = MakeSheetRequest(sheet, options, 1, 3);
-  request.light_ground = IsLightGround(lighting, options);
+  SheetRequest request = MakeSheetRequest(sheet, options, lighting, 1, 3);
   request.strip = kStrip;
   SheetText text;
   if (options.labels) {
@@ -226,18 +208,18 @@ DifferenceMeasures DrawDifference(const DifferencePage& difference, const SheetO
     page = LayOutSheet(text, request);
   }
   const int side = static_cast<int>(std::max(page.cell, 1.0));
-  const Panel a = RenderPanel(difference.a, side, sheet, options, lighting, command, outputs);
-  const Panel b = RenderPanel(difference.b, side, sheet, options, lighting, command, outputs);
+  const Image a = RenderPanel(difference.a, side, sheet, options, lighting, command, outputs);
+  const Image b = RenderPanel(difference.b, side, sheet, options, lighting, command, outputs);
   const DifferenceMeasures measures = Measure(a, b);
   if (options.outputs.empty()) return measures;
 
-  const Rgb8Picture shown_a = Show(a, options);
+  const Rgb8Picture shown_a = ShowImage(a, options.display);
   const Rgb8 ground = {shown_a.rgb8[0], shown_a.rgb8[1], shown_a.rgb8[2]};
   Canvas canvas(page.width, page.height, ground);
   const int top = static_cast<int>(page.top);
   const auto left = [&](int i) { return static_cast<int>(page.left) + i * side; };
   canvas.Paste(shown_a, left(0), top);
-  canvas.Paste(Show(b, options), left(1), top);
+  canvas.Paste(ShowImage(b, options.display), left(1), top);
   const HeatScale scale = ScaleFor(measures.max);
   canvas.Paste(ShowDifference(a, b, scale, ground, side), left(2), top);
   if (page.text_px > 0) {

@@ -14,30 +14,7 @@
 namespace nacre {
 namespace {
 
-constexpr size_t kHelpColumns = 80;
 constexpr size_t kLongestHead = 32;  // longer lists of choices are in the option's text
-
-// Wraps words into lines that begin at column `indent`; the first line continues at column `at`.
-std::string WrapHelp(const std::string& text, size_t indent, size_t at) {
-  std::string out;
-  std::istringstream words(text);
-  bool first_of_line = true;
-  for (std::string word; words >> word;) {
-    if (!first_of_line && at + 1 + word.size() > kHelpColumns) {
-      out += "\n" + std::string(indent, ' ');
-      at = indent;
-      first_of_line = true;
-    }
-    if (!first_of_line) {
-      out += ' ';
-      ++at;
-    }
-    out += word;
-    at += word.size();
-    first_of_line = false;
-  }
-  return out;
-}
 
 // `head` at the left, and `text` from column `indent` on, on the same line if there is room.
 std::string HelpEntry(const std::string& head, const std::string& text, size_t indent) {
@@ -47,7 +24,7 @@ std::string HelpEntry(const std::string& head, const std::string& text, size_t i
   } else {
     out.resize(indent, ' ');
   }
-  return out + WrapHelp(text, indent, indent) + "\n";
+  return out + WrapWordsAt(text, indent, indent) + "\n";
 }
 
 // The suffix of the groups whose options are shown only by --help-all.
@@ -99,8 +76,7 @@ Groups GroupsOf(const CLI::App& app) {
     const auto options =
         app.get_options([&](const CLI::Option* option) { return option->get_group() == group; });
     const std::string title = TitleOf(group);
-    auto found = std::find_if(groups.begin(), groups.end(),
-                              [&](const auto& known) { return known.first == title; });
+    auto found = std::ranges::find(groups, title, &Groups::value_type::first);
     if (found == groups.end()) {
       groups.push_back({title, {}});
       found = groups.end() - 1;
@@ -136,10 +112,28 @@ std::string MoreText(const CLI::App& app, const std::string& name) {
   if (names.empty() && !is_cut) return {};
   std::string text = fmt::format("More: {} --help-all", name);
   if (!names.empty()) text += fmt::format(", which also has {}", fmt::join(names, ", "));
-  return "\n" + WrapHelp(text, 0, 0) + "\n";
+  return "\n" + WrapWordsAt(text, 0, 0) + "\n";
 }
 
 }  // namespace
+
+std::string WrapWordsAt(const std::string& text, size_t indent, size_t at, size_t columns) {
+  std::string out;
+  std::istringstream words(text);
+  bool first_of_line = true;
+  for (std::string word; words >> word; first_of_line = false) {
+    if (!first_of_line && at + 1 + word.size() > columns) {
+      out += "\n" + std::string(indent, ' ');
+      at = indent;
+    } else if (!first_of_line) {
+      out += ' ';
+      ++at;
+    }
+    out += word;
+    at += word.size();
+  }
+  return out;
+}
 
 void MoveBehindHelpAll(CLI::App* command, const std::vector<std::string>& names) {
   for (const std::string& name : names) {
@@ -166,7 +160,7 @@ std::string HelpFormatter::make_subcommand(const CLI::App* command) const {
 }
 
 std::string HelpFormatter::make_description(const CLI::App* app) const {
-  return WrapHelp(app->get_description(), 0, 0) + "\n";
+  return WrapWordsAt(app->get_description(), 0, 0) + "\n";
 }
 
 }  // namespace nacre

@@ -13,8 +13,27 @@
 
 namespace nacre {
 
+// Wraps words into lines that begin at column `indent`; the first line continues at column `at`.
+std::string WrapWordsAt(const std::string& text, size_t indent, size_t at, size_t columns = 80);
+
 // In --help, only the names of these options of the command are shown.
 void MoveBehindHelpAll(CLI::App* command, const std::vector<std::string>& names);
+
+// Options that are added to the command while this object exists belong to the group.
+class InGroup {
+ public:
+  InGroup(CLI::App* command, const std::string& group)
+      : defaults_(command->option_defaults()), before_(defaults_->get_group()) {
+    defaults_->group(group);
+  }
+  ~InGroup() { defaults_->group(before_); }
+  InGroup(const InGroup&) = delete;
+  InGroup& operator=(const InGroup&) = delete;
+
+ private:
+  CLI::OptionDefaults* defaults_;
+  std::string before_;
+};
 
 class HelpFormatter final : public CLI::Formatter {
  public:

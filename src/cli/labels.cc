@@ -71,22 +71,15 @@ void DrawLabels(const Scene& scene, const Window& window, std::span<uint8_t> rgb
     item.size_px = size_px;
     item.x = static_cast<int>((ndc.x + 1) / 2 * image.width) - window.x0;
     item.y = static_cast<int>((1 - ndc.y) / 2 * image.height) - window.y0;
-    switch (label.side) {
-      case Label::Side::kLeft:
-        item.x -= 2 * gap;
-        item.align_x = AlignX::kRight;
-        item.align_y = AlignY::kCenter;
-        break;
-      case Label::Side::kAbove:
-        item.y -= gap;
-        item.align_x = AlignX::kCenter;
-        item.align_y = AlignY::kBottom;
-        break;
-      case Label::Side::kBelow:
-        item.y += gap;
-        item.align_x = AlignX::kCenter;
-        item.align_y = AlignY::kTop;
-        break;
+    if (label.side == Label::Side::kLeft) {
+      item.x -= 2 * gap;
+      item.align_x = AlignX::kRight;
+      item.align_y = AlignY::kCenter;
+    } else {
+      const bool above = label.side == Label::Side::kAbove;
+      item.y += above ? -gap : gap;
+      item.align_x = AlignX::kCenter;
+      item.align_y = above ? AlignY::kBottom : AlignY::kTop;
     }
     const auto touches = [&](const TextItem& other) { return Touch(item, other); };
     if (std::any_of(items.begin(), items.end(), touches)) continue;

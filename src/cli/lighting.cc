@@ -5,9 +5,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include <CLI/CLI.hpp>
-
 #include "base/error.h"
+#include "cli/help_text.h"
 #include "scene_io/sheet_axis.h"
 #include "scene_io/text_file.h"
 
@@ -133,7 +132,7 @@ Json LightsOf(const std::string& set_up, double reach, bool centred) {
 }  // namespace
 
 void AddLightingOptions(CLI::App* command, LightingOptions* options) {
-  const std::string group = "Light";
+  const InGroup group(command, "Light");
   command
       ->add_option("--light", options->light,
                    "point, studio, sky, rectangle or furnace. The point light is at the upper "
@@ -142,23 +141,19 @@ void AddLightingOptions(CLI::App* command, LightingOptions* options) {
                    "is radiance 1 from everywhere, before which a surface that reflects all light "
                    "cannot be seen")
       ->check(CLI::IsMember({"point", "studio", "sky", "rectangle", "furnace"}))
-      ->capture_default_str()
-      ->group(group);
+      ->capture_default_str();
   command
       ->add_option("--lights", options->lights,
                    "Other lights instead: JSON as in scene files, or a scene whose lights to take")
-      ->type_name("JSON|FILE")
-      ->group(group);
+      ->type_name("JSON|FILE");
   command
       ->add_option("--environment", options->environment,
                    "An image of the surroundings instead (latitude and longitude, EXR or HDR)")
-      ->type_name("FILE")
-      ->group(group);
+      ->type_name("FILE");
   command
       ->add_option("--background", options->background,
                    "Background: #rrggbb, [r,g,b] or one number, linear")
-      ->type_name("COLOR")
-      ->group(group);
+      ->type_name("COLOR");
 }
 
 std::vector<std::string> InputFiles(const LightingOptions& options) {

@@ -110,8 +110,7 @@ void AddCommands(CLI::App* app, std::string_view word, int* exit_code) {
       "            70 internal error, 74 cannot write, 130 and 143 stopped by a signal");
   // If a command is named, adds only that one: building the options of all would noticeably delay a
   // small picture. `nacre docs` needs all commands.
-  const auto named = std::find_if(kCommands.begin(), kCommands.end(),
-                                  [&](const Command& command) { return command.name == word; });
+  const auto named = std::ranges::find(kCommands, word, &Command::name);
   if (named != kCommands.end()) {
     named->add(app, exit_code);
   } else {

@@ -2,16 +2,15 @@
 #include "cli/merge_tiles.h"
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <set>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "base/error.h"
+#include "base/numbers.h"
 #include "cli/progress.h"
 #include "image_io/exr_checksum.h"
 #include "output/metadata.h"
@@ -70,29 +69,25 @@ void CheckAttribute(const HeaderOfTile& a, const HeaderOfTile& b, const std::str
 }
 
 std::string ChannelNames(const ExrHeader& header) {
-  constexpr const char* kTypes[] = {"half", "float", "uint"};
   std::string names;
   for (const ExrChannel& channel : header.channels) {
-    names += fmt::format("{}{}:{}", names.empty() ? "" : " ", channel.name,
-                         kTypes[static_cast<size_t>(channel.type)]);
+    names +=
+        fmt::format("{}{}:{}", names.empty() ? "" : " ", channel.name, PixelTypeName(channel.type));
   }
   return names;
 }
 
 // Throws unless a and b are tiles of the same picture.
 void CheckSamePicture(const HeaderOfTile& a, const HeaderOfTile& b) {
-  const auto compare = [&](const std::string& what, const auto& text_of, const std::string& hint) {
-    const std::string of_a = text_of(a);
-    const std::string of_b = text_of(b);
+  const auto compare = [&](const char* what, const std::string& of_a, const std::string& of_b,
+                           const char* hint) {
     if (of_a != of_b) ThrowDifference(a, b, what, of_a, of_b, hint);
   };
-  compare(
-      "size",
-      [](const HeaderOfTile& tile) {
-        const Window& frame = tile.header().display;
-        return fmt::format("{}x{}", frame.width(), frame.height());
-      },
-      "they are tiles of different pictures");
+  const auto size = [](const HeaderOfTile& tile) {
+    const Window& frame = tile.header().display;
+    return fmt::format("{}x{}", frame.width(), frame.height());
+  };
+  compare("size", size(a), size(b), "they are tiles of different pictures");
   for (const KnownAttribute& known : kKnown) CheckAttribute(a, b, known.name, known.hint);
   std::set<std::string> others;
   for (const HeaderOfTile* tile : {&a, &b}) {
@@ -100,13 +95,10 @@ void CheckSamePicture(const HeaderOfTile& a, const HeaderOfTile& b) {
   }
   others.erase(kTileAttribute);
   for (const std::string& name : others) CheckAttribute(a, b, name, "");
-  compare(
-      "layers", [](const HeaderOfTile& tile) { return ChannelNames(tile.header()); },
-      "render all tiles with the same --layers and --depth");
-  compare(
-      "compression",
-      [](const HeaderOfTile& tile) { return CompressionName(tile.band.compression); },
-      "render all tiles with the same --compression");
+  compare("layers", ChannelNames(a.header()), ChannelNames(b.header()),
+          "render all tiles with the same --layers and --depth");
+  compare("compression", CompressionName(a.band.compression), CompressionName(b.band.compression),
+          "render all tiles with the same --compression");
 }
 
 // Throws unless the tile can be part of any picture.
@@ -144,14 +136,10 @@ struct TileNumber {
 // The tile "i/N" that the header names; nullopt if it names none that --tile could make. A tile has
 // at least one row of the picture.
 std::optional<TileNumber> NumberOf(const HeaderOfTile& tile) {
-  const std::string text = TextOf(tile.header(), kTileAttribute);
-  const char* const end = text.data() + text.size();
-  TileNumber number{};
-  const auto [slash, error] = std::from_chars(text.data(), end, number.index);
-  if (error != std::errc() || slash == end || *slash != '/') return std::nullopt;
-  const auto [last, error_of_count] = std::from_chars(slash + 1, end, number.count);
-  const bool is_tile = error_of_count == std::errc() && last == end && number.index >= 0 &&
-                       number.index < number.count &&
+  const auto numbers = ParseIntegers(TextOf(tile.header(), kTileAttribute), '/', 2);
+  if (!numbers) return std::nullopt;
+  const TileNumber number{numbers->front(), numbers->back()};
+  const bool is_tile = number.index >= 0 && number.index < number.count &&
                        number.count <= tile.header().display.height();
   return is_tile ? std::optional(number) : std::nullopt;
 }

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/outputs.h"
 
-#include <algorithm>
 #include <filesystem>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <system_error>
@@ -34,9 +32,8 @@ StripView ViewOf(const Strip& strip) {
 }  // namespace
 
 std::vector<std::string> FilesAmong(const std::vector<std::string>& outputs) {
-  std::vector<std::string> files;
-  std::copy_if(outputs.begin(), outputs.end(), std::back_inserter(files),
-               [](const std::string& output) { return output != kNullOutput; });
+  std::vector<std::string> files = outputs;
+  std::erase(files, kNullOutput);
   return files;
 }
 
@@ -102,8 +99,6 @@ ExrHeader MakeOutputHeader(const RenderOptions& options, const FramePlan& plan,
 Outputs::Outputs(const RenderOptions& options, const FramePlan& plan, PreparedScene* prepared,
                  const std::vector<TextItem>& captions)
     : options_(options), plan_(plan), captions_(captions) {
-  display_.tone = ParseToneOperator(options.tonemap);
-  display_.exposure_ev = options.exposure;
   std::optional<ExrHeader> header;  // of EXR files, which alone hold the scene's hash
   const ExrOptions exr_options{.compression = ParseCompression(options.compression),
                                .small = options.small,
@@ -113,7 +108,7 @@ Outputs::Outputs(const RenderOptions& options, const FramePlan& plan, PreparedSc
   png_header.height = plan.window.height();
   png_header.text = {{"Software", SoftwareName()},
                      {"nacre:shadowing", ShadowingForms(plan.surfaces.prepared->any)},
-                     {"nacre:tonemap", options.tonemap}};
+                     {"nacre:tonemap", ToneOperatorName(options.display.tone)}};
   for (const std::string& path : FilesAmong(options.outputs)) {
     if (IsExr(path)) {
       if (!header) header = MakeOutputHeader(options, plan, prepared);
@@ -136,16 +131,10 @@ void Outputs::WriteStrip(const Strip& strip) {
 void Outputs::WritePng(const Strip& strip) {
   const size_t count = strip.window.pixel_count();
   const int row = strip.window.y0 - plan_.window.y0;
-  std::vector<uint8_t> own;
-  uint8_t* rgb8 = nullptr;
-  if (picture_.empty()) {
-    own.resize(3 * count);
-    rgb8 = own.data();
-  } else {
-    rgb8 =
-        picture_.data() + 3 * static_cast<size_t>(row) * static_cast<size_t>(plan_.window.width());
-  }
-  nan_pixels_ += EncodeDisplay(display_, strip.colors[0].data(), strip.colors[1].data(),
+  std::vector<uint8_t> own(picture_.empty() ? 3 * count : 0);
+  const size_t first = static_cast<size_t>(row) * static_cast<size_t>(plan_.window.width());
+  uint8_t* const rgb8 = picture_.empty() ? own.data() : picture_.data() + 3 * first;
+  nan_pixels_ += EncodeDisplay(options_.display, strip.colors[0].data(), strip.colors[1].data(),
                                strip.colors[2].data(), count, rgb8);
   if (!picture_.empty()) return;
   for (const auto& png : png_) png->WriteStrip(row, strip.window.height(), rgb8);

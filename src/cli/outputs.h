@@ -5,7 +5,6 @@
 
 #include <atomic>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
@@ -72,7 +71,6 @@ class Outputs {
   const RenderOptions& options_;
   const FramePlan& plan_;
   const std::vector<TextItem>& captions_;
-  DisplaySettings display_;
   std::vector<std::unique_ptr<ExrWriter>> exr_;
   std::vector<std::unique_ptr<PngWriter>> png_;
   // With --labels: the whole picture, since text is drawn into it at the end.

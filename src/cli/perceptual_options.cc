@@ -44,39 +44,28 @@ void ParseExposures(const std::string& text, PerceptualOptions* options) {
 }  // namespace
 
 void AddPerceptualOptions(CLI::App* command, PerceptualArguments* a) {
-  const std::string group = "Perceptual metrics (layers with R, G and B)";
+  const InGroup group(command, "Perceptual metrics (layers with R, G and B)");
   CLI::Option* const metrics = command->add_option(
       "--metrics", a->metrics,
       "In addition: ssim (structural similarity, 1: equal), flip (visible difference "
       "when the pictures alternate, 0: none, 1: most), hdr_flip (the same at several "
       "exposures; linear images), all or none");
-  metrics->delimiter(',')
-      ->allow_extra_args(false)
-      ->check(CLI::IsMember({"ssim", "flip", "hdr_flip", "all", "none"}))
-      ->group(group);
+  metrics->delimiter(',')->allow_extra_args(false)->check(
+      CLI::IsMember({"ssim", "flip", "hdr_flip", "all", "none"}));
   if (!a->metrics.empty()) metrics->capture_default_str();
   command
       ->add_option("--ppd", a->pixels_per_degree,
                    "FLIP: pixels per degree of vision. If not given 67: a display 0.7 m wide with "
                    "3840 pixels, seen from 0.7 m")
-      ->check(InRange(1, 1000))
-      ->group(group);
+      ->check(InRange(1, 1000));
   command
       ->add_option("--flip-exposures", a->exposures,
                    "HDR-FLIP: from START to STOP stops in COUNT steps; if not given, from where "
                    "the reference's brightest pixel is nearly white to where its median is")
-      ->type_name("START,STOP[,COUNT]")
-      ->group(group);
-  command
-      ->add_option("--tonemap", a->tonemap,
-                   "Tone operator that shows linear images to SSIM and FLIP; as in nacre tonemap")
-      ->check(CLI::IsMember(ToneOperatorNames()))
-      ->capture_default_str()
-      ->group(group);
-  command->add_option("--exposure", a->exposure, "Exposure in stops, likewise")
-      ->check(InRange(-60, 60))
-      ->capture_default_str()
-      ->group(group);
+      ->type_name("START,STOP[,COUNT]");
+  AddDisplayOptions(command, &a->display,
+                    "Tone operator that shows linear images to SSIM and FLIP; as in nacre tonemap",
+                    "Exposure in stops, likewise");
   MoveBehindHelpAll(command, {"--ppd", "--flip-exposures", "--tonemap", "--exposure"});
 }
 
@@ -94,8 +83,7 @@ std::optional<PerceptualOptions> MakePerceptualOptions(const PerceptualArguments
   options.flip = asked("flip");
   options.hdr_flip = asked("hdr_flip");
   if (!options.ssim && !options.flip && !options.hdr_flip) return std::nullopt;
-  options.display.tone = ParseToneOperator(arguments.tonemap);
-  options.display.exposure_ev = arguments.exposure;
+  options.display = arguments.display;
   options.pixels_per_degree = arguments.pixels_per_degree;
   return options;
 }

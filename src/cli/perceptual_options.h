@@ -14,8 +14,7 @@ namespace nacre {
 
 struct PerceptualArguments {
   std::vector<std::string> metrics;  // "ssim", "flip", "hdr_flip", "all" or "none"
-  std::string tonemap = "neutral";
-  double exposure = 0;
+  DisplaySettings display;
   double pixels_per_degree = kDefaultPixelsPerDegree;
   std::string exposures;  // "START,STOP" or "START,STOP,COUNT"; empty: found from the reference
 };

@@ -103,8 +103,7 @@ std::vector<std::pair<std::string, Item>> Collect(const PlotInputs& inputs, cons
   for (const PlotItem& item : wanted) {
     if (scene && !IsJson(item.text)) {
       const std::vector<Item>& all = (*scene).*items;
-      const auto at = std::find_if(all.begin(), all.end(),
-                                   [&](const Item& one) { return one.name == item.text; });
+      const auto at = std::ranges::find(all, item.text, &Item::name);
       if (at == all.end()) FailUnknown(inputs, what, item.text, ItemNames(all));
       found.emplace_back(item.text, *at);
       continue;

@@ -4,12 +4,14 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <span>
 #include <string>
 
 #include <fcntl.h>
 #include <unistd.h>
 
 #include "base/error.h"
+#include "image_io/output_file.h"
 
 namespace nacre {
 namespace {
@@ -42,6 +44,17 @@ void FinishOutput() {
   throw Error(ExitCode::kCannotWrite, "standard output",
               errno != 0 ? std::strerror(errno) : "not all of it could be written",
               "what was printed is not complete");
+}
+
+void CheckTextOutput(const std::string& path) {
+  if (path != "-") CheckWritable(path);
+}
+
+void WriteText(const std::string& path, const std::string& text) {
+  if (path == "-") return PrintOut(text);
+  OutputFile file(path);
+  file.Write(0, std::span(reinterpret_cast<const uint8_t*>(text.data()), text.size()));
+  file.Commit();
 }
 
 void OpenStandardStreams() {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/print.h: prints text to standard output and standard error; all output of the program does.
+// cli/print.h: prints text to standard output and standard error, as all output of the program, and
+// writes text files.
 //
 // All printed text passes through base/printable.h. Arguments cannot even break a line: they may be
 // names from files, whereas line breaks of the layout are in the format string.
@@ -49,6 +50,11 @@ void PrintError(fmt::format_string<PrintedAs<First>, PrintedAs<Rest>...> format,
 // Throws Error (kCannotWrite) if not all of the printed text was written to standard output, or if
 // that was closed when the program began.
 void FinishOutput();
+
+// Throws Error (kCannotWrite) if `path` cannot be written. "-" is standard output.
+void CheckTextOutput(const std::string& path);
+// Writes a text file, which appears completely or not at all.
+void WriteText(const std::string& path, const std::string& text);
 
 // Opens standard input, output and error on /dev/null if they are closed. Otherwise an output file
 // could get their descriptor, and printed text with it.

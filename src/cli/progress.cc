@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <condition_variable>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <mutex>
+#include <stop_token>
 #include <string_view>
 #include <utility>
 
@@ -134,24 +137,21 @@ int StopExitCode() {
   return signal == 0 ? 0 : SignalExitCode(signal);
 }
 
-StopsInTime::StopsInTime(std::chrono::milliseconds limit)
-    : thread_([this, limit] {
-        constexpr std::chrono::milliseconds kLook(20);
-        std::unique_lock lock(mutex_);
-        const auto has_ended = [&] { return has_ended_; };
-        while (StopExitCode() == 0) {
-          if (ended_.wait_for(lock, kLook, has_ended)) return;
-        }
-        if (!ended_.wait_for(lock, limit, has_ended)) _exit(StopExitCode());
-      }) {}
-
-StopsInTime::~StopsInTime() {
-  {
-    const std::lock_guard lock(mutex_);
-    has_ended_ = true;
-  }
-  ended_.notify_all();
-  thread_.join();
+std::jthread StopInTime(std::chrono::milliseconds limit) {
+  return std::jthread([limit](const std::stop_token& ended) {
+    std::mutex mutex;
+    std::unique_lock lock(mutex);
+    std::condition_variable_any wait;
+    const auto ends_within = [&](std::chrono::milliseconds time) {
+      wait.wait_for(lock, ended, time, [] { return false; });
+      return ended.stop_requested();
+    };
+    constexpr std::chrono::milliseconds kLook(20);
+    while (StopExitCode() == 0) {
+      if (ends_within(kLook)) return;
+    }
+    if (!ends_within(limit)) _exit(StopExitCode());
+  });
 }
 
 void NoteWritten(const std::string& path) {

@@ -4,8 +4,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
 #include <string>
 #include <thread>
 
@@ -58,21 +56,9 @@ void ThrowIfStopped();
 // The exit code due to a stop signal; 0 if none has come.
 int StopExitCode();
 
-// While an object of this class exists, the process ends at most `limit` after a stop signal,
-// whatever its threads do. For servers, which run until a signal and leave nothing half-written.
-class StopsInTime {
- public:
-  explicit StopsInTime(std::chrono::milliseconds limit);
-  ~StopsInTime();
-  StopsInTime(const StopsInTime&) = delete;
-  StopsInTime& operator=(const StopsInTime&) = delete;
-
- private:
-  std::mutex mutex_;
-  std::condition_variable ended_;
-  bool has_ended_ = false;  // under mutex_
-  std::thread thread_;
-};
+// While the returned thread exists, the process ends at most `limit` after a stop signal, whatever
+// its other threads do. For servers, which run until a signal and leave nothing half-written.
+std::jthread StopInTime(std::chrono::milliseconds limit);
 
 // For commands that write several files and may be stopped in between: records that this file is
 // complete and stays. To be called from the thread that calls ThrowIfStopped.

@@ -10,7 +10,6 @@
 #include "cli/outputs.h"
 #include "cli/print.h"
 #include "cli/progress.h"
-#include "cli/text_output.h"
 #include "render/frame_window.h"
 #include "render/render.h"
 
@@ -34,21 +33,14 @@ ProgressForm EarlyProgressForm(const RenderOptions& options) {
 
 // Warns the user of samples that are not stored as computed.
 void WarnAboutSamples(const OutputCounts& counts, const RenderStats& stats) {
-  if (stats.directions_not_finite > 0) {
-    PrintError("warning: {} sampled directions to light are not numbers and brought none\n",
-               stats.directions_not_finite);
-  }
-  if (counts.exr.clamped > 0) {
-    PrintError("warning: {} samples beyond +-65504 were clamped; --depth float keeps them\n",
-               counts.exr.clamped);
-  }
-  if (counts.exr.infinite > 0) {
-    PrintError("warning: {} samples are infinite\n", counts.exr.infinite);
-  }
-  if (counts.exr.nan > 0) PrintError("warning: {} samples are not numbers\n", counts.exr.nan);
-  if (counts.nan_pixels > 0) {
-    PrintError("warning: {} pixels are not numbers and are drawn in magenta\n", counts.nan_pixels);
-  }
+  const auto warn = [](uint64_t count, const char* what) {
+    if (count > 0) PrintError("warning: {} {}\n", count, what);
+  };
+  warn(stats.directions_not_finite, "sampled directions to light are not numbers and brought none");
+  warn(counts.exr.clamped, "samples beyond +-65504 were clamped; --depth float keeps them");
+  warn(counts.exr.infinite, "samples are infinite");
+  warn(counts.exr.nan, "samples are not numbers");
+  warn(counts.nan_pixels, "pixels are not numbers and are drawn in magenta");
 }
 
 // Warns before an adaptive render that will take long, or in which many pixels will not converge.

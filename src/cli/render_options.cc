@@ -2,7 +2,6 @@
 #include "cli/render_options.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cstdlib>
 #include <variant>
@@ -57,14 +56,15 @@ CLI::Validator WholeInRange(uint64_t low, uint64_t high) {
   return {check, fmt::format("{} to {}", low, high)};
 }
 
-void AddDisplayOptions(CLI::App* command, std::string* tonemap, double* exposure) {
+void AddDisplayOptions(CLI::App* command, DisplaySettings* display, const std::string& tonemap,
+                       const std::string& exposure) {
   command
-      ->add_option("--tonemap", *tonemap,
-                   "Tone operator of PNG files: neutral, reinhard, reinhard_extended, aces, agx "
-                   "or none; neutral is Khronos PBR Neutral, none clips at 1")
+      ->add_option_function<std::string>(
+          "--tonemap",
+          [display](const std::string& name) { display->tone = ParseToneOperator(name); }, tonemap)
       ->check(CLI::IsMember(ToneOperatorNames()))
-      ->capture_default_str();
-  command->add_option("--exposure", *exposure, "Exposure of PNG files in stops: values times 2^EV")
+      ->default_str(ToneOperatorName(display->tone));
+  command->add_option("--exposure", display->exposure_ev, exposure)
       ->check(InRange(-60, 60))
       ->capture_default_str();
 }
@@ -108,13 +108,11 @@ CLI::Option* AddSettingOption(CLI::App* command, const SettingKey& key, RenderOp
 
 namespace {
 
-constexpr std::array kGroupTitles = {"Picture", "EXR files", "Machine"};  // by SettingGroup
-
 // Adds the options for the settings of a group that the command does not have already.
 void AddSettingOptions(CLI::App* command, SettingGroup group, RenderOptions* o) {
   for (const SettingKey& key : SettingKeys()) {
     if (key.group != group || command->get_option_no_throw(OptionOf(key)) != nullptr) continue;
-    AddSettingOption(command, key, o)->group(kGroupTitles[static_cast<size_t>(group)]);
+    AddSettingOption(command, key, o);
     if (!key.common) MoveBehindHelpAll(command, {OptionOf(key)});
   }
 }
@@ -130,46 +128,37 @@ void AddViewSettingOptions(CLI::App* command, RenderOptions* o) {
 }
 
 void AddPictureOptions(CLI::App* command, RenderOptions* o) {
-  const std::string picture = "Picture";
-  command->add_option("--size", o->size, "Width and height in pixels")
-      ->type_name("WxH")
-      ->group(picture);
+  const InGroup group(command, "Picture");
+  command->add_option("--size", o->size, "Width and height in pixels")->type_name("WxH");
   command->add_option("--spp", o->spp, "Samples per pixel; 1 goes through the pixel's centre")
-      ->check(WholeInRange(1, 65536))
-      ->group(picture);
+      ->check(WholeInRange(1, 65536));
   AddSettingOptions(command, SettingGroup::kPicture, o);
-  command->add_option("--seed", o->seed, "Seed of the sample pattern")->group(picture);
+  command->add_option("--seed", o->seed, "Seed of the sample pattern");
   command
       ->add_option("--set", o->sets,
                    "Change a value of the scene, e.g. /materials/red/roughness=0.2; repeatable. "
                    "The value is put into the scene before it is read")
       ->type_name("/POINTER=JSON")
-      ->allow_extra_args(false)
-      ->group(picture);
+      ->allow_extra_args(false);
   MoveBehindHelpAll(command, {"--seed"});
 }
 
 namespace {
 
 void AddExrOptions(CLI::App* command, RenderOptions* o) {
-  const std::string exr = "EXR files";
+  const InGroup group(command, "EXR files");
   AddSettingOptions(command, SettingGroup::kExrFiles, o);
   command->add_option("--depth", o->depth, "Precision of colour samples: half or float")
       ->check(CLI::IsMember({"half", "float"}))
-      ->capture_default_str()
-      ->group(exr);
+      ->capture_default_str();
   command->add_option("--compression", o->compression, "Compression: none, zip, zips, piz or dwaa")
       ->check(CLI::IsMember(CompressionNames()))
-      ->capture_default_str()
-      ->group(exr);
-  command
-      ->add_flag("--small", o->small, "Smaller files (EXR and PNG), several times slower to write")
-      ->group(exr);
-  command
-      ->add_flag("--reproducible", o->reproducible,
-                 "Leave times out of the files and compress them with zlib (slower), so that "
-                 "equal pictures make equal files")
-      ->group(exr);
+      ->capture_default_str();
+  command->add_flag("--small", o->small,
+                    "Smaller files (EXR and PNG), several times slower to write");
+  command->add_flag("--reproducible", o->reproducible,
+                    "Leave times out of the files and compress them with zlib (slower), so that "
+                    "equal pictures make equal files");
   MoveBehindHelpAll(command, {"--depth", "--compression", "--small", "--reproducible"});
 }
 
@@ -184,50 +173,40 @@ CLI::Option* AddTargetOption(CLI::App* command, std::string* target) {
 }
 
 void AddMachineOptions(CLI::App* command, RenderOptions* o) {
-  const std::string machine = "Machine";
-  AddSettingOption(command, SettingNamed("threads"), o)->group(machine);
-  AddTargetOption(command, &o->target)->group(machine);
+  const InGroup group(command, "Machine");
+  AddSettingOption(command, SettingNamed("threads"), o);
+  AddTargetOption(command, &o->target);
   AddSettingOptions(command, SettingGroup::kMachine, o);
-  command
-      ->add_flag("--allow-paths", o->allow_paths,
-                 "Let the scene refer to files outside its own folder")
-      ->group(machine);
-  AddMaxPrimitivesOption(command, &o->max_primitives)->group(machine);
+  command->add_flag("--allow-paths", o->allow_paths,
+                    "Let the scene refer to files outside its own folder");
+  AddMaxPrimitivesOption(command, &o->max_primitives);
   MoveBehindHelpAll(command, {"--threads", "--target", "--allow-paths", "--max-primitives"});
 }
 
 namespace {
 
 void AddTellingOptions(CLI::App* command, RenderOptions* o) {
-  const std::string telling = "Messages";
-  command
-      ->add_flag("--dry-run", o->dry_run,
-                 "Check everything and print, as JSON, the EXR file's header and the most tiles "
-                 "that the picture can be cut into; render nothing")
-      ->group(telling);
-  command
-      ->add_flag("--explain", o->explain,
-                 "Print the plan: what is used, what is skipped and why, and where the time went")
-      ->group(telling);
-  command->add_option("--stats", o->stats, "Write times and counts as JSON")
-      ->type_name("FILE")
-      ->group(telling);
+  const InGroup group(command, "Messages");
+  command->add_flag("--dry-run", o->dry_run,
+                    "Check everything and print, as JSON, the EXR file's header and the most tiles "
+                    "that the picture can be cut into; render nothing");
+  command->add_flag(
+      "--explain", o->explain,
+      "Print the plan: what is used, what is skipped and why, and where the time went");
+  command->add_option("--stats", o->stats, "Write times and counts as JSON")->type_name("FILE");
   command
       ->add_option("--progress", o->progress,
                    "Progress display: auto (a bar on a terminal), bar, json or none")
       ->check(CLI::IsMember({"auto", "bar", "json", "none"}))
-      ->capture_default_str()
-      ->group(telling);
-  command->add_flag("--quiet", o->quiet, "Print nothing but errors")->group(telling);
+      ->capture_default_str();
+  command->add_flag("--quiet", o->quiet, "Print nothing but errors");
   MoveBehindHelpAll(command, {"--dry-run", "--stats", "--progress"});
 }
 
 void FindIdleOptions(const CLI::App& command, RenderOptions* o) {
   const auto find = [&](const std::vector<std::string>& names, const char* extension) {
-    if (std::any_of(o->outputs.begin(), o->outputs.end(),
-                    [&](const std::string& path) { return HasExtension(path, extension); })) {
-      return;
-    }
+    const auto is_one = [&](const std::string& path) { return HasExtension(path, extension); };
+    if (std::ranges::any_of(o->outputs, is_one)) return;
     for (const std::string& name : names) {
       if (command.get_option(name)->count() > 0) o->idle_options.push_back({name, extension});
     }
@@ -252,7 +231,7 @@ void AddRenderOptions(CLI::App* command, RenderOptions* o) {
       ->required()
       ->type_name("FILE")
       ->allow_extra_args(false);
-  AddDisplayOptions(command, &o->tonemap, &o->exposure);
+  AddDisplayOptions(command, &o->display);
   command->add_flag("--labels,!--no-labels", o->labels,
                     "Write titles and labels of rows and columns into PNG files, or do not");
   AddPictureOptions(command, o);

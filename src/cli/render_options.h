@@ -38,8 +38,7 @@ struct RenderOptions {
   std::string depth = "half";
   std::string compression = "zip";
   bool small = false;
-  std::string tonemap = "neutral";
-  double exposure = 0;
+  DisplaySettings display;
   bool labels = false;
   std::vector<std::string> sets;  // "/json/pointer=value"
   bool allow_paths = false;
@@ -59,8 +58,13 @@ void AddRenderOptions(CLI::App* command, RenderOptions* options);
 // Adds the option for the SIMD target.
 CLI::Option* AddTargetOption(CLI::App* command, std::string* target);
 
-// Adds the options for the look of a PNG, which `tonemap` has, too.
-void AddDisplayOptions(CLI::App* command, std::string* tonemap, double* exposure);
+// Adds --tonemap and --exposure, described for PNG files if not otherwise.
+void AddDisplayOptions(
+    CLI::App* command, DisplaySettings* display,
+    const std::string& tonemap =
+        "Tone operator of PNG files: neutral, reinhard, reinhard_extended, aces, agx or none; "
+        "neutral is Khronos PBR Neutral, none clips at 1",
+    const std::string& exposure = "Exposure of PNG files in stops: values times 2^EV");
 
 // Adds the option for a setting.
 CLI::Option* AddSettingOption(CLI::App* command, const SettingKey& key, RenderOptions* options);

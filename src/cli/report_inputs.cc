@@ -4,9 +4,6 @@
 #include <chrono>
 #include <filesystem>
 
-#include <fmt/format.h>
-
-#include "base/error.h"
 #include "base/path.h"
 #include "base/seconds_since.h"
 #include "cli/outputs.h"

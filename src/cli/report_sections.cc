@@ -2,7 +2,9 @@
 #include "cli/report_sections.h"
 
 #include <algorithm>
-#include <filesystem>
+#include <iterator>
+#include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -12,12 +14,10 @@
 #include "base/version.h"
 #include "cli/metrics_json.h"
 #include "cli/print.h"
-#include "cli/text_output.h"
+#include "scene_io/json_text.h"
 
 namespace nacre {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json FrameOf(const Image& image) {
   return {{"width", image.display.width()}, {"height", image.display.height()}};
@@ -53,23 +53,14 @@ Json Compare(const Image& got, const Image& reference, const CompareOptions& opt
 
 // The layers that both images have: pictures of other renderers have fewer.
 std::vector<std::string> CommonLayers(const Image& a, const Image& b) {
-  std::vector<std::string> common;
-  const auto has_all = [](const Image& image, const Image& other, const std::string& layer) {
-    bool any = false;
-    for (const Channel& channel : other.channels) {
-      if (LayerOfChannel(channel.name) != layer) continue;
-      any = true;
-      if (image.Find(channel.name) == nullptr) return false;
+  std::set<std::string> shared, lacking;  // layers with a channel that both have, or only one has
+  for (const auto& [image, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
+    for (const Channel& channel : image->channels) {
+      (other->Find(channel.name) ? shared : lacking).insert(LayerOfChannel(channel.name));
     }
-    return any;
-  };
-  for (const Channel& channel : b.channels) {
-    const std::string layer = LayerOfChannel(channel.name);
-    if (!common.empty() && common.back() == layer) continue;
-    if (has_all(a, b, layer) && has_all(b, a, layer)) common.push_back(layer);
   }
-  std::sort(common.begin(), common.end());
-  common.erase(std::unique(common.begin(), common.end()), common.end());
+  std::vector<std::string> common;
+  std::ranges::set_difference(shared, lacking, std::back_inserter(common));
   return common;
 }
 
@@ -95,7 +86,8 @@ std::string Summary(const PerceptualArguments& shown, const Json& sections) {
   return fmt::format(
       "By nacre {}, SIMD target {}. Pictures open with the tone operator {} at {} "
       "stops; what they hold is linear.",
-      kVersion, TargetName(ActiveTarget()), shown.tonemap, shown.exposure);
+      kVersion, TargetName(ActiveTarget()), ToneOperatorName(shown.display.tone),
+      shown.display.exposure_ev);
 }
 
 }  // namespace
@@ -196,8 +188,8 @@ std::string ReportHtml(const std::string& title, const Json& sections,
                    {{"generator", generator},
                     {"summary", Summary(shown, sections)},
                     {"notes", Json::array()},
-                    {"tone", shown.tonemap},
-                    {"exposure", shown.exposure},
+                    {"tone", ToneOperatorName(shown.display.tone)},
+                    {"exposure", shown.display.exposure_ev},
                     {"sections", sections}});
 }
 

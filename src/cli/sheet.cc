@@ -5,7 +5,6 @@
 #include "cli/help_text.h"
 #include "color/display.h"
 #include "color/luminance.h"
-#include "scene_io/sheet_axis.h"
 
 namespace nacre {
 
@@ -37,6 +36,13 @@ std::string SheetScene(const Json& shapes, const Json& materials, const SheetReq
   return JsonText(scene);
 }
 
+Json SheetSphere(double x, const Json& material) {
+  return {{"type", "sphere"},
+          {"center", {x, 0, 0}},
+          {"radius", kSheetSphereRadius},
+          {"material", material}};
+}
+
 void AddSheetOptions(CLI::App* command, SheetOptions* options, RenderOptions* render) {
   command
       ->add_option("--sphere-size", options->sphere_size,
@@ -53,11 +59,33 @@ void AddSheetOptions(CLI::App* command, SheetOptions* options, RenderOptions* re
                               "--set", "--layers", "--explain"});
 }
 
-SheetRequest MakeSheetRequest(const SheetOptions& options, const RenderOptions& render, int rows,
-                              int columns) {
+std::string SheetTitle(const SheetOptions& options, const std::string& by_default) {
+  if (options.title == "-") return {};
+  return options.title.empty() ? by_default : options.title;
+}
+
+namespace {
+
+// Whether the ground is light in a PNG, so that text should be dark.
+bool IsLightGround(const Lighting& lighting, const RenderOptions& render) {
+  const Json& background = lighting.background;
+  Imath::Color3<double> rgb;
+  for (int c = 0; c < 3; ++c) {
+    const auto i = static_cast<size_t>(c);
+    rgb[c] = background.is_array() ? background[i].get<double>() : background.get<double>();
+  }
+  // At luminance 0.18, the contrasts with black and with white are equal (WCAG 2.1).
+  return Luminance(DisplayLight(render.display, rgb)) > 0.18;
+}
+
+}  // namespace
+
+SheetRequest MakeSheetRequest(const SheetOptions& options, const RenderOptions& render,
+                              const Lighting& lighting, int rows, int columns) {
   SheetRequest request;
   request.rows = rows;
   request.columns = columns;
+  request.light_ground = IsLightGround(lighting, render);
   if (options.sphere_size > 0) request.cell = options.sphere_size / (2 * kSheetSphereRadius);
   if (!render.size.empty()) {
     if (options.sphere_size > 0) {
@@ -67,21 +95,6 @@ SheetRequest MakeSheetRequest(const SheetOptions& options, const RenderOptions& 
     ParseSize(render.size, &request.width, &request.height);
   }
   return request;
-}
-
-bool IsLightGround(const Lighting& lighting, const RenderOptions& render) {
-  const Json& background = lighting.background;
-  Imath::Color3<double> rgb;
-  for (int c = 0; c < 3; ++c) {
-    const auto i = static_cast<size_t>(c);
-    rgb[c] = background.is_array() ? background[i].get<double>() : background.get<double>();
-  }
-  DisplaySettings display;
-  display.tone = ParseToneOperator(render.tonemap);
-  display.exposure_ev = render.exposure;
-  const auto light = DisplayLight(display, rgb);
-  // At luminance 0.18, the contrasts with black and with white are equal (WCAG 2.1).
-  return Luminance(light) > 0.18;
 }
 
 Scene LoadSheet(const std::string& text, const std::string& command, const SheetOptions& options,

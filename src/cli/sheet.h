@@ -13,6 +13,9 @@ namespace nacre {
 
 inline constexpr double kSheetSphereRadius = 0.44;  // in multiples of a cell's side
 
+// A sphere in the cell whose middle is at (x, 0); `material` as in a scene file.
+Json SheetSphere(double x, const Json& material);
+
 // The text of a scene file. World units are cells; the block of rows by columns is centred at the
 // origin. The projection is parallel, along -z, so that all spheres look alike.
 std::string SheetScene(const Json& shapes, const Json& materials, const SheetRequest& request,
@@ -26,12 +29,12 @@ struct SheetOptions {
 };
 void AddSheetOptions(CLI::App* command, SheetOptions* options, RenderOptions* render);
 
-// Combines them with --size. Throws Error (kUsage).
-SheetRequest MakeSheetRequest(const SheetOptions& options, const RenderOptions& render, int rows,
-                              int columns);
+// The title that the options ask for; `by_default` if they name none.
+std::string SheetTitle(const SheetOptions& options, const std::string& by_default);
 
-// Whether the ground is light in a PNG, so that text should be dark.
-bool IsLightGround(const Lighting& lighting, const RenderOptions& render);
+// Combines them with --size; text is dark if the ground is light in a PNG. Throws Error (kUsage).
+SheetRequest MakeSheetRequest(const SheetOptions& options, const RenderOptions& render,
+                              const Lighting& lighting, int rows, int columns);
 
 // Loads the scene of a sheet. The image of --environment may be anywhere; files that --lights names
 // must be below the working folder unless the options allow more.

@@ -129,14 +129,18 @@ bool HasText(const SheetText& text) {
 // Chooses the sizes of the page that the request leaves open.
 Margins ChooseSizes(const SheetText& text, const SheetRequest& r, SheetPage* page) {
   constexpr double kSmallestText = 6;
+  const auto measure = [&](double em, double cell, double width) {
+    Margins m = MeasureMargins(text, em, cell, width);
+    m.bottom += r.strip * em;
+    return m;
+  };
   if (r.width == 0) {  // the cells determine the page's width
     const double extent = (r.columns + r.rows) * page->cell / 2;
     page->text_px = std::round(std::clamp(extent / 36, 18.0, 48.0));
     const double narrowest = 26 * page->text_px;
-    Margins m = MeasureMargins(text, page->text_px, page->cell, narrowest);
+    Margins m = measure(page->text_px, page->cell, narrowest);
     const double width = std::max(m.left + r.columns * page->cell + m.right, narrowest);
-    m = MeasureMargins(text, page->text_px, page->cell, width);
-    m.bottom += r.strip * page->text_px;
+    m = measure(page->text_px, page->cell, width);
     page->width = static_cast<int>(std::ceil(width));
     page->height = static_cast<int>(std::ceil(m.top + r.rows * page->cell + m.bottom));
     return m;
@@ -145,14 +149,8 @@ Margins ChooseSizes(const SheetText& text, const SheetRequest& r, SheetPage* pag
   page->height = r.height;
   for (double em = std::min(std::min(r.width, r.height) / 32.0, 64.0); em >= kSmallestText;
        em *= 0.9) {
-    Margins m = MeasureMargins(
-        text, em, std::min(r.width * 0.8 / r.columns, r.height * 0.8 / r.rows), r.width);
-    m.bottom += r.strip * em;
-    m = [&] {  // again, now that the cell size is known
-      Margins again = MeasureMargins(text, em, std::max(CellThatFits(r, m), 1.0), r.width);
-      again.bottom += r.strip * em;
-      return again;
-    }();
+    Margins m = measure(em, std::min(r.width * 0.8 / r.columns, r.height * 0.8 / r.rows), r.width);
+    m = measure(em, std::max(CellThatFits(r, m), 1.0), r.width);  // now that the size is known
     const double cell = CellThatFits(r, m);
     const bool has_room = cell * r.columns > 0.5 * r.width || cell * r.rows > 0.5 * r.height;
     if (!has_room) continue;

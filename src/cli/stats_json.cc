@@ -4,16 +4,14 @@
 #include "base/target.h"
 #include "base/version.h"
 #include "output/metadata.h"
+#include "scene/primitives.h"
 #include "scene_io/json_text.h"
 
 namespace nacre {
 
 std::string StatsJson(const FramePlan& plan, const RenderStats& stats, const JobTimes& times,
                       const OutputCounts& counts) {
-  using Json = nlohmann::ordered_json;
   const Scene& scene = *plan.scene;
-  size_t triangles = 0;
-  for (const Mesh& mesh : scene.meshes) triangles += mesh.triangles.size() / 3;
   const auto ms = [](double seconds) { return 1e3 * seconds; };
   const auto rate = [&](uint64_t count) {
     return stats.render_seconds > 0 ? static_cast<double>(count) / stats.render_seconds : 0.0;
@@ -54,7 +52,7 @@ std::string StatsJson(const FramePlan& plan, const RenderStats& stats, const Job
         {"forecast", forecast}}},
       {"scene",
        {{"spheres", scene.spheres.size()},
-        {"triangles", triangles},
+        {"triangles", CountTriangles(scene)},
         {"lights", scene.lights.size()},
         {"materials", scene.materials.size()},
         {"shadowing", ShadowingForms(plan.surfaces.prepared->any)}}},
@@ -88,18 +86,14 @@ std::string StatsJson(const FramePlan& plan, const RenderStats& stats, const Job
 }
 
 std::string DryRunJson(const ExrHeader& header, const RenderOptions& options, int most_tiles) {
-  using Json = nlohmann::ordered_json;
   Json attributes = Json::object();
   for (const auto& [name, value] : header.attributes) {
     Json& attribute = attributes[name];  // Clang 14 does not capture structured bindings
     std::visit([&](const auto& plain) { attribute = plain; }, value);
   }
-  const auto type_name = [](PixelType type) {
-    return type == PixelType::kHalf ? "half" : type == PixelType::kFloat ? "float" : "uint";
-  };
   Json channels = Json::object();
   for (const ExrChannel& channel : header.channels) {
-    channels[channel.name] = type_name(channel.type);
+    channels[channel.name] = PixelTypeName(channel.type);
   }
   const Window& data = header.data;
   const Json json = {{"display_window", {header.display.x1, header.display.y1}},

@@ -152,8 +152,8 @@ Error ValueError(const CLI::Option& option, const std::string& where, const std:
                  const std::string& help) {
   const std::vector<std::string> choices = ChoicesOf(option);
   const std::vector<std::string> given = option.results();
-  const auto wrong = std::find_if(given.begin(), given.end(),
-                                  [&](const std::string& value) { return !Has(choices, value); });
+  const auto wrong =
+      std::ranges::find_if(given, [&](const auto& value) { return !Has(choices, value); });
   if (choices.empty() || wrong == given.end()) {
     return Error(ExitCode::kUsage, where, told, fmt::format("{} tells what it takes", help));
   }
@@ -194,29 +194,26 @@ Error UsageError(const CLI::App& app, const CLI::ParseError& failure) {
   const std::string name = text.substr(0, text.find_first_of(" :"));
   const CLI::Option* const option = command.get_option_no_throw(name);
   if (option == nullptr) return Error(ExitCode::kUsage, "", message, help + " tells every option");
+  const std::vector<std::string> given = option->results();
+  const std::string takes = help + " tells what it takes";
   switch (static_cast<CLI::ExitCodes>(failure.get_exit_code())) {
     case CLI::ExitCodes::RequiredError:
-      return Error(ExitCode::kUsage, name, "is required",
-                   fmt::format("{} tells what there is", help));
+      return Error(ExitCode::kUsage, name, "is required", help + " tells what there is");
     case CLI::ExitCodes::ArgumentMismatch:
-      if (option->results().size() > 1) {
-        return Error(ExitCode::kUsage, name,
-                     fmt::format("is given {} times", option->results().size()), "give it once");
-      }
-      return Error(ExitCode::kUsage, name, "its value is missing",
-                   fmt::format("{} tells what it takes", help));
-    case CLI::ExitCodes::ConversionError: {
-      const std::string value = option->results().empty() ? "" : option->results().front();
+      if (given.size() <= 1) return Error(ExitCode::kUsage, name, kNoValue, takes);
+      return Error(ExitCode::kUsage, name, fmt::format("is given {} times", given.size()),
+                   "give it once");
+    case CLI::ExitCodes::ConversionError:
       if (!TakesValue(*option)) {
         return Error(ExitCode::kUsage, name, "takes no value", fmt::format("write {} alone", name));
       }
-      return Error(ExitCode::kUsage, name, fmt::format("\"{}\" is not a number", value),
-                   fmt::format("{} tells what it takes", help));
-    }
+      return Error(ExitCode::kUsage, name,
+                   fmt::format("\"{}\" is not a number", given.empty() ? "" : given.front()),
+                   takes);
     case CLI::ExitCodes::ValidationError:
       return ValueError(*option, name, text.substr(std::min(name.size() + 2, text.size())), help);
     default:
-      return Error(ExitCode::kUsage, "", message, fmt::format("{} tells what it takes", help));
+      return Error(ExitCode::kUsage, "", message, takes);
   }
 }
 

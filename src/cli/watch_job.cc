@@ -4,6 +4,7 @@
 #include <chrono>
 #include <new>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <utility>
@@ -17,7 +18,6 @@
 #include "cli/progress.h"
 #include "cli/render_job.h"
 #include "render/prepared_scene.h"
-#include "render/settings.h"
 #include "scene_io/live_scene.h"
 
 namespace nacre {
@@ -48,8 +48,8 @@ void PrintInOneLine(const Error& error) {
 class ChangeGuard {
  public:
   explicit ChangeGuard(LiveScene* live)
-      : thread_([this, live] {
-          while (!done_) {
+      : thread_([this, live](const std::stop_token& done) {
+          while (!done.stop_requested()) {
             std::this_thread::sleep_for(kLook);
             if (!live->FilesChanged()) continue;
             changed_ = true;
@@ -57,21 +57,19 @@ class ChangeGuard {
             return;
           }
         }) {}
-  ~ChangeGuard() { Stop(); }
   ChangeGuard(const ChangeGuard&) = delete;
   ChangeGuard& operator=(const ChangeGuard&) = delete;
 
   // Stops watching. Returns whether files have changed since construction.
   bool Stop() {
-    done_ = true;
+    thread_.request_stop();
     if (thread_.joinable()) thread_.join();
     return changed_;
   }
 
  private:
-  std::atomic<bool> done_ = false;
   std::atomic<bool> changed_ = false;
-  std::thread thread_;
+  std::jthread thread_;  // joined before the flag is gone
 };
 
 // Renders the scene. Returns true if files changed meanwhile, which ends the render. Throws Error.

@@ -71,7 +71,17 @@ void ShowLight(const DisplaySettings& settings, size_t count, float* r, float* g
 void DecodeSrgb(size_t count, float* values);
 
 // The picture that a display shows of the image's channels R, G and B, or of those of a layer.
-Rgb8Picture ShowImage(const Image& image, const DisplaySettings& settings,
-                      const std::string& layer = {});
+inline Rgb8Picture ShowImage(const Image& image, const DisplaySettings& settings,
+                             const std::string& layer = {}) {
+  const std::string prefix = layer.empty() ? "" : layer + ".";
+  const auto plane = [&](const char* channel) {
+    return image.Find(prefix + channel)->samples.data();
+  };
+  Rgb8Picture picture{image.data.width(), image.data.height(), {}};
+  picture.rgb8.resize(3 * image.data.pixel_count());
+  EncodeDisplay(settings, plane("R"), plane("G"), plane("B"), image.data.pixel_count(),
+                picture.rgb8.data());
+  return picture;
+}
 
 }  // namespace nacre

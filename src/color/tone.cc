@@ -1,41 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "color/tone.h"
 
-#include <utility>
+#include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "base/error.h"
 
 namespace nacre {
 namespace {
 
-constexpr std::pair<ToneOperator, const char*> kToneNames[] = {
-    {ToneOperator::kNeutral, "neutral"},
-    {ToneOperator::kReinhard, "reinhard"},
-    {ToneOperator::kReinhardExtended, "reinhard_extended"},
-    {ToneOperator::kAces, "aces"},
-    {ToneOperator::kAgx, "agx"},
-    {ToneOperator::kNone, "none"},
-};
+// Indexed by ToneOperator.
+constexpr std::array<std::string_view, 6> kToneNames = {"neutral", "reinhard", "reinhard_extended",
+                                                        "aces",    "agx",      "none"};
 
 }  // namespace
 
 std::string ToneOperatorName(ToneOperator tone) {
-  for (const auto& [value, name] : kToneNames) {
-    if (value == tone) return name;
-  }
-  return {};
+  return std::string(kToneNames[static_cast<size_t>(tone)]);
 }
 
-std::vector<std::string> ToneOperatorNames() {
-  std::vector<std::string> names;
-  for (const auto& [value, name] : kToneNames) names.emplace_back(name);
-  return names;
-}
+std::vector<std::string> ToneOperatorNames() { return {kToneNames.begin(), kToneNames.end()}; }
 
 ToneOperator ParseToneOperator(const std::string& name) {
-  for (const auto& [value, known] : kToneNames) {
-    if (name == known) return value;
-  }
+  const auto found = std::ranges::find(kToneNames, name);
+  if (found != kToneNames.end()) return static_cast<ToneOperator>(found - kToneNames.begin());
   throw Error(ExitCode::kUsage, {}, "unknown tone operator \"" + name + "\"",
               NearestHint(name, ToneOperatorNames(),
                           "one of neutral, reinhard, reinhard_extended, aces, agx, none"));

@@ -116,47 +116,39 @@ HWY_INLINE void FilterPictureDown(D d, const FlipWeights& weights, const float* 
   constexpr size_t kPlane = kFlipBlockRows * kFlipColumns;
   const auto first = [&](const FlipFilter& filter)
                          HWY_ATTR { return rows + (weights.radius - filter.radius()); };
-  const auto zero = [&](BlockSums<V>* sums) HWY_ATTR {
-    for (size_t row = 0; row < kFlipBlockRows; ++row) {
-      sums->left[row] = sums->right[row] = hn::Zero(d);
-    }
-  };
-  const auto store = [&](const BlockSums<V>& sums, float* at) HWY_ATTR {
-    for (size_t row = 0; row < kFlipBlockRows; ++row) {
-      hn::Store(sums.left[row], d, at + row * kFlipColumns);
-      hn::Store(sums.right[row], d, at + row * kFlipColumns + lanes);
-    }
-  };
+  BlockSums<V> sums;
+  for (size_t row = 0; row < kFlipBlockRows; ++row) sums.left[row] = sums.right[row] = hn::Zero(d);
   for (size_t x = 0; x < kFlipColumns; x += 2 * lanes) {
-    BlockSums<V> sums;
+    // Stores the sums, and begins new ones.
+    const auto store = [&](size_t plane) HWY_ATTR {
+      float* at = to + plane * kPlane + x;
+      for (size_t row = 0; row < kFlipBlockRows; ++row, at += kFlipColumns) {
+        hn::Store(sums.left[row], d, at);
+        hn::Store(sums.right[row], d, at + lanes);
+        sums.left[row] = sums.right[row] = hn::Zero(d);
+      }
+    };
     const auto smooth = [&](const FlipFilter& filter, FlipPlane plane) HWY_ATTR {
       FilterDown<false>(d, filter, first(filter), plane * kFlipColumns + x, &sums);
     };
     const auto derive = [&](const FlipFilter& filter) HWY_ATTR {
       FilterDown<true>(d, filter, first(filter), kSmooth * kFlipColumns + x, &sums);
     };
-    zero(&sums);
     smooth(weights.luminance, kLuminance);
-    store(sums, to + x);
-    zero(&sums);
+    store(0);
     smooth(weights.red_green, kRedGreen);
-    store(sums, to + kPlane + x);
-    zero(&sums);
+    store(1);
     smooth(weights.blue_yellow[0], kBlueYellow0);
     smooth(weights.blue_yellow[1], kBlueYellow1);
-    store(sums, to + 2 * kPlane + x);
-    zero(&sums);
+    store(2);
     smooth(weights.smooth, kEdge);
-    store(sums, to + 3 * kPlane + x);
-    zero(&sums);
+    store(3);
     derive(weights.edge);
-    store(sums, to + 4 * kPlane + x);
-    zero(&sums);
+    store(4);
     smooth(weights.smooth, kPoint);
-    store(sums, to + 5 * kPlane + x);
-    zero(&sums);
+    store(5);
     derive(weights.point);
-    store(sums, to + 6 * kPlane + x);
+    store(6);
   }
 }
 

@@ -41,8 +41,6 @@ double HeatScale::Position(double error) const {
   return std::clamp(std::log(error / low) / std::log(high / low), 0.0, 1.0);
 }
 
-double HeatScale::Value(double t) const { return low * std::pow(high / low, t); }
-
 Rgb8Picture HeatMap(const Image& got, const Image& reference, const std::string& layer,
                     HeatQuantity quantity, const HeatScale& scale) {
   CompareOptions options;

@@ -27,7 +27,6 @@ struct HeatScale {
   double high = 1;
 
   double Position(double error) const;  // t in [0, 1], clamped
-  double Value(double t) const;         // the inverse, for the ticks of a legend
 };
 
 enum class HeatQuantity : uint8_t { kAbsolute, kRelative };  // as SampleError, SoftenedError

@@ -56,13 +56,6 @@ void RequireSamePrimaries(const Image& got, const Image& reference, const Compar
               "convert one of them first");
 }
 
-// The sample of a channel at the first pixel of `window`.
-const float* FirstSample(const Channel& channel, const Image& image, const Window& window) {
-  const auto stride = static_cast<size_t>(image.data.width());
-  return channel.samples.data() + static_cast<size_t>(window.y0 - image.data.y0) * stride +
-         static_cast<size_t>(window.x0 - image.data.x0);
-}
-
 }  // namespace
 
 std::string LayerOfChannel(const std::string& channel) {
@@ -92,16 +85,17 @@ ImagePair PairImages(const Image& got, const Image& reference, const CompareOpti
     throw Error(ExitCode::kCannotCompare, options.got_name,
                 "has no pixel in common with " + options.reference_name);
   }
+  const size_t got_first = IndexIn(got.data, pair.window.x0, pair.window.y0);
+  const size_t reference_first = IndexIn(reference.data, pair.window.x0, pair.window.y0);
   pair.got_stride = static_cast<size_t>(got.data.width());
   pair.reference_stride = static_cast<size_t>(reference.data.width());
   for (const Channel& channel : reference.channels) {
     const std::string layer = LayerOfChannel(channel.name);
     if (!IsWanted(layer, options)) continue;
-    auto found = std::find_if(pair.layers.begin(), pair.layers.end(),
-                              [&](const LayerPair& p) { return p.layer == layer; });
+    auto found = std::ranges::find(pair.layers, layer, &LayerPair::layer);
     if (found == pair.layers.end()) found = pair.layers.insert(found, {layer, {}});
-    found->channels.push_back({channel.name, FirstSample(*got.Find(channel.name), got, pair.window),
-                               FirstSample(channel, reference, pair.window)});
+    found->channels.push_back({channel.name, got.Find(channel.name)->samples.data() + got_first,
+                               channel.samples.data() + reference_first});
   }
   return pair;
 }

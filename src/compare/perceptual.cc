@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "base/error.h"
 #include "color/display.h"
 #include "compare/ssim.h"
 
@@ -22,9 +21,8 @@ bool IsDisplayReferred(const Image& image) {
 // The channel of the layer whose name ends in R, G or B; null if there is none.
 const ChannelPair* FindColor(const LayerPair& layer, char color) {
   for (const ChannelPair& channel : layer.channels) {
-    const size_t dot = channel.name.rfind('.');
-    const size_t start = dot == std::string::npos ? 0 : dot + 1;
-    if (channel.name.substr(start) == std::string(1, color)) return &channel;
+    // Without a dot, rfind() + 1 is 0.
+    if (channel.name.substr(channel.name.rfind('.') + 1) == std::string(1, color)) return &channel;
   }
   return nullptr;
 }

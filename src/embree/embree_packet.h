@@ -9,8 +9,7 @@
 
 namespace nacre {
 
-// The packet's float rays are those in `rays`, except for their origins: in `rays` these are
-// relative to the BVH's origin, in `origin` to the camera.
+// The packet's float rays are those in `rays`, whose origins are relative to the BVH's origin.
 struct EmbreePacket {
   EmbreePacket(int width, RTCScene scene, const TraceGeometry* geometry);
   EmbreePacket(const EmbreePacket&) = delete;  // it points into itself
@@ -21,7 +20,6 @@ struct EmbreePacket {
   alignas(64) int valid[kMaxPacketWidth];  // -1: the lane is active, 0: it is not
   RTCRayHit16 rays;                        // laid out for the packet's width
   Packet packet;
-  alignas(64) float origin[3][kMaxPacketWidth];
 
   RTCRayN* ray_n() { return RTCRayHitN_RayN(reinterpret_cast<RTCRayHitN*>(&rays), Width()); }
   unsigned Width() const { return static_cast<unsigned>(packet.width); }
@@ -35,7 +33,6 @@ inline EmbreePacket::EmbreePacket(int width, RTCScene to_scene, const TraceGeome
   const unsigned lanes = Width();
   RTCRayN* ray = ray_n();
   packet.floats = {
-      {origin[0], origin[1], origin[2]},
       {&RTCRayN_dir_x(ray, lanes, 0), &RTCRayN_dir_y(ray, lanes, 0), &RTCRayN_dir_z(ray, lanes, 0)},
       &RTCRayN_tfar(ray, lanes, 0)};
   auto* hits = RTCRayHitN_HitN(reinterpret_cast<RTCRayHitN*>(&rays), lanes);

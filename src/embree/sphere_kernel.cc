@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// embree/sphere_kernel.cc: a float test proposes the rays of a packet that may hit a sphere,
-// and the double test decides.
+// embree/sphere_kernel.cc: the double test of a packet of rays against one sphere.
 #include "embree/embree_packet.h"
 #include "embree/primitives.h"
 

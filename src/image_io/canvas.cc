@@ -5,13 +5,6 @@
 
 namespace nacre {
 
-Canvas::Canvas(int width, int height, const Rgb8& ground)
-    : picture_(FilledPicture(width, height, ground)) {}
-
-void Canvas::Paste(const Rgb8Picture& picture, int left, int top) {
-  Paste(picture, {0, 0, picture.width, picture.height}, 1, left, top);
-}
-
 void Canvas::Paste(const Rgb8Picture& picture, const Window& part, int zoom, int left, int top) {
   const int x0 = std::max(left, 0), x1 = std::min(left + zoom * part.width(), picture_.width);
   const int y0 = std::max(top, 0), y1 = std::min(top + zoom * part.height(), picture_.height);
@@ -24,10 +17,6 @@ void Canvas::Paste(const Rgb8Picture& picture, const Window& part, int zoom, int
       std::copy_n(pixel(picture, part.x0 + (x - left) / zoom, from), 3, pixel(picture_, x, y));
     }
   }
-}
-
-void Canvas::AddText(const std::vector<TextItem>& items) {
-  text_.insert(text_.end(), items.begin(), items.end());
 }
 
 const Rgb8Picture& Canvas::Draw() {

@@ -72,30 +72,19 @@ class Font {
   int size_px_ = 0;
 };
 
-// Decodes UTF-8, which Printable() has made valid.
-std::u32string Decode(const std::string& utf8) {
-  std::u32string text;
-  for (size_t i = 0; i < utf8.size();) {
-    const auto first = static_cast<unsigned char>(utf8[i++]);
-    const int more = first < 0x80 ? 0 : first < 0xe0 ? 1 : first < 0xf0 ? 2 : 3;
-    char32_t character = more == 0 ? first : first & (0x3fu >> more);
-    for (int k = 0; k < more && i < utf8.size(); ++k) {
-      character = character << 6 | (static_cast<unsigned char>(utf8[i++]) & 0x3fu);
-    }
-    text += character;
-  }
-  return text;
-}
-
-// The characters in visual order, from left to right: Hebrew and Arabic run from right to left,
+// The characters to draw for a text, from left to right: Hebrew and Arabic run from right to left,
 // with numbers from left to right (Unicode's bidirectional algorithm), and Arabic letters take the
 // form that joins them to their neighbours.
-std::u32string VisualOrder(std::u32string text) {
-  constexpr char32_t kFirstFromRight = 0x590;  // all scripts before it run from left to right
-  if (std::all_of(text.begin(), text.end(), [](char32_t c) { return c < kFirstFromRight; })) {
-    return text;
+std::u32string CharactersOf(std::string_view text) {
+  const std::string utf8 = Printable(text);
+  std::vector<FriBidiChar> logical(utf8.size());
+  logical.resize(static_cast<size_t>(
+      fribidi_charset_to_unicode(FRIBIDI_CHAR_SET_UTF8, utf8.data(),
+                                 static_cast<FriBidiStrIndex>(utf8.size()), logical.data())));
+  constexpr FriBidiChar kFirstFromRight = 0x590;  // all scripts before it run from left to right
+  if (std::ranges::all_of(logical, [](FriBidiChar c) { return c < kFirstFromRight; })) {
+    return {logical.begin(), logical.end()};
   }
-  const std::vector<FriBidiChar> logical(text.begin(), text.end());
   std::vector<FriBidiChar> visual(logical.size() + 1);  // room for FriBidi's final 0
   FriBidiParType direction = FRIBIDI_PAR_ON;            // as the first letter has it
   if (fribidi_log2vis(logical.data(), static_cast<FriBidiStrIndex>(logical.size()), &direction,
@@ -106,9 +95,6 @@ std::u32string VisualOrder(std::u32string text) {
   std::erase(visual, FRIBIDI_CHAR_FILL);  // left where two letters were joined to one
   return {visual.begin(), visual.end()};
 }
-
-// The characters to draw for a text, in visual order.
-std::u32string CharactersOf(std::string_view text) { return VisualOrder(Decode(Printable(text))); }
 
 // Pixels [x0, x1) x [y0, y1) relative to the start of the baseline; y grows downwards.
 struct Box {
@@ -183,25 +169,21 @@ Strokes DrawStrokes(const std::u32string& text, int room, Font* font) {
 
 // Sets each pixel to the maximum within `radius` rows and columns (dilation).
 Strokes Widen(const Strokes& strokes, int radius) {
-  Strokes rows = strokes, result = strokes;
   const Box& box = strokes.box;
-  for (int y = box.y0; y < box.y1; ++y) {
-    for (int x = box.x0; x < box.x1; ++x) {
-      float& most = rows.At(x, y);
-      for (int i = std::max(x - radius, box.x0); i < std::min(x + radius + 1, box.x1); ++i) {
-        most = std::max(most, strokes.At(i, y));
+  const auto widen = [&](const Strokes& from, int dx, int dy) {
+    Strokes to = from;
+    for (int y = box.y0; y < box.y1; ++y) {
+      for (int x = box.x0; x < box.x1; ++x) {
+        for (int k = -radius; k <= radius; ++k) {
+          const int i = std::clamp(x + k * dx, box.x0, box.x1 - 1);
+          const int j = std::clamp(y + k * dy, box.y0, box.y1 - 1);
+          to.At(x, y) = std::max(to.At(x, y), from.At(i, j));
+        }
       }
     }
-  }
-  for (int y = box.y0; y < box.y1; ++y) {
-    for (int x = box.x0; x < box.x1; ++x) {
-      float& most = result.At(x, y);
-      for (int j = std::max(y - radius, box.y0); j < std::min(y + radius + 1, box.y1); ++j) {
-        most = std::max(most, rows.At(x, j));
-      }
-    }
-  }
-  return result;
+    return to;
+  };
+  return widen(widen(strokes, 1, 0), 0, 1);
 }
 
 // The vector from the start of the baseline to the point that the item places. Its y depends only

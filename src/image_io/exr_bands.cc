@@ -19,8 +19,6 @@
 #include "base/input_file.h"
 #include "image_io/exr_check.h"
 #include "image_io/exr_checksum.h"
-#include "image_io/exr_chunk.h"
-#include "image_io/exr_container.h"
 #include "image_io/exr_types.h"
 #include "image_io/image_file.h"
 
@@ -64,83 +62,70 @@ void AddAttribute(const std::string& path, const std::string& name, const Imf::A
   }
 }
 
+// An uncompressed chunk has exactly its full size, and a compressed one is never larger. OpenEXR
+// would fill what is missing with zeros.
+void CheckChunkSize(const std::string& path, const Imf::Header& header, int y, int size) {
+  const Window data = ToWindow(header.dataWindow());
+  size_t row_bytes = 0;
+  for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
+    row_bytes += static_cast<size_t>(data.width()) * (it.channel().type == Imf::HALF ? 2 : 4);
+  }
+  const Compression compression = ToCompression(path, header.compression());
+  const int rows = std::min(RowsPerChunk(compression), data.y1 - y);
+  const size_t full = row_bytes * static_cast<size_t>(rows);
+  const auto bytes = static_cast<size_t>(size);
+  if (size <= 0 || bytes > full || (compression == Compression::kNone && bytes != full)) {
+    RefuseBand(path, "is damaged: the rows from " + std::to_string(y) + " on have " +
+                         std::to_string(size) + " bytes, not " + std::to_string(full));
+  }
+}
+
 }  // namespace
 
-struct ExrBandReader::State {
-  // Calls work(), and turns what OpenEXR throws into Error.
-  template <class Work>
-  auto Guard(const Work& work) const {
-    return WithOpenExr(path, kRenderAgain, work);
-  }
-
-  // An uncompressed chunk has exactly its full size, and a compressed one is never larger. OpenEXR
-  // would fill what is missing with zeros.
-  void CheckChunkSize(int y, int size) const {
-    const Imf::Header& header = file->header();
-    const Window data = ToWindow(header.dataWindow());
-    size_t row_bytes = 0;
-    for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
-      row_bytes += static_cast<size_t>(data.width()) * (it.channel().type == Imf::HALF ? 2 : 4);
-    }
-    const Compression compression = ToCompression(path, header.compression());
-    const int rows = std::min(RowsPerChunk(compression), data.y1 - y);
-    const size_t full = row_bytes * static_cast<size_t>(rows);
-    const auto bytes = static_cast<size_t>(size);
-    if (size <= 0 || bytes > full || (compression == Compression::kNone && bytes != full)) {
-      RefuseBand(path, "is damaged: the rows from " + std::to_string(y) + " on have " +
-                           std::to_string(size) + " bytes, not " + std::to_string(full));
-    }
-  }
-
-  std::string path;
-  std::unique_ptr<Imf::InputFile> file;
-};
-
-ExrBandReader::ExrBandReader(const std::string& path) : state_(std::make_unique<State>()) {
-  state_->path = path;
+ExrBandReader::ExrBandReader(const std::string& path) : path_(path) {
   CheckInputFile(path);
   CheckExrHeader(path);
-  state_->Guard([&] {
+  WithOpenExr(path_, kRenderAgain, [&] {
     constexpr int kNoThreads = 0;
-    state_->file = std::make_unique<Imf::InputFile>(path.c_str(), kNoThreads);
-    const Imf::Header& header = state_->file->header();
+    file_ = std::make_unique<Imf::InputFile>(path.c_str(), kNoThreads);
+    const Imf::Header& header = file_->header();
     if (header.hasTileDescription() || header.lineOrder() != Imf::INCREASING_Y) {
       RefuseKind(path, "it does not hold lines from the top down");
     }
-    if (!state_->file->isComplete()) RefuseBand(path, "is not complete");
+    if (!file_->isComplete()) RefuseBand(path, "is not complete");
   });
 }
 
 ExrBandReader::~ExrBandReader() = default;
 
 ExrBandHeader ExrBandReader::ReadHeader() const {
-  const Imf::Header& from = state_->file->header();
+  const Imf::Header& from = file_->header();
   ExrBandHeader band;
-  band.compression = ToCompression(state_->path, from.compression());
+  band.compression = ToCompression(path_, from.compression());
   band.header.display = ToWindow(from.displayWindow());
   band.header.data = ToWindow(from.dataWindow());
   for (auto it = from.channels().begin(); it != from.channels().end(); ++it) {
     if (it.channel().xSampling != 1 || it.channel().ySampling != 1) {
-      RefuseKind(state_->path, std::string("channel ") + it.name() + " is subsampled");
+      RefuseKind(path_, std::string("channel ") + it.name() + " is subsampled");
     }
     band.header.channels.push_back({it.name(), ToPixelType(it.channel().type)});
   }
   if (Imf::hasChromaticities(from) && Imf::chromaticities(from) != Imf::Chromaticities()) {
-    RefuseKind(state_->path, "its primaries are not Rec. 709's");
+    RefuseKind(path_, "its primaries are not Rec. 709's");
   }
   for (auto it = from.begin(); it != from.end(); ++it) {
     if (kStructure.contains(it.name())) continue;
-    AddAttribute(state_->path, it.name(), it.attribute(), &band.header);
+    AddAttribute(path_, it.name(), it.attribute(), &band.header);
   }
   return band;
 }
 
 std::vector<uint8_t> ExrBandReader::ReadChunk(int y) {
-  return state_->Guard([&]() -> std::vector<uint8_t> {
+  return WithOpenExr(path_, kRenderAgain, [&]() -> std::vector<uint8_t> {
     const char* bytes = nullptr;
     int size = 0;
-    state_->file->rawPixelData(y, bytes, size);
-    state_->CheckChunkSize(y, size);
+    file_->rawPixelData(y, bytes, size);
+    CheckChunkSize(path_, file_->header(), y, size);
     return {bytes, bytes + size};
   });
 }
@@ -148,14 +133,14 @@ std::vector<uint8_t> ExrBandReader::ReadChunk(int y) {
 void ExrBandReader::DecodeAll() {
   // OpenEXR's reader allocates what the header says, and leaves memory uninitialised that short
   // chunks do not fill.
-  CheckExrChunks(state_->path, 0, FileBytes(state_->path));
-  const Imf::Header& header = state_->file->header();
+  CheckExrChunks(path_, 0, FileBytes(path_));
+  const Imf::Header& header = file_->header();
   const Window data = ToWindow(header.dataWindow());
   std::vector<std::string> channels;
   for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
     channels.emplace_back(it.name());
   }
-  const int rows = RowsPerChunk(ToCompression(state_->path, header.compression()));
+  const int rows = RowsPerChunk(ToCompression(path_, header.compression()));
   std::vector<std::vector<float>> planes;
   for (int y = data.y0; y < data.y1; y += rows) {
     ReadChunk(y);
@@ -165,7 +150,7 @@ void ExrBandReader::DecodeAll() {
 
 void ExrBandReader::ReadRows(int y, int rows, const std::vector<std::string>& channels,
                              std::vector<std::vector<float>>* planes) {
-  const Window data = ToWindow(state_->file->header().dataWindow());
+  const Window data = ToWindow(file_->header().dataWindow());
   const auto width = static_cast<size_t>(data.width());
   planes->resize(channels.size());
   Imf::FrameBuffer frame;
@@ -175,27 +160,10 @@ void ExrBandReader::ReadRows(int y, int rows, const std::vector<std::string>& ch
     frame.insert(channels[c], Imf::Slice::Make(Imf::FLOAT, plane.data(), Imath::V2i(data.x0, y),
                                                data.width(), rows));
   }
-  state_->Guard([&] {
-    state_->file->setFrameBuffer(frame);
-    state_->file->readPixels(y, y + rows - 1);
+  WithOpenExr(path_, kRenderAgain, [&] {
+    file_->setFrameBuffer(frame);
+    file_->readPixels(y, y + rows - 1);
   });
 }
-
-struct ExrBandWriter::State {
-  State(const std::string& path, const ExrBandHeader& header)
-      : container(path, nullptr, header.header, header.compression) {}
-  ExrContainer container;
-};
-
-ExrBandWriter::ExrBandWriter(const std::string& path, const ExrBandHeader& header)
-    : state_(std::make_unique<State>(path, header)) {}
-
-ExrBandWriter::~ExrBandWriter() = default;
-
-void ExrBandWriter::WriteChunk(int y, const std::vector<uint8_t>& bytes) {
-  state_->container.WriteChunk(y, bytes);
-}
-
-void ExrBandWriter::Finish() { state_->container.Finish(/*sync=*/true); }
 
 }  // namespace nacre

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// image_io/exr_bands.h: reads EXR files that each hold a band of a picture's rows, and joins them
-// to one file. Chunks are copied without decoding them.
+// image_io/exr_bands.h: reads EXR files that each hold a band of a picture's rows. ExrContainer
+// joins them to one file, to which their chunks are copied without decoding them.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
+
+#include <OpenEXR/ImfForward.h>
 
 #include "image_io/exr_compression.h"
 #include "image_io/exr_header.h"
@@ -40,27 +42,8 @@ class ExrBandReader {
                 std::vector<std::vector<float>>* planes);
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
-};
-
-// Writes a file that is joined from bands, from the top down. Throws Error: kCannotWrite as
-// ExrWriter does.
-class ExrBandWriter {
- public:
-  ExrBandWriter(const std::string& path, const ExrBandHeader& header);
-  // If Finish was not called, no file remains.
-  ~ExrBandWriter();
-
-  void WriteChunk(int y, const std::vector<uint8_t>& bytes);
-
-  // To be called after the last chunk. The file appears under its name once it has reached the
-  // disk, because its tiles are deleted then.
-  void Finish();
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
+  std::string path_;
+  std::unique_ptr<Imf::InputFile> file_;
 };
 
 }  // namespace nacre

@@ -12,7 +12,6 @@
 namespace nacre {
 
 // Throws Error (kBadInput) if the header of an EXR file contradicts the size of the file or itself.
-// In exr_header_check.cc.
 void CheckExrHeader(const std::string& path);
 
 // Checks the chunks of a part that is neither deep nor subsampled, at full resolution. Throws Error

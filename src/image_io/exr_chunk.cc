@@ -14,13 +14,11 @@
 #include "image_io/zip.h"
 
 namespace nacre {
-namespace {
 
-std::span<const uint8_t> BytesOf(std::span<const uint16_t> words) {
-  return {reinterpret_cast<const uint8_t*>(words.data()), words.size_bytes()};
+std::vector<uint8_t> StoreWords(std::span<const uint16_t> words) {
+  const auto* const bytes = reinterpret_cast<const uint8_t*>(words.data());
+  return {bytes, bytes + words.size_bytes()};
 }
-
-}  // namespace
 
 std::vector<uint8_t> CompressZip(std::span<const uint16_t> words, int deflate_level) {
   thread_local std::vector<uint8_t> predicted;
@@ -29,8 +27,7 @@ std::vector<uint8_t> CompressZip(std::span<const uint16_t> words, int deflate_le
   SplitAndPredict(words.data(), words.size(), predicted.data());
   std::vector<uint8_t> chunk = Deflate({predicted.data(), size}, DeflateForm::kZlib, deflate_level);
   if (chunk.size() < size) return chunk;
-  const std::span<const uint8_t> bytes = BytesOf(words);
-  return {bytes.begin(), bytes.end()};
+  return StoreWords(words);
 }
 
 // OpenEXR's C++ library compresses only whole files, and version 3.1 of its C library cannot encode

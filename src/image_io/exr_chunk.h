@@ -11,6 +11,9 @@
 
 namespace nacre {
 
+// Without compression: the bytes as they are.
+std::vector<uint8_t> StoreWords(std::span<const uint16_t> words);
+
 // ZIP and ZIPS: splits, predicts and deflates; or returns the bytes unchanged if that is not
 // shorter.
 std::vector<uint8_t> CompressZip(std::span<const uint16_t> words, int deflate_level);

@@ -19,15 +19,8 @@ namespace {
 constexpr int kPart = 0;
 
 exr_pixel_type_t ToCoreType(PixelType type) {
-  switch (type) {
-    case PixelType::kHalf:
-      return EXR_PIXEL_HALF;
-    case PixelType::kFloat:
-      return EXR_PIXEL_FLOAT;
-    case PixelType::kUint:
-      return EXR_PIXEL_UINT;
-  }
-  return EXR_PIXEL_FLOAT;
+  if (type == PixelType::kHalf) return EXR_PIXEL_HALF;
+  return type == PixelType::kUint ? EXR_PIXEL_UINT : EXR_PIXEL_FLOAT;
 }
 
 // The last pixel of an EXR window is inclusive.
@@ -40,13 +33,6 @@ exr_attr_box2i_t ToCoreWindow(const Window& window) {
   return box;
 }
 
-exr_attr_m44f_t LibraryMatrix(const Imath::M44f& matrix) {
-  exr_attr_m44f_t m44f;
-  static_assert(sizeof(m44f) == sizeof(matrix));
-  std::memcpy(&m44f, matrix.getValue(), sizeof(m44f));
-  return m44f;
-}
-
 // The limit of EXR 2; longer names must be flagged in the file, and very old readers refuse them.
 constexpr size_t kMaxShortName = 31;
 
@@ -57,9 +43,6 @@ bool HasLongName(const ExrHeader& header) {
                              [](const auto& a) { return a.first.size() > kMaxShortName; });
 }
 
-// Silences the library's messages, since its result codes tell the same.
-void Ignore(exr_const_context_t, exr_result_t, const char*) {}
-
 }  // namespace
 
 ExrContainer::ExrContainer(const std::string& path, std::vector<uint8_t>* memory,
@@ -67,7 +50,8 @@ ExrContainer::ExrContainer(const std::string& path, std::vector<uint8_t>* memory
     : path_(path), memory_(memory) {
   if (memory_ == nullptr) file_.emplace(path);
   exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
-  initializer.error_handler_fn = Ignore;
+  // The result codes tell the same as the library's messages.
+  initializer.error_handler_fn = [](exr_const_context_t, exr_result_t, const char*) {};
   initializer.user_data = this;
   initializer.write_fn = OnWrite;
   // The name is only informative: with a write function, the library opens and removes no file.
@@ -111,7 +95,9 @@ void ExrContainer::SetAttributes(const ExrHeader& header) {
   Check(exr_attr_set_chromaticities(context_, kPart, "chromaticities", &rec709));
   const auto set_matrix = [&](const char* name, const std::optional<Imath::M44f>& matrix) {
     if (!matrix) return;
-    const exr_attr_m44f_t m44f = LibraryMatrix(*matrix);
+    exr_attr_m44f_t m44f;
+    static_assert(sizeof(m44f) == sizeof(*matrix));
+    std::memcpy(&m44f, matrix->getValue(), sizeof(m44f));
     Check(exr_attr_set_m44f(context_, kPart, name, &m44f));
   };
   set_matrix("worldToCamera", header.world_to_camera);

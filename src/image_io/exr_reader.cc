@@ -54,14 +54,8 @@ std::string FileCompressionName(Imf::Compression compression) {
 }
 
 std::string LineOrderName(Imf::LineOrder order) {
-  switch (order) {
-    case Imf::INCREASING_Y:
-      return "increasing y";
-    case Imf::DECREASING_Y:
-      return "decreasing y";
-    default:
-      return "random y";
-  }
+  if (order == Imf::INCREASING_Y) return "increasing y";
+  return order == Imf::DECREASING_Y ? "decreasing y" : "random y";
 }
 
 template <typename T>
@@ -69,12 +63,15 @@ std::string NumbersText(const T* values, size_t count) {
   return fmt::format("{}", fmt::join(values, values + count, " "));
 }
 
-// Sets *text to the attribute's value if it is a TypedAttribute<T>; returns whether it is.
-template <typename T, typename Format>
+// Sets *text to the attribute's value if it is a TypedAttribute of one of the types; returns
+// whether it is.
+template <typename... Types, typename Format>
 bool Describe(const Imf::Attribute& attribute, const Format& format, std::string* text) {
-  const auto* typed = dynamic_cast<const Imf::TypedAttribute<T>*>(&attribute);
-  if (typed != nullptr) *text = format(typed->value());
-  return typed != nullptr;
+  const auto describe = [&](const auto* typed) {
+    if (typed != nullptr) *text = format(typed->value());
+    return typed != nullptr;
+  };
+  return (describe(dynamic_cast<const Imf::TypedAttribute<Types>*>(&attribute)) || ...);
 }
 
 std::string AttributeText(const Imf::Attribute& attribute) {
@@ -96,19 +93,11 @@ std::string AttributeText(const Imf::Attribute& attribute) {
                                                   : "unknown");
   };
   std::string text;
-  if (Describe<std::string>(attribute, number, &text) || Describe<int>(attribute, number, &text) ||
-      Describe<float>(attribute, number, &text) || Describe<double>(attribute, number, &text) ||
-      Describe<Imath::V2i>(attribute, vector, &text) ||
-      Describe<Imath::V2f>(attribute, vector, &text) ||
-      Describe<Imath::V2d>(attribute, vector, &text) ||
-      Describe<Imath::V3i>(attribute, vector, &text) ||
-      Describe<Imath::V3f>(attribute, vector, &text) ||
-      Describe<Imath::V3d>(attribute, vector, &text) ||
-      Describe<Imath::Box2i>(attribute, box, &text) ||
-      Describe<Imath::Box2f>(attribute, box, &text) ||
-      Describe<Imath::M33f>(attribute, matrix, &text) ||
-      Describe<Imath::M44f>(attribute, matrix, &text) ||
-      Describe<Imath::M44d>(attribute, matrix, &text) ||
+  if (Describe<std::string, int, float, double>(attribute, number, &text) ||
+      Describe<Imath::V2i, Imath::V2f, Imath::V2d, Imath::V3i, Imath::V3f, Imath::V3d>(
+          attribute, vector, &text) ||
+      Describe<Imath::Box2i, Imath::Box2f>(attribute, box, &text) ||
+      Describe<Imath::M33f, Imath::M44f, Imath::M44d>(attribute, matrix, &text) ||
       Describe<Imf::Chromaticities>(attribute, primaries, &text) ||
       Describe<Imf::StringVector>(attribute, strings, &text) ||
       Describe<Imf::Compression>(attribute, FileCompressionName, &text) ||

@@ -38,11 +38,6 @@ struct Gathered {
   int rows = 0;
 };
 
-std::vector<uint8_t> ToBytes(std::span<const uint16_t> words) {
-  const auto* bytes = reinterpret_cast<const uint8_t*>(words.data());
-  return {bytes, bytes + words.size_bytes()};
-}
-
 }  // namespace
 
 struct ExrWriter::State {
@@ -57,15 +52,62 @@ struct ExrWriter::State {
           for (const Chunk& chunk : chunks) container.WriteChunk(chunk.y, chunk.bytes);
         }) {}
 
-  void CheckStrip(const StripView& strip) const;
+  void CheckStrip(const StripView& strip) const {
+    const int y = strip.y - data.y0;
+    if (y < 0 || y >= data.height() || y % kStripRows != 0 ||
+        strip.rows != StripRows(y, data.height()) ||
+        strip.channels.size() != layout.channels.size()) {
+      throw Error(ExitCode::kInternal, path, "a strip that is not one of the picture's");
+    }
+  }
+
   size_t unit_count() const {
     const int rows = unit_rows();
     return static_cast<size_t>((data.height() + rows - 1) / rows);
   }
   // The rows of a unit of writing.
   int unit_rows() const { return std::max(kStripRows, RowsPerChunk(options.compression)); }
-  Chunks CompressStrip(const StripView& strip, std::span<const uint16_t> words) const;
-  void Gather(const StripView& strip, std::span<const uint16_t> words);
+
+  Chunks CompressStrip(const StripView& strip, std::span<const uint16_t> words) const {
+    const int level = options.small          ? kSmallExrLevel
+                      : options.reproducible ? kReproducibleDeflate
+                                             : kFastDeflate;
+    if (options.compression == Compression::kZip) return {{strip.y, CompressZip(words, level)}};
+    Chunks chunks;
+    for (int row = 0; row < strip.rows; ++row) {
+      const auto row_words =
+          words.subspan(static_cast<size_t>(row) * layout.row_words, layout.row_words);
+      const bool zips = options.compression == Compression::kZips;
+      chunks.push_back(
+          {strip.y + row, zips ? CompressZip(row_words, level) : StoreWords(row_words)});
+    }
+    return chunks;
+  }
+
+  // For chunks of two strips: the thread that brings the second strip compresses both.
+  void Gather(const StripView& strip, std::span<const uint16_t> words) {
+    const int y = strip.y - data.y0;
+    const int first_row = y / unit_rows() * unit_rows();
+    const int rows = std::min(unit_rows(), data.height() - first_row);
+    const auto unit = static_cast<size_t>(y / unit_rows());
+    Gathered complete;
+    {
+      const std::lock_guard lock(gather_mutex);
+      Gathered& partial = gathered[unit];
+      if (!partial.strips.insert(y).second) {
+        throw Error(ExitCode::kInternal, path, "a strip came twice");
+      }
+      partial.words.resize(static_cast<size_t>(rows) * layout.row_words);
+      const size_t offset = static_cast<size_t>(y - first_row) * layout.row_words;
+      std::ranges::copy(words, partial.words.begin() + static_cast<ptrdiff_t>(offset));
+      partial.rows += strip.rows;
+      if (partial.rows < rows) return;
+      complete = std::move(partial);
+      gathered.erase(unit);
+    }
+    in_order.Add(unit, {{data.y0 + first_row,
+                         CompressByLibrary(layout, options.compression, complete.words)}});
+  }
 
   const std::string path;
   const Window data;
@@ -77,56 +119,6 @@ struct ExrWriter::State {
   std::map<size_t, Gathered> gathered;  // by unit
   std::atomic<uint64_t> clamped = 0, infinite = 0, nan = 0;
 };
-
-void ExrWriter::State::CheckStrip(const StripView& strip) const {
-  const int y = strip.y - data.y0;
-  if (y < 0 || y >= data.height() || y % kStripRows != 0 ||
-      strip.rows != StripRows(y, data.height()) ||
-      strip.channels.size() != layout.channels.size()) {
-    throw Error(ExitCode::kInternal, path, "a strip that is not one of the picture's");
-  }
-}
-
-Chunks ExrWriter::State::CompressStrip(const StripView& strip,
-                                       std::span<const uint16_t> words) const {
-  const int level = options.small          ? kSmallExrLevel
-                    : options.reproducible ? kReproducibleDeflate
-                                           : kFastDeflate;
-  if (options.compression == Compression::kZip) return {{strip.y, CompressZip(words, level)}};
-  Chunks chunks;
-  for (int row = 0; row < strip.rows; ++row) {
-    const auto row_words =
-        words.subspan(static_cast<size_t>(row) * layout.row_words, layout.row_words);
-    const bool zips = options.compression == Compression::kZips;
-    chunks.push_back({strip.y + row, zips ? CompressZip(row_words, level) : ToBytes(row_words)});
-  }
-  return chunks;
-}
-
-// For chunks of two strips: the thread that brings the second strip compresses both.
-void ExrWriter::State::Gather(const StripView& strip, std::span<const uint16_t> words) {
-  const int y = strip.y - data.y0;
-  const int first_row = y / unit_rows() * unit_rows();
-  const int rows = std::min(unit_rows(), data.height() - first_row);
-  const auto unit = static_cast<size_t>(y / unit_rows());
-  Gathered complete;
-  {
-    const std::lock_guard lock(gather_mutex);
-    Gathered& partial = gathered[unit];
-    if (!partial.strips.insert(y).second) {
-      throw Error(ExitCode::kInternal, path, "a strip came twice");
-    }
-    partial.words.resize(static_cast<size_t>(rows) * layout.row_words);
-    const size_t offset = static_cast<size_t>(y - first_row) * layout.row_words;
-    std::ranges::copy(words, partial.words.begin() + static_cast<ptrdiff_t>(offset));
-    partial.rows += strip.rows;
-    if (partial.rows < rows) return;
-    complete = std::move(partial);
-    gathered.erase(unit);
-  }
-  in_order.Add(unit, {{data.y0 + first_row,
-                       CompressByLibrary(layout, options.compression, complete.words)}});
-}
 
 ExrWriter::ExrWriter(const std::string& path, const ExrHeader& header, const ExrOptions& options)
     : state_(std::make_unique<State>(path, nullptr, header, options)) {}

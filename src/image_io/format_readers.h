@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // image_io/format_readers.h: readers of one format each, in exr_reader.cc, png_reader.cc,
-// jpeg_reader.cc, hdr_reader.cc, pnm_reader.cc and tga_reader.cc. That of TIFF is in oiio.h.
+// jpeg_reader.cc, hdr_reader.cc, pnm_reader.cc, tga_reader.cc and oiio.cc.
 #pragma once
 
 #include <string>
@@ -76,5 +76,18 @@ ImageFile OpenPnm(const std::string& path);
 // OpenImageIO 2.4 reads out of bounds where an index is beyond the palette, and Debian has no other
 // library for the format that is made for untrusted files.
 ImageFile OpenTga(const std::string& path);
+
+// Whether the module exists by which OpenWithOiio reads.
+bool HasOiio();
+
+// With OpenImageIO, opens a TIFF file, with the results and errors of OpenImage: the first page at
+// full resolution. Rows are decoded in bands: besides the caller's samples, reading takes memory
+// for a band, and what OpenImageIO and libtiff allocate. Orientation tags are honoured.
+ImageFile OpenWithOiio(const std::string& path);
+
+// What the first image of a TIFF file (TIFF 6.0 and BigTIFF) lacks of the data of its pixels, in
+// words; "" if nothing. libtiff would silently make it up: it takes palette indices without a
+// palette for grey, and reads beyond the end of uncompressed strips that are too short.
+std::string WhatTiffLacks(const std::string& path);
 
 }  // namespace nacre

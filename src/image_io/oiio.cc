@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "image_io/oiio.h"
-
+// image_io/oiio.cc: reads TIFF files with OpenImageIO, which is loaded when first used.
+//
+// It is in a module of its own, nacre_oiio.so. The module is looked for beside the file that
+// contains this code, program or libnacre.so, and where it is installed relative to that file:
+// ../lib/nacre from a program, nacre/ from the library. Neither the working folder nor the
+// environment matters.
 #include <algorithm>
 #include <cinttypes>
 #include <cstdio>
@@ -16,9 +20,9 @@
 
 #include "base/error.h"
 #include "base/input_file.h"
+#include "image_io/format_readers.h"
 #include "image_io/oiio_abi.h"
 #include "image_io/orientation.h"
-#include "image_io/tiff_check.h"
 
 namespace nacre {
 namespace {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -24,24 +25,39 @@ struct Orientation {
 // are displayed: top left, top right, bottom right, bottom left; left top, right top, right bottom,
 // left bottom. Any other number counts as 1.
 constexpr Orientation OrientationOfTag(int tag) {
-  switch (tag) {
-    case 2:
-      return {false, true, false};
-    case 3:
-      return {false, true, true};
-    case 4:
-      return {false, false, true};
-    case 5:
-      return {true, false, false};
-    case 6:
-      return {true, true, false};
-    case 7:
-      return {true, true, true};
-    case 8:
-      return {true, false, true};
-    default:
-      return {};
+  constexpr std::array<Orientation, 9> kOfTag = {{{},
+                                                  {},
+                                                  {false, true, false},
+                                                  {false, true, true},
+                                                  {false, false, true},
+                                                  {true, false, false},
+                                                  {true, true, false},
+                                                  {true, true, true},
+                                                  {true, false, true}}};
+  return kOfTag[tag >= 1 && tag <= 8 ? static_cast<size_t>(tag) : 0];
+}
+
+// The orientation tag (0x0112) of the first directory of an EXIF block, which begins like a TIFF
+// file; 1, the usual one, if there is none or the block is broken. It is read by hand because
+// libexif would decode every tag of every maker to return this one.
+inline int ExifOrientation(std::span<const uint8_t> exif) {
+  if (exif.size() < 8) return 1;
+  const bool little = exif[0] == 'I';
+  const auto number = [&](size_t at, size_t bytes) {
+    size_t value = 0;
+    for (size_t i = 0; i < bytes && at + bytes <= exif.size(); ++i) {
+      value |= size_t{exif[at + i]} << 8 * (little ? i : bytes - 1 - i);
+    }
+    return value;
+  };
+  constexpr size_t kOrientation = 0x0112, kEntry = 12;
+  const size_t first = number(4, 4);
+  const size_t entries = number(first, 2);
+  for (size_t i = 0; i < entries && first + 2 + (i + 1) * kEntry <= exif.size(); ++i) {
+    const size_t at = first + 2 + i * kEntry;
+    if (number(at, 2) == kOrientation) return static_cast<int>(number(at + 8, 2));
   }
+  return 1;
 }
 
 // Writes stored rows to their place in the displayed image.
@@ -55,42 +71,29 @@ class RowPlacer {
   int stored_width() const { return orientation_.transpose ? data_.height() : data_.width(); }
   int stored_height() const { return orientation_.transpose ? data_.width() : data_.height(); }
 
-  // `row` is a stored row with interleaved channels.
+  // `row` is a stored row with interleaved channels. It lies along one axis of the displayed image.
   void Place(int stored_y, const float* row, size_t channels) const {
-    if (orientation_ == Orientation()) return PlaceAsStored(stored_y, row, channels);
+    const auto [transpose, flip_x, flip_y] = orientation_;
+    const int left = data_.x0 - region_.x0, top = data_.y0 - region_.y0;
+    const bool is_last_first = transpose ? flip_x : flip_y;  // of the rows
+    const int across =
+        (is_last_first ? stored_height() - 1 - stored_y : stored_y) + (transpose ? left : top);
+    if (across < 0 || across >= (transpose ? region_.width() : region_.height())) return;
+    const bool is_mirrored = transpose ? flip_y : flip_x;
+    const int begin = transpose ? top : left, width = stored_width();
+    const int first = std::max(begin, 0);
+    const int end = std::min(begin + width, transpose ? region_.height() : region_.width());
     for (const SampleTarget& target : targets_) {
-      for (int x = 0; x < stored_width(); ++x) {
-        int seen_x = orientation_.transpose ? stored_y : x;
-        int seen_y = orientation_.transpose ? x : stored_y;
-        if (orientation_.flip_x) seen_x = data_.width() - 1 - seen_x;
-        if (orientation_.flip_y) seen_y = data_.height() - 1 - seen_y;
-        seen_x += data_.x0 - region_.x0;
-        seen_y += data_.y0 - region_.y0;
-        if (seen_x < 0 || seen_x >= region_.width() || seen_y < 0 || seen_y >= region_.height()) {
-          continue;
-        }
-        target.first[seen_x * target.step_x + seen_y * target.step_y] =
-            row[static_cast<size_t>(x) * channels + target.channel];
+      const ptrdiff_t step = transpose ? target.step_y : target.step_x;
+      float* out = target.first + across * (transpose ? target.step_x : target.step_y);
+      for (int along = first; along < end; ++along) {
+        const int x = is_mirrored ? begin + width - 1 - along : along - begin;
+        out[along * step] = row[static_cast<size_t>(x) * channels + target.channel];
       }
     }
   }
 
  private:
-  // For images that are displayed as stored.
-  void PlaceAsStored(int stored_y, const float* row, size_t channels) const {
-    const int y = stored_y + data_.y0 - region_.y0;
-    if (y < 0 || y >= region_.height()) return;
-    const int first = std::max(region_.x0 - data_.x0, 0);
-    const int end = std::min(region_.x1 - data_.x0, data_.width());
-    for (const SampleTarget& target : targets_) {
-      float* out =
-          target.first + (first + data_.x0 - region_.x0) * target.step_x + y * target.step_y;
-      for (int x = first; x < end; ++x, out += target.step_x) {
-        *out = row[static_cast<size_t>(x) * channels + target.channel];
-      }
-    }
-  }
-
   Orientation orientation_;
   Window data_, region_;
   std::span<const SampleTarget> targets_;

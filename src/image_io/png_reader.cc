@@ -19,7 +19,6 @@
 
 #include "base/error.h"
 #include "image_io/c_file.h"
-#include "image_io/exif.h"
 #include "image_io/format_readers.h"
 #include "image_io/icc_profile.h"
 #include "image_io/orientation.h"

@@ -119,6 +119,10 @@ void FilterStrip(const uint8_t* rgb8, size_t rows, size_t row_bytes, uint8_t* ou
   }
 }
 
+PngHeader HeaderOf(const Rgb8Picture& picture) {
+  return {picture.width, picture.height, {{"Software", std::string("nacre ") + kVersion}}};
+}
+
 }  // namespace
 
 struct PngWriter::State {
@@ -151,7 +155,24 @@ struct PngWriter::State {
     size += bytes.size();
   }
   size_t strip_count() const { return static_cast<size_t>(StripCount(header.height)); }
-  PngStrip MakeStrip(size_t index, size_t rows, const uint8_t* rgb8) const;
+
+  PngStrip MakeStrip(size_t index, size_t rows, const uint8_t* rgb8) const {
+    thread_local Bytes filtered;
+    const size_t row_bytes = kPixelBytes * static_cast<size_t>(header.width);
+    const size_t filtered_size = rows * (1 + row_bytes);
+    if (filtered.size() < filtered_size) filtered.resize(filtered_size);
+    FilterStrip(rgb8, rows, row_bytes, filtered.data());
+    const bool last = index + 1 == strip_count();
+    Bytes deflated = Deflate({filtered.data(), filtered_size},
+                             last ? DeflateForm::kLastPart : DeflateForm::kPart,
+                             options.small          ? kSmallPngLevel
+                             : options.reproducible ? kReproducibleDeflate
+                                                    : kFastDeflate);
+    // The zlib header: deflate with a window of 32 KiB, and check bits.
+    if (index == 0) deflated.insert(deflated.begin(), {0x78, 0x01});
+    return {MakeChunk("IDAT", deflated), isal_adler32(1, filtered.data(), filtered_size),
+            filtered_size};
+  }
 
   const std::string path;
   const PngHeader header;
@@ -162,24 +183,6 @@ struct PngWriter::State {
   uint32_t adler = 1;
   InOrder<PngStrip> in_order;
 };
-
-PngStrip PngWriter::State::MakeStrip(size_t index, size_t rows, const uint8_t* rgb8) const {
-  thread_local Bytes filtered;
-  const size_t row_bytes = kPixelBytes * static_cast<size_t>(header.width);
-  const size_t filtered_size = rows * (1 + row_bytes);
-  if (filtered.size() < filtered_size) filtered.resize(filtered_size);
-  FilterStrip(rgb8, rows, row_bytes, filtered.data());
-  const bool last = index + 1 == strip_count();
-  Bytes deflated =
-      Deflate({filtered.data(), filtered_size}, last ? DeflateForm::kLastPart : DeflateForm::kPart,
-              options.small          ? kSmallPngLevel
-              : options.reproducible ? kReproducibleDeflate
-                                     : kFastDeflate);
-  // The zlib header: deflate with a window of 32 KiB, and check bits.
-  if (index == 0) deflated.insert(deflated.begin(), {0x78, 0x01});
-  return {MakeChunk("IDAT", deflated), isal_adler32(1, filtered.data(), filtered_size),
-          filtered_size};
-}
 
 PngWriter::PngWriter(const std::string& path, const PngHeader& header, const PngOptions& options)
     : state_(std::make_unique<State>(path, nullptr, header, options)) {}
@@ -235,14 +238,6 @@ void PngWriter::Finish(const PngText& text) {
   state_->Append(end);
   if (state_->file) state_->file->Commit(state_->options.sync);
 }
-
-namespace {
-
-PngHeader HeaderOf(const Rgb8Picture& picture) {
-  return {picture.width, picture.height, {{"Software", std::string("nacre ") + kVersion}}};
-}
-
-}  // namespace
 
 void WritePng(const std::string& path, const Rgb8Picture& picture, const PngOptions& options) {
   PngWriter writer(path, HeaderOf(picture), options);

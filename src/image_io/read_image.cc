@@ -10,61 +10,57 @@
 #include "base/input_file.h"
 #include "base/path.h"
 #include "image_io/format_readers.h"
-#include "image_io/oiio.h"
 
 namespace nacre {
 namespace {
 
-enum class FileFormat : uint8_t { kExr, kHdr, kPng, kJpeg, kPnm, kTga, kTiff, kOther };
+// Opens a file of a format without parts. Null for EXR, which has them.
+using Opener = ImageFile (*)(const std::string& path);
 
-// The format by the file's first bytes, whatever its name. A file of unknown format that is named
+// The opener by the file's first bytes, whatever its name. A file of unknown format that is named
 // .exr is opened as EXR, so that the error says what is wrong with the EXR.
-FileFormat FormatOf(const std::string& path) {
+Opener OpenerOf(const std::string& path) {
   CheckInputFile(path);
   std::array<char, 4096> bytes = {};
   std::ifstream(path, std::ios::binary).read(bytes.data(), bytes.size());
   const std::string_view head(bytes.data(), bytes.size());
-  if (head.starts_with("\x89PNG")) return FileFormat::kPng;
-  if (head.starts_with("\xff\xd8")) return FileFormat::kJpeg;
+  if (head.starts_with("\x89PNG")) return OpenPng;
+  if (head.starts_with("\xff\xd8")) return OpenJpeg;
   if (head[0] == 'P' && std::string_view("123456Ff").find(head[1]) != std::string_view::npos) {
-    return FileFormat::kPnm;
+    return OpenPnm;
   }
-  if (head.starts_with("\x76\x2f\x31\x01")) return FileFormat::kExr;
+  if (head.starts_with("\x76\x2f\x31\x01")) return nullptr;
   // The oldest Radiance pictures do not begin with "#?".
   if (head.starts_with("#?") || head.starts_with("FORMAT=32-bit_rle_") ||
       head.find("\nFORMAT=32-bit_rle_") != std::string_view::npos) {
-    return FileFormat::kHdr;
+    return OpenHdr;
   }
   if (head.starts_with("II*") || head.starts_with("II+") || head.starts_with("MM")) {
-    return FileFormat::kTiff;
+    return OpenWithOiio;
   }
-  if (HasExtension(path, ".tga")) return FileFormat::kTga;  // the format has no magic number
-  if (HasExtension(path, ".exr")) return FileFormat::kExr;
-  return FileFormat::kOther;
+  if (HasExtension(path, ".tga")) return OpenTga;  // the format has no magic number
+  if (HasExtension(path, ".exr")) return nullptr;
+  return [](const std::string& other) -> ImageFile {
+    throw Error(ExitCode::kBadInput, other,
+                "cannot be read: not EXR, PNG, JPEG, TIFF, Radiance HDR, PNM or TGA");
+  };
 }
 
 }  // namespace
 
 ImageFile OpenImage(const std::string& path, const std::string& part) {
-  const FileFormat format = FormatOf(path);
-  if (format == FileFormat::kExr) return OpenExr(path, part);
+  const Opener open = OpenerOf(path);
+  if (open == nullptr) return OpenExr(path, part);
   if (!part.empty()) {
     throw Error(ExitCode::kBadInput, path, "has no part \"" + part + "\"",
                 "only EXR files have parts");
   }
-  if (format == FileFormat::kHdr) return OpenHdr(path);
-  if (format == FileFormat::kPng) return OpenPng(path);
-  if (format == FileFormat::kJpeg) return OpenJpeg(path);
-  if (format == FileFormat::kPnm) return OpenPnm(path);
-  if (format == FileFormat::kTga) return OpenTga(path);
-  if (format == FileFormat::kTiff) return OpenWithOiio(path);
-  throw Error(ExitCode::kBadInput, path,
-              "cannot be read: not EXR, PNG, JPEG, TIFF, Radiance HDR, PNM or TGA");
+  return open(path);
 }
 
 std::vector<ImagePart> DescribeImage(const std::string& path) {
-  if (FormatOf(path) == FileFormat::kExr) return DescribeExr(path);
-  return OpenImage(path).parts;
+  const Opener open = OpenerOf(path);
+  return open == nullptr ? DescribeExr(path) : open(path).parts;
 }
 
 Image ReadImage(const ImageFile& file) {

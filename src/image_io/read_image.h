@@ -28,4 +28,10 @@ std::vector<ImagePart> DescribeImage(const std::string& path);
 Image ReadImage(const std::string& path, const std::string& part = {});
 Image ReadImage(const ImageFile& file);
 
+// Checks that an image file is intact, without holding it in memory: reads the whole file, from
+// disk if possible, and decodes it. For EXR files, the checksum is compared, if there is one; for
+// PNG files, those of all chunks and of the pixels. Returns what was checked, in words. Throws
+// Error (kBadInput) for a file that is damaged, cut off or not an image. In verify_image.cc.
+std::string VerifyImage(const std::string& path);
+
 }  // namespace nacre

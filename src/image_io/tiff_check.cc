@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "image_io/tiff_check.h"
-
+// image_io/tiff_check.cc: WhatTiffLacks() of format_readers.h. It is not a reader: files that
+// libtiff itself refuses are left to it.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -15,6 +15,7 @@
 #include <sys/types.h>
 
 #include "image_io/c_file.h"
+#include "image_io/format_readers.h"
 
 namespace nacre {
 namespace {
@@ -175,21 +176,6 @@ std::string WhatColorsLack(Directory* d) {
                            : "its palette is missing";
 }
 
-// The strips or tiles of each plane, from the top left.
-struct Blocks {
-  const char* name;
-  uint64_t across, down, planes;
-  uint64_t width, height;     // of a block, in pixels
-  uint64_t image_height = 0;  // where the last strips end; 0 for tiles, which are not shortened
-  uint64_t bits_of_pixel;     // in one plane
-
-  uint64_t bytes(uint64_t row_of_blocks) const {
-    const uint64_t rows =
-        image_height > 0 ? std::min(height, image_height - row_of_blocks * height) : height;
-    return (width * bits_of_pixel + 7) / 8 * rows;
-  }
-};
-
 std::string WhatBlocksLack(Directory* d) {
   constexpr uint64_t kMostSide = 1 << 30;
   const uint64_t width = d->Number(kImageWidth, 0), height = d->Number(kImageLength, 0);
@@ -203,20 +189,21 @@ std::string WhatBlocksLack(Directory* d) {
   }
   if (samples < 1 || samples > 0xffff || bits < 1 || bits > 64) return {};
   const bool separate = d->Number(kPlanarConfiguration, 1) == 2;
-  const Blocks blocks{.name = is_tiled ? "tile" : "strip",
-                      .across = (width + block_width - 1) / block_width,
-                      .down = (height + block_height - 1) / block_height,
-                      .planes = separate ? samples : 1,
-                      .width = block_width,
-                      .height = block_height,
-                      .image_height = is_tiled ? 0 : height,
-                      .bits_of_pixel = (separate ? 1 : samples) * bits};
-  const uint64_t in_plane = blocks.across * blocks.down, count = in_plane * blocks.planes;
+  const char* const name = is_tiled ? "tile" : "strip";
+  const uint64_t across = (width + block_width - 1) / block_width;
+  const uint64_t down = (height + block_height - 1) / block_height;
+  const uint64_t in_plane = across * down, count = in_plane * (separate ? samples : 1);
+  const uint64_t row_bytes = (block_width * (separate ? 1 : samples) * bits + 7) / 8;
+  // The rows of a block, as the last strips are shortened, and tiles are not.
+  const auto rows_of = [&](uint64_t block) {
+    const uint64_t first = block % in_plane / across * block_height;
+    return is_tiled ? block_height : std::min(block_height, height - first);
+  };
   const Tag place_tag = is_tiled ? kTileOffsets : kStripOffsets;
   const Tag bytes_tag = is_tiled ? kTileByteCounts : kStripByteCounts;
   if (d->count(place_tag) < count || d->count(bytes_tag) < count) {
     return fmt::format("it has {} {}s of {}", std::min(d->count(place_tag), d->count(bytes_tag)),
-                       blocks.name, count);
+                       name, count);
   }
   const std::vector<uint64_t> places = d->Numbers(place_tag), bytes = d->Numbers(bytes_tag);
   if (places.size() < count || bytes.size() < count) return "the table of its strips is cut off";
@@ -224,14 +211,14 @@ std::string WhatBlocksLack(Directory* d) {
   const bool is_plain = d->Number(kCompression, 1) == 1 && d->Number(kPhotometric, 0) != kYCbCr;
   for (uint64_t i = 0; i < count; ++i) {
     if (places[i] == 0 || bytes[i] == 0) {
-      return fmt::format("{} {} of {} is missing", blocks.name, i, count);
+      return fmt::format("{} {} of {} is missing", name, i, count);
     }
-    const uint64_t needed = is_plain ? blocks.bytes(i % in_plane / blocks.across) : 1;
+    const uint64_t needed = is_plain ? row_bytes * rows_of(i) : 1;
     if (bytes[i] < needed) {
-      return fmt::format("{} {} of {} has {} of {} bytes", blocks.name, i, count, bytes[i], needed);
+      return fmt::format("{} {} of {} has {} of {} bytes", name, i, count, bytes[i], needed);
     }
     if (places[i] > d->file_bytes() || bytes[i] > d->file_bytes() - places[i]) {
-      return fmt::format("{} {} of {} goes on behind the end of the file", blocks.name, i, count);
+      return fmt::format("{} {} of {} goes on behind the end of the file", name, i, count);
     }
   }
   return {};

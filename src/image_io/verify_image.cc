@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "image_io/verify_image.h"
-
+// image_io/verify_image.cc: VerifyImage() of read_image.h.
 #include <algorithm>
 #include <array>
 #include <fstream>

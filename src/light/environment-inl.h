@@ -110,13 +110,8 @@ HWY_INLINE EnvironmentSampleV<V> SampleEnvironment(D d, const EnvironmentMap& ma
   alignas(64) float u[kMaxEnvironmentLanes], heights[kMaxEnvironmentLanes];
   alignas(64) float signs[kMaxEnvironmentLanes];
   alignas(64) EnvironmentLanes lanes;
-  EnvironmentSearch searches[kMaxEnvironmentLanes];
   for (size_t i = 0; i < hn::Lanes(d); ++i) {
-    searches[i] = FindRow(map, bits0[i] * 0x1p-32, bits1[i] * 0x1p-32);
-  }
-  for (size_t i = 0; i < hn::Lanes(d); ++i) FindBlock(map, &searches[i]);
-  for (size_t i = 0; i < hn::Lanes(d); ++i) {
-    const EnvironmentPick pick = PickTexel(map, searches[i]);
+    const EnvironmentPick pick = PickTexel(map, bits0[i] * 0x1p-32, bits1[i] * 0x1p-32);
     StoreTexel(map, pick.texel, i, lanes);
     u[i] = static_cast<float>(pick.u);
     heights[i] = static_cast<float>(pick.one_minus_cos);

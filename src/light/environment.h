@@ -126,53 +126,21 @@ struct EnvironmentPick {
   double sign;
 };
 
-// A search for a texel, which runs in steps (FindRow, FindBlock, PickTexel): tables and texels lie
-// far apart in memory, and while one search waits for them, others go on.
-struct EnvironmentSearch {
-  CdfPick row;
-  double u;  // the position in the CDF of the row
-  size_t block;
-};
-
-// Chooses the row, which is never black. Sets `block` to the cell where FindBlock starts.
-inline EnvironmentSearch FindRow(const EnvironmentMap& map, double u0, double u1) {
-  const CdfPick row = PickIndex(map.row_table, u1);
-  const size_t last = map.row_blocks - 1;
-  const size_t cell = std::min(static_cast<size_t>(u0 * static_cast<double>(last + 1)), last);
-  __builtin_prefetch(&map.blocks[row.index * map.row_blocks + cell]);
-  return {row, u0, cell};
-}
-
-// Whether the CDF of a row is above u at a texel up to which luminances add up to `sum`; `total` is
-// the sum of the row. Where it is not, comparing with a product mostly decides, and saves the
-// division: the product's two rounding errors are less than 2^-51 of it.
-inline bool IsAbove(double sum, double total, double u) {
-  return !(sum < u * total * (1 - 0x1p-51)) && sum / total > u;
-}
-
-inline void FindBlock(const EnvironmentMap& map, EnvironmentSearch* search) {
-  const size_t row = search->row.index, last = map.row_blocks - 1;
+// The column of the texel in a row that is not black, bit for bit as PickIndex would choose it from
+// a table of the row's luminances.
+inline CdfPick FindColumn(const EnvironmentMap& map, size_t row, double u) {
+  const size_t width = static_cast<size_t>(map.width), last = map.row_blocks - 1;
   const EnvironmentBlock* const blocks = &map.blocks[row * map.row_blocks];
-  const double total = map.row_sums[row], u = search->u;
-  size_t i = blocks[search->block].first;
-  while (i > 0 && IsAbove(blocks[i - 1].sum, total, u)) --i;
-  while (i < last && !IsAbove(blocks[i].sum, total, u)) ++i;
-  search->block = i;
-  const size_t first = row * static_cast<size_t>(map.width) + i * kEnvironmentBlock;
-  const float* const values = &map.texels[static_cast<ptrdiff_t>(first)].x;
-  for (const size_t k : {0, 16, 32, 47}) __builtin_prefetch(values + k);  // all its cache lines
-}
-
-// The column of the texel, bit for bit as PickIndex would choose it from a table of the row's
-// luminances.
-inline CdfPick FindColumn(const EnvironmentMap& map, const EnvironmentSearch& search) {
-  const size_t row = search.row.index, width = static_cast<size_t>(map.width);
-  const double total = map.row_sums[row], u = search.u;
+  const double total = map.row_sums[row];
+  const size_t cell = std::min(static_cast<size_t>(u * static_cast<double>(last + 1)), last);
+  size_t block = blocks[cell].first;
+  while (block > 0 && blocks[block - 1].sum / total > u) --block;
+  while (block < last && !(blocks[block].sum / total > u)) ++block;
   const Vec3f* const texels = &map.texels[static_cast<ptrdiff_t>(row * width)];
-  double before = search.block > 0 ? map.blocks[row * map.row_blocks + search.block - 1].sum : 0;
-  size_t x = search.block * kEnvironmentBlock;
+  double before = block > 0 ? blocks[block - 1].sum : 0;
+  size_t x = block * kEnvironmentBlock;
   double sum = before + TexelLuminance(texels[x]);
-  while (x + 1 < width && !IsAbove(sum, total, u)) {
+  while (x + 1 < width && !(sum / total > u)) {
     before = sum;
     sum += TexelLuminance(texels[++x]);
   }
@@ -181,13 +149,14 @@ inline CdfPick FindColumn(const EnvironmentMap& map, const EnvironmentSearch& se
           std::clamp((u - lower) / (sum / total - lower), 0.0, 1 - 0x1p-53)};
 }
 
-inline EnvironmentPick PickTexel(const EnvironmentMap& map, const EnvironmentSearch& search) {
-  const CdfPick column = FindColumn(map, search);
+inline EnvironmentPick PickTexel(const EnvironmentMap& map, double u0, double u1) {
+  const CdfPick row = PickIndex(map.row_table, u1);
+  const CdfPick column = FindColumn(map, row.index, u0);
   const auto width = static_cast<size_t>(map.width);
-  const EnvironmentRow& edges = map.rows[search.row.index];
-  return {search.row.index * width + column.index,
+  const EnvironmentRow& edges = map.rows[row.index];
+  return {row.index * width + column.index,
           (column.index + column.remapped) / static_cast<double>(width),
-          edges.first + search.row.remapped * (double{edges.last} - edges.first), edges.sign};
+          edges.first + row.remapped * (double{edges.last} - edges.first), edges.sign};
 }
 
 template <typename Real>
@@ -201,9 +170,7 @@ struct EnvironmentSample {
 template <typename Real>
 EnvironmentSample<Real> SampleEnvironment(const EnvironmentMap& map, double u0, double u1) {
   if (map.is_black) return {};
-  EnvironmentSearch search = FindRow(map, u0, u1);
-  FindBlock(map, &search);
-  const EnvironmentPick pick = PickTexel(map, search);
+  const EnvironmentPick pick = PickTexel(map, u0, u1);
   const double sin = std::sqrt(pick.one_minus_cos * (2 - pick.one_minus_cos));
   const double phi = 2 * M_PI * pick.u;
   return {Imath::Vec3<Real>(Vec3d(std::sin(phi) * sin, pick.sign * (1 - pick.one_minus_cos),

@@ -16,21 +16,14 @@
 namespace nacre {
 namespace {
 
-std::string FilterName(const PixelFilter& filter) {
-  switch (filter.kind) {
-    case FilterKind::kBox:
-      return "box";
-    case FilterKind::kGaussian:
-      return "gaussian";
-    case FilterKind::kBlackmanHarris:
-      return "blackman_harris";
-    case FilterKind::kMitchell:
-      return "mitchell";
-  }
-  return {};
-}
+// By FilterKind.
+constexpr const char* kFilterNames[] = {"box", "gaussian", "blackman_harris", "mitchell"};
 
 }  // namespace
+
+const char* PixelTypeName(PixelType type) {
+  return type == PixelType::kHalf ? "half" : type == PixelType::kFloat ? "float" : "uint";
+}
 
 void AddMetadata(const ExrHeader& header, Image* image) {
   const auto text = [](const auto& value) { return fmt::format("{}", value); };
@@ -124,8 +117,8 @@ ExrHeader MakeExrHeader(const FramePlan& plan, bool reproducible, const std::str
   attributes["nacre:shadowing"] = ShadowingForms(plan.surfaces.prepared->any);
   attributes["nacre:settings"] =
       fmt::format("size={}x{} spp={} filter={} filter_width={} seed={} shadows={}", image.width,
-                  image.height, image.spp, FilterName(image.filter), image.filter.width, image.seed,
-                  image.shadows ? "on" : "off");
+                  image.height, image.spp, kFilterNames[static_cast<size_t>(image.filter.kind)],
+                  image.filter.width, image.seed, image.shadows ? "on" : "off");
   for (const auto& [name, value] : plan.changed_settings) attributes[AttributeOf(name)] = value;
   if (plan.adaptive.max_error > 0) attributes["nacre:maxSamples"] = plan.adaptive.max_samples;
   if (!tile.empty()) attributes[kTileAttribute] = tile;

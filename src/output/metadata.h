@@ -23,6 +23,9 @@ ExrHeader MakeExrHeader(const FramePlan& plan, bool reproducible, const std::str
 // The software that made the file: the attribute or text "Software".
 std::string SoftwareName();
 
+// The name of a type of samples in texts: half, float or uint.
+const char* PixelTypeName(PixelType type);
+
 // Adds the header's attributes to the image as text, as readers of the file return them.
 void AddMetadata(const ExrHeader& header, Image* image);
 

@@ -34,8 +34,7 @@ namespace py = pybind11;
 // Counts the calls that work on an object. It is protected by the interpreter lock, which must be
 // held when a guard is made or destroyed. A thread that finds the object in use gets an error,
 // instead of a wait that might never end.
-class Users {
- public:
+struct Users {
   int count = 0;
 };
 

@@ -3,6 +3,7 @@
 // API.
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <map>
 
 #include <pybind11/stl.h>
@@ -11,6 +12,8 @@
 
 namespace nacre_python {
 namespace {
+
+using namespace py::literals;
 
 constexpr const char* kTypes[] = {"half", "float", "uint"};
 
@@ -53,26 +56,13 @@ py::bytes FileOf(const std::vector<uint8_t>& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-py::object OrNone(const std::optional<double>& number) {
-  return number ? py::object(py::float_(*number)) : py::object(py::none());
-}
-
 py::dict ToDict(const nacre::LayerMetrics& m) {
-  py::dict dict;
-  dict["layer"] = m.layer.empty() ? "beauty" : m.layer;
-  dict["samples"] = m.samples;
-  dict["rmse"] = m.rmse;
-  dict["rel_mse"] = m.rel_mse;
-  dict["psnr_db"] = m.psnr_db;
-  dict["max_abs"] = m.max_abs;
-  dict["max_rel"] = m.max_rel;
-  dict["zero_mismatches"] = m.zero_mismatches;
-  dict["mean"] = m.mean;
-  dict["mean_reference"] = m.mean_reference;
-  dict["ssim"] = OrNone(m.ssim);
-  dict["flip"] = OrNone(m.flip);
-  dict["hdr_flip"] = OrNone(m.hdr_flip);
-  return dict;
+  return py::dict("layer"_a = m.layer.empty() ? "beauty" : m.layer, "samples"_a = m.samples,
+                  "rmse"_a = m.rmse, "rel_mse"_a = m.rel_mse, "psnr_db"_a = m.psnr_db,
+                  "max_abs"_a = m.max_abs, "max_rel"_a = m.max_rel,
+                  "zero_mismatches"_a = m.zero_mismatches, "mean"_a = m.mean,
+                  "mean_reference"_a = m.mean_reference, "ssim"_a = m.ssim, "flip"_a = m.flip,
+                  "hdr_flip"_a = m.hdr_flip);
 }
 
 // The rank of a channel within its layer: R, G, B and A, or X, Y and Z.
@@ -157,11 +147,10 @@ nacre::Image FromPython(const py::object& image) {
   const size_t count = static_cast<size_t>(block.shape(1) * block.shape(2));
   const float* from = block.data();
   for (size_t i = 0; i < names.size(); ++i, from += count) {
-    nacre::Channel channel{names[i], nacre::SampleType::kHalf, std::vector<float>(count)};
-    while (types[i] != kTypes[static_cast<size_t>(channel.type)]) {
-      channel.type = static_cast<nacre::SampleType>(static_cast<size_t>(channel.type) + 1);
-      if (channel.type > nacre::SampleType::kUint) throw py::value_error("unknown channel type");
-    }
+    const auto* const type = std::find(std::begin(kTypes), std::end(kTypes), types[i]);
+    if (type == std::end(kTypes)) throw py::value_error("unknown channel type");
+    nacre::Channel channel{names[i], static_cast<nacre::SampleType>(type - std::begin(kTypes)),
+                           std::vector<float>(count)};
     if (channel.type == nacre::SampleType::kUint) {
       const auto* const ids = reinterpret_cast<const uint32_t*>(from);
       for (size_t k = 0; k < count; ++k) channel.samples[k] = static_cast<float>(ids[k]);

@@ -70,20 +70,14 @@ nacre::RenderSettings SettingsOf(const py::dict& dict) {
 }
 
 py::dict ToDict(const nacre::RenderStats& stats) {
-  py::dict dict;
-  dict["camera_rays"] = stats.camera_rays;
-  dict["shadow_rays"] = stats.shadow_rays;
-  dict["plan_seconds"] = stats.plan_seconds;
-  dict["render_seconds"] = stats.render_seconds;
-  dict["threads"] = stats.threads;
-  dict["notes"] = stats.notes;
-  dict["unsettled_pixels"] = stats.unsettled_pixels;
-  dict["samples_per_pixel"] =
-      py::dict(py::arg("min") = stats.fewest_samples, py::arg("mean") = stats.mean_samples,
-               py::arg("max") = stats.most_samples);
-  dict["hits"] = stats.hits;
-  dict["shades"] = stats.shades;
-  return dict;
+  using namespace py::literals;
+  const py::dict samples("min"_a = stats.fewest_samples, "mean"_a = stats.mean_samples,
+                         "max"_a = stats.most_samples);
+  return py::dict("camera_rays"_a = stats.camera_rays, "shadow_rays"_a = stats.shadow_rays,
+                  "plan_seconds"_a = stats.plan_seconds, "render_seconds"_a = stats.render_seconds,
+                  "threads"_a = stats.threads, "notes"_a = stats.notes,
+                  "unsettled_pixels"_a = stats.unsettled_pixels, "samples_per_pixel"_a = samples,
+                  "hits"_a = stats.hits, "shades"_a = stats.shades);
 }
 
 // The image that render() makes, with its statistics. A signal calls stop().

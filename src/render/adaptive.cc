@@ -203,8 +203,8 @@ void AddListSamples(const FramePlan& plan, const Window& cell, std::span<const S
 }
 
 // Takes the samples of a level for all active pixels, in batches.
-void AddLevel(const FramePlan& plan, const Window& cell, size_t level, TileWork* s, CellRoom* room,
-              StageClock* clock, RenderStats* stats) {
+void AddLevel(const FramePlan& plan, const Window& cell, size_t level, TileWork* s,
+              CellRoom* room) {
   CellState& c = room->state;
   const SampleLevels::Level& l = plan.adaptive.sampling.levels[level];
   const auto& samplers = plan.adaptive.sampling.patterns[l.pattern];
@@ -230,9 +230,9 @@ void AddLevel(const FramePlan& plan, const Window& cell, size_t level, TileWork*
       if (plan.sampling.numbered) {
         NumberListSamples(samplers.data(), cell, list, first, count, &EnsureNumbers(&s->samples));
       }
-      ShadeSamples(plan, s, clock, stats);
+      ShadeSamples(plan, s);
       AddListSamples(plan, cell, list, s, room);
-      clock->Charge(Stage::kFilm);
+      s->clock->Charge(Stage::kFilm);
       listed = 0;
     };
     // A group is a whole block in the common levels, else a single pixel. It is listed for all
@@ -264,7 +264,7 @@ std::vector<uint32_t> ListPixels(uint32_t blocks) {
 // Returns, as bits, the blocks of `edge_free` that need no more samples. The film gets their
 // values, and the positions, depths and ids of all `blocks`.
 uint32_t AddCenters(const FramePlan& plan, const Window& cell, uint32_t blocks, uint32_t edge_free,
-                    TileWork* work, StageClock* clock, RenderStats* stats) {
+                    TileWork* work) {
   if (blocks == 0) return 0;
   TileWork& s = *work;
   const std::vector<uint32_t> pixels = ListPixels(blocks);
@@ -277,7 +277,7 @@ uint32_t AddCenters(const FramePlan& plan, const Window& cell, uint32_t blocks, 
   // Any numbers will do: under sampled lights no block stops at its centres, and only positions,
   // depths and ids are used.
   if (plan.sampling.numbered) NumberAlike(pixels.size(), &EnsureNumbers(&s.samples));
-  ShadeSamples(plan, &s, clock, stats);
+  ShadeSamples(plan, &s);
   uint32_t hit_of_ray[kCellPixels];
   std::fill_n(hit_of_ray, kCellPixels, kNoHit);
   for (size_t i = 0; i < s.surfaces.hits.count; ++i)
@@ -303,15 +303,14 @@ uint32_t AddCenters(const FramePlan& plan, const Window& cell, uint32_t blocks, 
   AddNearest(
       plan.film, BatchOf(plan, s), [&](uint32_t ray) { return PixelOf(cell, pixels[ray]); },
       &s.layer_room, &s.film);
-  clock->Charge(Stage::kFilm);
+  work->clock->Charge(Stage::kFilm);
   return smooth;
 }
 
 // Gives every pixel whose coverage is known one hit before its first sample, because all samples of
 // a barely covered pixel may miss. Only the mean of its hits is used, so that it does no harm to
 // choose a point in the middle of the covered part.
-void AddCoveredHits(const FramePlan& plan, const Window& cell, TileWork* work, CellRoom* room,
-                    StageClock* clock, RenderStats* stats) {
+void AddCoveredHits(const FramePlan& plan, const Window& cell, TileWork* work, CellRoom* room) {
   OutlinePixels& outlines = room->state.outlines;
   const std::vector<OutlinePixels::CoveredPoint>& points = outlines.covered_points;
   if (points.empty()) return;
@@ -321,7 +320,7 @@ void AddCoveredHits(const FramePlan& plan, const Window& cell, TileWork* work, C
     s.samples.film.y[i] = points[i].y;
   }
   s.samples.film.count = points.size();
-  ShadeSamples(plan, &s, clock, stats);
+  ShadeSamples(plan, &s);
   MarkHits(s, &room->hits);
   size_t sum = 0;
   const auto add = [&](const Layer& layer, const Rgb& background, Soa3<double>& values) {
@@ -343,7 +342,7 @@ void AddCoveredHits(const FramePlan& plan, const Window& cell, TileWork* work, C
   AddNearest(
       plan.film, BatchOf(plan, s), [&](uint32_t ray) { return PixelOf(cell, points[ray].pixel); },
       &s.layer_room, &s.film);
-  clock->Charge(Stage::kFilm);
+  work->clock->Charge(Stage::kFilm);
 }
 
 // The blocks, as bits, that have pixels in `part`.
@@ -358,49 +357,49 @@ uint32_t BlocksOf(const Window& cell, const Window& part) {
 }  // namespace
 
 void RenderCell(const FramePlan& plan, const Window& cell, const Window& part, TileWork* work,
-                CellRoom* room, Strip* strip, StageClock* clock, RenderStats* stats) {
+                CellRoom* room, Strip* strip) {
   TileWork& s = *work;
   CellState& c = room->state;
   FindTileShapes(plan.hits, cell, &s.shapes);
-  clock->Charge(Stage::kIntersect);
+  work->clock->Charge(Stage::kIntersect);
   if (!ShowsAnything(plan, s.shapes)) {
     FillBackground(plan.film, part, strip);
-    stats->pixel_samples.Add(0, part.pixel_count());
-    clock->Charge(Stage::kFilm);
+    work->stats->pixel_samples.Add(0, part.pixel_count());
+    work->clock->Charge(Stage::kFilm);
     c.active.clear();
     return;
   }
   StartTile(plan.film, cell, kBatchCapacity, &s.film);
   std::fill_n(c.samples.count, kCellPixels, 0u);
-  clock->Charge(Stage::kFilm);
+  work->clock->Charge(Stage::kFilm);
   // All blocks within the frame, whatever part is rendered, because pixels depend on their
   // neighbours.
   const uint32_t blocks = BlocksOf(cell, plan.frame);
   const CellProjections projections = ProjectSpheres(plan.camera, s.shapes.spheres);
   c.edges = FindEdges(plan, cell, blocks, s.shapes.spheres, projections, &room->footprint);
-  clock->Charge(Stage::kIntersect);
+  work->clock->Charge(Stage::kIntersect);
   const bool all_centers = s.film.nearest_distance2.size() > 0;
   const uint32_t smooth =
-      AddCenters(plan, cell, all_centers ? blocks : c.edges.none, c.edges.none, &s, clock, stats);
+      AddCenters(plan, cell, all_centers ? blocks : c.edges.none, c.edges.none, &s);
   const uint32_t sampled = blocks & ~smooth;
   ClearReplicates(sampled, &c.samples);
   c.active = ListPixels(sampled);
   FindDust(plan, cell, s.shapes, &c.dust);
   FindOutlinePixels(plan, cell, c.active, projections, c.dust, &c.outlines);
   ClearEvidence(&c.evidence);
-  FindRareFeatures(plan, cell, c.dust, &s, &c.known, clock, stats);
-  AddCoveredHits(plan, cell, &s, room, clock, stats);
+  FindRareFeatures(plan, cell, c.dust, &s, &c.known);
+  AddCoveredHits(plan, cell, &s, room);
   for (size_t level = 0; level < plan.adaptive.sampling.levels.size() && !c.active.empty();
        ++level) {
-    AddLevel(plan, cell, level, &s, room, clock, stats);
+    AddLevel(plan, cell, level, &s, room);
     DropConverged(plan, level, &c);
-    clock->Charge(Stage::kFilm);
+    work->clock->Charge(Stage::kFilm);
   }
-  stats->unsettled_pixels += CountUnsettled(plan, cell, part, &c);
-  stats->pixel_samples.Add(CountSamples(cell, part, c.samples));
+  work->stats->unsettled_pixels += CountUnsettled(plan, cell, part, &c);
+  work->stats->pixel_samples.Add(CountSamples(cell, part, c.samples));
   AddReplicates(sampled, c.samples, &s.film);
   ResolveCell(plan, cell, part, s.film, c.samples, c.outlines, strip);
-  clock->Charge(Stage::kFilm);
+  work->clock->Charge(Stage::kFilm);
 }
 
 }  // namespace nacre

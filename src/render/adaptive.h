@@ -39,6 +39,6 @@ struct CellRoom {
 
 // Renders a cell of the frame, and writes its pixels that lie in `part` to the strip.
 void RenderCell(const FramePlan& plan, const Window& cell, const Window& part, TileWork* work,
-                CellRoom* room, Strip* strip, StageClock* clock, RenderStats* stats);
+                CellRoom* room, Strip* strip);
 
 }  // namespace nacre

@@ -69,8 +69,9 @@ void ShadeByPunctualLight(const DirectBatch& batch, const ShadingLight& light,
     batch.clock.Charge(Stage::kShadow);
   }
   for (const MaterialRun& run : LitRuns(batch.surfaces)) {
-    EvaluateBsdf(BsdfHitsOf(batch.surfaces, run), light, in_place ? nullptr : on_hits,
-                 batch.plan.lights.components, &batch.room.bsdf, radiance);
+    EvaluateBsdf({HitsOf(batch.surfaces, run), light, in_place ? nullptr : on_hits, radiance,
+                  batch.plan.lights.components},
+                 &batch.room.bsdf);
   }
   batch.stats.shades += batch.lit();
   batch.clock.Charge(Stage::kShade);

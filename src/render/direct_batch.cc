@@ -6,7 +6,7 @@ namespace nacre {
 void HideUnreflectedLight(const DirectBatch& batch) {
   if (!batch.surface().normal_mapped) return;
   for (const MaterialRun& run : LitRuns(batch.surfaces)) {
-    HideUnreflectedLight(BsdfHitsOf(batch.surfaces, run), &batch.room.light);
+    HideUnreflectedLight(HitsOf(batch.surfaces, run), &batch.room.light);
   }
 }
 

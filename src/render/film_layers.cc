@@ -20,45 +20,27 @@ struct LayerValues {
   const Soa3<float>* emission = nullptr;
 };
 
-// The values of a layer where each hit has its own ambient, emission and albedo.
-LayerValues MappedValuesShown(const Layer& layer, const ShadedBatch& s) {
-  switch (layer.kind) {
-    case LayerKind::kBeauty: {
-      LayerValues shown{.values = &s.radiance.total.sum};
-      shown.ambient = &s.surfaces.textures->ambient;
-      shown.emission = &s.surfaces.textures->emission;
-      return shown;
-    }
-    case LayerKind::kAmbient:
-      return {.values = &s.surfaces.textures->ambient};
-    case LayerKind::kEmission:
-      return {.values = &s.surfaces.textures->emission};
-    case LayerKind::kAlbedo:
-      return {.values = &s.surfaces.textures->albedo};
-    default:
-      return {};
-  }
-}
-
-bool IsMapped(LayerKind kind) {
-  return kind == LayerKind::kBeauty || kind == LayerKind::kAmbient ||
-         kind == LayerKind::kEmission || kind == LayerKind::kAlbedo;
-}
-
 LayerValues ValuesShown(const Layer& layer, size_t light_layer, const ShadingMaterial& constants,
                         const ShadedBatch& s) {
-  if (constants.by_hit.parameters && IsMapped(layer.kind)) return MappedValuesShown(layer, s);
+  // If not null, each hit has its own ambient, emission and albedo.
+  const HitParameters* const maps =
+      constants.by_hit.parameters ? s.surfaces.textures.get() : nullptr;
   const Rgb ambient = constants.in_ambient
                           ? RoundToFloat(constants.of_ambient * s.plan.textures.ambient)
                           : Rgb(0, 0, 0);
   const Rgb emission = RoundToFloat(constants.emission);
+  LayerValues shown;
   switch (layer.kind) {
-    case LayerKind::kBeauty: {
-      LayerValues shown{.values = &s.radiance.total.sum};
-      shown.constant = ambient;
-      shown.constant2 = emission;
+    case LayerKind::kBeauty:
+      shown.values = &s.radiance.total.sum;
+      if (maps != nullptr) {
+        shown.ambient = &maps->ambient;
+        shown.emission = &maps->emission;
+      } else {
+        shown.constant = ambient;
+        shown.constant2 = emission;
+      }
       return shown;
-    }
     case LayerKind::kAlpha:
       return {.constant = {1, 0, 0}};
     case LayerKind::kDiffuse:
@@ -66,10 +48,13 @@ LayerValues ValuesShown(const Layer& layer, size_t light_layer, const ShadingMat
     case LayerKind::kSpecular:
       return {.values = &s.radiance.total.specular};
     case LayerKind::kAmbient:
+      if (maps != nullptr) return {.values = &maps->ambient};
       return {.constant = ambient};
     case LayerKind::kEmission:
+      if (maps != nullptr) return {.values = &maps->emission};
       return {.constant = emission};
     case LayerKind::kAlbedo:
+      if (maps != nullptr) return {.values = &maps->albedo};
       return {.constant = RoundToFloat(constants.albedo)};
     case LayerKind::kLight:
       return {.values = &s.radiance.per_light[light_layer]};

@@ -54,8 +54,10 @@ std::optional<Forecast> ForecastRender(const FramePlan& plan, const RenderSettin
     Strip strip;
     RenderStats stats;
     StageClock clock(nullptr);
+    room->work.clock = &clock;
+    room->work.stats = &stats;
     StartStrip(plan.film, part, nullptr, &strip);
-    RenderCell(plan, cell, part, &room->work, &room->cell, &strip, &clock, &stats);
+    RenderCell(plan, cell, part, &room->work, &room->cell, &strip);
     const double taken = SecondsSince(start);
     const std::lock_guard lock(mutex);
     total.Add(stats);

@@ -98,10 +98,7 @@ std::vector<HighlightLight> FindSuns(const std::vector<PlannedSampledLight>& lig
 double HalfVectorWidth(const SurfacePlan& surfaces, const HighlightCauses& causes,
                        uint32_t material) {
   const ShadingMaterial& prepared = surfaces.materials[material];
-  if (HasDeltaLobe(prepared) || std::any_of(prepared.coats.begin(), prepared.coats.end(),
-                                            [](const auto& coat) { return HasDeltaLobe(*coat); })) {
-    return 0;
-  }
+  if (HasMirror(prepared)) return 0;
   const auto* phong = std::get_if<PhongFamilyModel>(&prepared.model);
   const bool mirrored = phong != nullptr && phong->model != PhongModel::kBlinnPhong;
   return causes.lobe_widths[material] * (mirrored ? 0.5 : 1);

@@ -67,22 +67,15 @@ bool SphereHitIsFirst(const HitsPlan& plan, const RayBatch& rays, const HitBatch
   return plan.shapes.intersector->SphereIsFirst(on_spheres.primitive[i], rays, ray, t);
 }
 
-template <class T>
-void Copy(const Soa3<T>& from, size_t i, Soa3<T>* to, size_t k) {
-  to->x[k] = from.x[i];
-  to->y[k] = from.y[i];
-  to->z[k] = from.z[i];
-}
-
 void CopyHit(const CameraHits& from, size_t i, bool exact, size_t k, CameraHits* to) {
   to->batch.ray[k] = from.batch.ray[i];
   to->batch.primitive[k] = from.batch.primitive[i];
-  Copy(from.batch.position, i, &to->batch.position, k);
-  Copy(from.directions.normal, i, &to->directions.normal, k);
-  Copy(from.directions.to_view, i, &to->directions.to_view, k);
+  SetVector(VectorAt(from.batch.position, i), k, &to->batch.position);
+  SetVector(VectorAt(from.directions.normal, i), k, &to->directions.normal);
+  SetVector(VectorAt(from.directions.to_view, i), k, &to->directions.to_view);
   if (!exact) return;
-  Copy(from.batch.normal, i, &to->batch.normal, k);
-  Copy(from.batch.to_view, i, &to->batch.to_view, k);
+  SetVector(VectorAt(from.batch.normal, i), k, &to->batch.normal);
+  SetVector(VectorAt(from.batch.to_view, i), k, &to->batch.to_view);
 }
 
 // Merges the hits on triangles with the hits on spheres that no triangle hides, ordered by ray.

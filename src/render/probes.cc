@@ -23,8 +23,7 @@ void NumberProbes(std::span<const Probe> probes, size_t each, SampleNumbers* num
   }
 }
 
-void TraceBatch(const FramePlan& plan, std::span<Probe> probes, size_t each, TileWork* work,
-                StageClock* clock, RenderStats* stats) {
+void TraceBatch(const FramePlan& plan, std::span<Probe> probes, size_t each, TileWork* work) {
   TileWork& s = *work;
   for (size_t i = 0; i < probes.size(); ++i) {
     std::fill_n(s.samples.film.x.data() + each * i, each, probes[i].x);
@@ -32,7 +31,7 @@ void TraceBatch(const FramePlan& plan, std::span<Probe> probes, size_t each, Til
   }
   s.samples.film.count = each * probes.size();
   if (plan.sampling.numbered) NumberProbes(probes, each, &EnsureNumbers(&s.samples));
-  ShadeSamples(plan, &s, clock, stats);
+  ShadeSamples(plan, &s);
   for (size_t hit = 0; hit < s.surfaces.hits.count; ++hit) {
     probes[s.surfaces.hits.ray[hit] / each].hit = s.surfaces.hits.primitive[hit];
   }
@@ -51,13 +50,12 @@ void TraceBatch(const FramePlan& plan, std::span<Probe> probes, size_t each, Til
 
 }  // namespace
 
-void TraceProbes(const FramePlan& plan, std::vector<Probe>* probes, TileWork* work,
-                 StageClock* clock, RenderStats* stats) {
+void TraceProbes(const FramePlan& plan, std::vector<Probe>* probes, TileWork* work) {
   const size_t each = plan.sampling.numbered ? kSamplesPerProbe : 1;
   const size_t per_batch = kBatchCapacity / each;
   for (size_t first = 0; first < probes->size(); first += per_batch) {
     const size_t count = std::min(per_batch, probes->size() - first);
-    TraceBatch(plan, {probes->data() + first, count}, each, work, clock, stats);
+    TraceBatch(plan, {probes->data() + first, count}, each, work);
   }
 }
 

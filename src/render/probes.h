@@ -16,7 +16,6 @@ struct Probe {
 
 // Sets `hit` and `radiance` of the probes. They must lie where samples of the tile may lie, or in a
 // pixel in which that range ends: there, spheres that only the neighbouring tile lists are not hit.
-void TraceProbes(const FramePlan& plan, std::vector<Probe>* probes, TileWork* work,
-                 StageClock* clock, RenderStats* stats);
+void TraceProbes(const FramePlan& plan, std::vector<Probe>* probes, TileWork* work);
 
 }  // namespace nacre

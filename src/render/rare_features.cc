@@ -73,7 +73,7 @@ std::vector<Glint> FindGlints(const FramePlan& plan, const Projector& projector,
 // Measures the radiance of each highlight by one ray to its peak and one beside it, which also
 // finds whether other shapes shadow or hide it.
 void AddHighlights(const FramePlan& plan, const std::vector<Glint>& glints, TileWork* work,
-                   StageClock* clock, RenderStats* stats, std::vector<SmallFeature>* features) {
+                   std::vector<SmallFeature>* features) {
   constexpr size_t kPerBatch = kBatchCapacity / 2;
   bool is_visible[kPerBatch];  // by highlight: nothing hides its peak
   TileWork& s = *work;
@@ -88,7 +88,7 @@ void AddHighlights(const FramePlan& plan, const std::vector<Glint>& glints, Tile
     }
     s.samples.film.count = 2 * count;
     if (plan.sampling.numbered) NumberAlike(s.samples.film.count, &EnsureNumbers(&s.samples));
-    ShadeSamples(plan, &s, clock, stats);
+    ShadeSamples(plan, &s);
     const Layer& beauty = plan.film.layers[0];
     Soa3<double>& values = GatherLayer(plan.film, beauty, 0, BackgroundOf(beauty, plan.film),
                                        BatchOf(plan, s), &s.layer_room);
@@ -133,7 +133,7 @@ void AddShares(const PixelFilter& filter, const Window& cell, const SmallFeature
 }  // namespace
 
 void FindRareFeatures(const FramePlan& plan, const Window& cell, const CellDust& dust,
-                      TileWork* work, KnownFeatures* known, StageClock* clock, RenderStats* stats) {
+                      TileWork* work, KnownFeatures* known) {
   std::fill_n(known->samples, kCellPixels, 0.0);
   std::fill_n(known->radiance, kCellPixels, 0.0);
   const TileCandidates& candidates = work->shapes.spheres;
@@ -141,7 +141,7 @@ void FindRareFeatures(const FramePlan& plan, const Window& cell, const CellDust&
   std::vector<SmallFeature> features;
   AddSmallSpheres(plan, projector, candidates, &features);
   const std::vector<Glint> glints = FindGlints(plan, projector, cell, candidates);
-  AddHighlights(plan, glints, work, clock, stats, &features);
+  AddHighlights(plan, glints, work, &features);
   std::stable_sort(features.begin(), features.end(),
                    [](const SmallFeature& a, const SmallFeature& b) { return a.kind < b.kind; });
   const double least_tolerance = plan.adaptive.max_error * kDarkest;
@@ -162,8 +162,8 @@ void FindRareFeatures(const FramePlan& plan, const Window& cell, const CellDust&
     }
   }
   known->parts.clear();
-  FindRareTriangles(plan, cell, work, &known->parts, clock, stats);
-  FindRareTexels(plan, cell, work, known, clock, stats);
+  FindRareTriangles(plan, cell, work, &known->parts);
+  FindRareTexels(plan, cell, work, known);
   std::stable_sort(known->parts.begin(), known->parts.end(),
                    [](const auto& a, const auto& b) { return a.pixel < b.pixel; });
 }

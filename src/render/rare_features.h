@@ -11,6 +11,6 @@ namespace nacre {
 // Reads the cell's spheres, work->shapes.spheres. Traces rays to measure the radiance of highlights
 // and triangles.
 void FindRareFeatures(const FramePlan& plan, const Window& cell, const CellDust& dust,
-                      TileWork* work, KnownFeatures* known, StageClock* clock, RenderStats* stats);
+                      TileWork* work, KnownFeatures* known);
 
 }  // namespace nacre

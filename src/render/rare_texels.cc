@@ -341,8 +341,8 @@ class TexelFinder {
 };
 
 // Traces a ray through the middle of each pixel of the window.
-void TraceMiddles(const FramePlan& plan, const Window& window, bool holes_are_solid, TileWork* work,
-                  RenderStats* stats) {
+void TraceMiddles(const FramePlan& plan, const Window& window, bool holes_are_solid,
+                  TileWork* work) {
   FilmBatch& film = work->samples.film;
   film.count = 0;
   for (int y = window.y0; y < window.y1; ++y) {
@@ -351,14 +351,13 @@ void TraceMiddles(const FramePlan& plan, const Window& window, bool holes_are_so
       film.y[film.count] = y + 0.5;
     }
   }
-  stats->camera_rays += film.count;
+  work->stats->camera_rays += film.count;
   work->trace_room.rays.holes_are_solid = holes_are_solid;
   TraceCamera(plan.hits, work->shapes, film, &work->trace_room, &work->hits);
   work->trace_room.rays.holes_are_solid = false;
 }
 
-std::vector<FoundTexels> SearchPixels(const FramePlan& plan, const Window& window, TileWork* work,
-                                      RenderStats* stats) {
+std::vector<FoundTexels> SearchPixels(const FramePlan& plan, const Window& window, TileWork* work) {
   const TexelMaps& maps = *plan.adaptive.texel_maps;
   std::vector<FoundTexels> found;
   TexelFinder finder(plan, &found);
@@ -378,7 +377,7 @@ std::vector<FoundTexels> SearchPixels(const FramePlan& plan, const Window& windo
     }
   };
   if (maps.any_looks || maps.any_normals || maps.sky_extremes) {
-    TraceMiddles(plan, window, false, work, stats);
+    TraceMiddles(plan, window, false, work);
     search_hits(maps.looks, false);
     if (maps.sky_extremes) {
       size_t hit = 0;
@@ -392,7 +391,7 @@ std::vector<FoundTexels> SearchPixels(const FramePlan& plan, const Window& windo
     }
   }
   if (maps.any_opacity && work->shapes.triangles) {
-    TraceMiddles(plan, window, true, work, stats);
+    TraceMiddles(plan, window, true, work);
     search_hits(maps.opacities, true);
   }
   return found;
@@ -400,20 +399,20 @@ std::vector<FoundTexels> SearchPixels(const FramePlan& plan, const Window& windo
 
 }  // namespace
 
-void FindRareTexels(const FramePlan& plan, const Window& cell, TileWork* work, KnownFeatures* known,
-                    StageClock* clock, RenderStats* stats) {
+void FindRareTexels(const FramePlan& plan, const Window& cell, TileWork* work,
+                    KnownFeatures* known) {
   std::fill_n(known->has_other_texels, kCellPixels, false);
   if (plan.adaptive.texel_maps == nullptr) return;
   const Window window = PixelsAround(cell, plan.frame, plan.adaptive.filter_radius);
-  const std::vector<FoundTexels> found = SearchPixels(plan, window, work, stats);
-  clock->Charge(Stage::kSample);
+  const std::vector<FoundTexels> found = SearchPixels(plan, window, work);
+  work->clock->Charge(Stage::kSample);
   std::vector<Probe> probes;
   for (const FoundTexels& texels : found) {
     probes.push_back({texels.x + 0.5 + texels.cluster.offset.x,
                       texels.y + 0.5 + texels.cluster.offset.y,
                       static_cast<uint32_t>(IndexIn(plan.frame, texels.x, texels.y))});
   }
-  TraceProbes(plan, &probes, work, clock, stats);
+  TraceProbes(plan, &probes, work);
   // Shares are computed as if texels that look alike were spread evenly over the pixel. Glints of
   // normal maps look much alike, so that those of several pixels are added up.
   struct Glints {

@@ -17,7 +17,7 @@
 namespace nacre {
 
 // Adds rare texels to known->parts, and sets has_other_texels.
-void FindRareTexels(const FramePlan& plan, const Window& cell, TileWork* work, KnownFeatures* known,
-                    StageClock* clock, RenderStats* stats);
+void FindRareTexels(const FramePlan& plan, const Window& cell, TileWork* work,
+                    KnownFeatures* known);
 
 }  // namespace nacre

@@ -173,13 +173,12 @@ void ThinOut(const Window& cell, std::vector<Candidate>* candidates) {
 }
 
 // Sets the radiance of the candidates that a ray through their centroid hits.
-void ProbeAll(const FramePlan& plan, std::vector<Candidate>* candidates, TileWork* work,
-              StageClock* clock, RenderStats* stats) {
+void ProbeAll(const FramePlan& plan, std::vector<Candidate>* candidates, TileWork* work) {
   std::vector<Probe> probes;
   for (const Candidate& candidate : *candidates) {
     probes.push_back({candidate.piece.x, candidate.piece.y, candidate.piece.primitive});
   }
-  TraceProbes(plan, &probes, work, clock, stats);
+  TraceProbes(plan, &probes, work);
   for (size_t i = 0; i < probes.size(); ++i) {
     Candidate& candidate = (*candidates)[i];
     if (probes[i].hit == candidate.piece.primitive) candidate.radiance = probes[i].radiance;
@@ -211,18 +210,18 @@ void AddRareTriangles(const PixelFilter& filter, const Window& cell,
 }  // namespace
 
 void FindRareTriangles(const FramePlan& plan, const Window& cell, TileWork* work,
-                       std::vector<RarePart>* parts, StageClock* clock, RenderStats* stats) {
+                       std::vector<RarePart>* parts) {
   std::vector<Candidate> candidates = FindCandidates(plan, cell);
   if (candidates.empty()) return;
   ThinOut(cell, &candidates);
-  ProbeAll(plan, &candidates, work, clock, stats);
+  ProbeAll(plan, &candidates, work);
   for (size_t first = 0, end = 0; first < candidates.size(); first = end) {
     const uint32_t material = candidates[first].piece.material;
     while (end < candidates.size() && candidates[end].piece.material == material) ++end;
     AddRareTriangles(plan.scene->image.filter, cell, {candidates.data() + first, end - first},
                      parts);
   }
-  clock->Charge(Stage::kSample);
+  work->clock->Charge(Stage::kSample);
 }
 
 }  // namespace nacre

@@ -15,6 +15,6 @@ namespace nacre {
 
 // Adds rare triangles to `parts`.
 void FindRareTriangles(const FramePlan& plan, const Window& cell, TileWork* work,
-                       std::vector<RarePart>* parts, StageClock* clock, RenderStats* stats);
+                       std::vector<RarePart>* parts);
 
 }  // namespace nacre

@@ -82,8 +82,7 @@ void StoreIds(const Strip& strip, Image* image) {
 }
 
 // Renders strip `number` of the window into worker->strip, whose window and channels are set.
-using StripRenderer =
-    std::function<void(size_t number, Worker* worker, StageClock* clock, RenderStats* stats)>;
+using StripRenderer = std::function<void(size_t number, Worker* worker)>;
 
 // Renders all strips in parallel, into the image or, if that is null, passes them to the sink.
 // on_progress(share), unless it is empty, is called after each strip with the share of the strips
@@ -107,13 +106,15 @@ RenderStats RenderStrips(const FramePlan& plan, const RenderSettings& settings,
     worker->work.cancel = settings.cancel;
     {
       StageClock clock(settings.time_stages ? &stats : nullptr);
+      worker->work.clock = &clock;
+      worker->work.stats = &stats;
       // The worker's strip keeps the pixels of the strip that it rendered before. A tile that shows
       // the background often lies below another such tile, which then need not be filled again.
       // Rows that the strip before did not have are not filled yet.
       const bool has_new_rows = worker->strip.window.height() < rows.height();
       if (has_new_rows || image != nullptr) worker->blank.assign(TilesPerStrip(plan), 0);
       StartStrip(plan.film, rows, image, &worker->strip);
-      render_strip(number, worker.get(), &clock, &stats);
+      render_strip(number, worker.get());
     }
     const auto output_start = std::chrono::steady_clock::now();
     if (image != nullptr) {
@@ -145,17 +146,17 @@ FilmPlan PlanOfFirstSamples(const FramePlan& plan, int samples) {
 RenderStats RenderWhole(const FramePlan& plan, const RenderSettings& settings, Image* image,
                         const StripSink& sink) {
   const bool adaptive = plan.adaptive.max_error > 0;
-  const auto render_strip = [&](size_t, Worker* worker, StageClock* clock, RenderStats* stats) {
+  const auto render_strip = [&](size_t, Worker* worker) {
     Strip& strip = worker->strip;
     if (!adaptive) {
       return ForEachTile(plan, strip.window, [&](size_t number, const Window& tile) {
-        RenderTile(plan, tile, &worker->work, &strip, &worker->blank[number], clock, stats);
+        RenderTile(plan, tile, &worker->work, &strip, &worker->blank[number]);
       });
     }
     if (!worker->cell) worker->cell = std::make_unique<CellRoom>();
     ForEachCell(strip.window, [&](const Window& cell) {
       RenderCell(plan, cell, Intersect(cell, strip.window), &worker->work, worker->cell.get(),
-                 &strip, clock, stats);
+                 &strip);
     });
   };
   RenderStats total = RenderStrips(plan, settings, render_strip, image, sink, settings.on_progress);
@@ -181,14 +182,13 @@ RenderStats RenderPass(const FramePlan& plan, const RenderSettings& settings, in
     film->tiles.resize(static_cast<size_t>(StripCount(plan.window.height())) * tiles_per_strip);
   }
   const FilmPlan so_far = PlanOfFirstSamples(plan, end);
-  const auto render_strip = [&](size_t strip, Worker* worker, StageClock* clock,
-                                RenderStats* stats) {
+  const auto render_strip = [&](size_t strip, Worker* worker) {
     ForEachTile(plan, worker->strip.window, [&](size_t number, const Window& tile) {
       TileFilm& tile_film = film->tiles[strip * tiles_per_strip + number];
       if (first == 0) StartTile(plan.film, tile, tile.pixel_count(), &tile_film);
-      AddTileSamples(plan, tile, first, end, &worker->work, &tile_film, clock, stats);
+      AddTileSamples(plan, tile, first, end, &worker->work, &tile_film);
       ResolveTile(so_far, tile_film, &worker->strip);
-      clock->Charge(Stage::kFilm);
+      worker->work.clock->Charge(Stage::kFilm);
     });
   };
   // Reports the share of the samples of all passes.

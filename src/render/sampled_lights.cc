@@ -25,7 +25,7 @@ struct LitBatch {
   LightBatch& light() const { return batch.room.light; }
   ReflectedRadiance& single() const { return batch.room.single; }
   std::span<const MaterialRun> runs() const { return LitRuns(batch.surfaces); }
-  BsdfHits BsdfOf(const MaterialRun& run) const { return BsdfHitsOf(batch.surfaces, run); }
+  MaterialHits HitsOf(const MaterialRun& run) const { return nacre::HitsOf(batch.surfaces, run); }
   BsdfRoom* bsdf_room() const { return &batch.room.bsdf; }
 };
 
@@ -109,7 +109,7 @@ void ApplyShadows(const LitBatch& lit) {
 void EvaluateUnitLight(const LitBatch& lit, const LobePdfs& pdfs) {
   static const ShadingLight kUnit{.form = LightForm::kGiven, .color = Rgb(1, 1, 1)};
   for (const MaterialRun& run : lit.runs()) {
-    EvaluateBsdf(lit.BsdfOf(run), kUnit, &lit.light(), true, lit.bsdf_room(), &lit.room.unit, pdfs);
+    EvaluateBsdf({lit.HitsOf(run), kUnit, &lit.light(), &lit.room.unit}, lit.bsdf_room(), pdfs);
   }
 }
 
@@ -207,12 +207,9 @@ void AddClosedForm(const LitBatch& lit) {
   const SampledLight& light = lit.planned.light;
   Soa3<float>& irradiance = lit.room.irradiance;
   LightIrradiance(light, lit.hits(), lit.surface(), &irradiance);
-  const Soa3<float>& n = lit.surface().normal;
   LightBatch& batch = lit.light();
+  CopySoa(lit.surface().normal, lit.count(), &batch.to_light);
   for (size_t i = 0; i < lit.count(); ++i) {
-    batch.to_light.x[i] = n.x[i];
-    batch.to_light.y[i] = n.y[i];
-    batch.to_light.z[i] = n.z[i];
     batch.irradiance[i] = lit.room.closed_form[i] != 0 ? 1.0f : 0.0f;
     lit.room.weight[i] = IsColored(light) ? 1 : irradiance.x[i];
   }
@@ -248,7 +245,7 @@ void AddBsdfSamples(const LitBatch& lit, LobeKind kind) {
   DrawPoints(lit, diffuse ? 1 : 2);
   SetDirectionsToNormals(lit);
   for (const MaterialRun& run : lit.runs()) {
-    SampleLobes(lit.BsdfOf(run), kind, lit.room.points.u.data(), lit.room.points.v.data(),
+    SampleLobes(lit.HitsOf(run), kind, lit.room.points.u.data(), lit.room.points.v.data(),
                 lit.bsdf_room(), &lit.room.directions.to_light);
   }
   FindLight(light, lit.hits(), &lit.room.directions);
@@ -261,14 +258,14 @@ void AddBsdfSamples(const LitBatch& lit, LobeKind kind) {
 void AddMirrorReflection(const LitBatch& lit, size_t level) {
   const auto runs = lit.runs();
   if (std::none_of(runs.begin(), runs.end(),
-                   [&](const MaterialRun& run) { return AnyMirror(lit.BsdfOf(run), level); })) {
+                   [&](const MaterialRun& run) { return AnyMirror(lit.HitsOf(run), level); })) {
     return;
   }
   Soa3<float>& reflectance = lit.room.unit.specular;
   ClearSoa(lit.count(), &reflectance);
   SetDirectionsToNormals(lit);
   for (const MaterialRun& run : runs) {
-    SampleMirror(lit.BsdfOf(run), level, &lit.room.directions.to_light, &reflectance);
+    SampleMirror(lit.HitsOf(run), level, &lit.room.directions.to_light, &reflectance);
   }
   FindLight(lit.planned.light, lit.hits(), &lit.room.directions);
   Illuminate(lit);

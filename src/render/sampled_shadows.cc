@@ -12,16 +12,12 @@ namespace {
 // Moves the start of a hit's shadow ray to its offset origin, and keeps its end.
 void OffsetRay(const Soa3<double>& from, const Soa3<double>& origin, size_t i,
                ShadowRayBatch* rays) {
-  const Vec3d offset(origin.x[i] - from.x[i], origin.y[i] - from.y[i], origin.z[i] - from.z[i]);
+  const Vec3d offset = VectorAt(origin, i) - VectorAt(from, i);
   if (offset == Vec3d(0, 0, 0) || rays->t_max[i] == 0) return;
-  rays->origin.x[i] = origin.x[i];
-  rays->origin.y[i] = origin.y[i];
-  rays->origin.z[i] = origin.z[i];
+  SetVector(VectorAt(origin, i), i, &rays->origin);
   const double distance = rays->t_max[i];
   if (std::isinf(distance)) return;
-  rays->direction.x[i] = rays->direction.x[i] * distance - offset.x;
-  rays->direction.y[i] = rays->direction.y[i] * distance - offset.y;
-  rays->direction.z[i] = rays->direction.z[i] * distance - offset.z;
+  SetVector(VectorAt(rays->direction, i) * distance - offset, i, &rays->direction);
   rays->t_max[i] = 1;
 }
 

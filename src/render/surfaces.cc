@@ -195,7 +195,7 @@ void LookUpMaps(const SurfacePlan& plan, const ShadingMaterial& material, const 
                 HitBatch* hits, Surface* surface, std::unique_ptr<HitParameters>* textures) {
   if (material.scene_material == nullptr) return;
   if (!*textures) *textures = std::make_unique<HitParameters>();
-  TextureHits({plan.textures, material, run.begin, run.end}, hits, surface, textures->get());
+  TextureHits({plan.textures, material, run.begin, run.end, *hits, *surface, **textures});
 }
 
 bool MapsNormals(const ShadingMaterial& material) {

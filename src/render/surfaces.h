@@ -75,7 +75,7 @@ inline std::span<const MaterialRun> LitRuns(const Surfaces& surfaces) {
 }
 
 // The hits of a run, as the BSDF of its material sees them.
-inline BsdfHits BsdfHitsOf(const Surfaces& surfaces, const MaterialRun& run) {
+inline MaterialHits HitsOf(const Surfaces& surfaces, const MaterialRun& run) {
   return {*run.shading, surfaces.hits,           surfaces.surface, run.begin,
           run.end,      surfaces.textures.get(), surfaces.coats};
 }

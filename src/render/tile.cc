@@ -13,9 +13,9 @@ void ShowBackground(const FramePlan& plan, const Window& tile, Strip* strip, uin
 
 // Renders a tile if FilmPlan::one_sample.
 void RenderOnce(const FramePlan& plan, const Window& tile, TileWork* work, Strip* strip,
-                uint8_t* blank, StageClock* clock, RenderStats* stats) {
+                uint8_t* blank) {
   MakeSamples(plan.sampling, tile, 0, 1, &work->samples);
-  ShadeSamples(plan, work, clock, stats);
+  ShadeSamples(plan, work);
   const ShadedBatch batch = BatchOf(plan, *work);
   if (batch.hits().count == 0) {
     ShowBackground(plan, tile, strip, blank);
@@ -28,57 +28,57 @@ void RenderOnce(const FramePlan& plan, const Window& tile, TileWork* work, Strip
       ResolveTile(plan.film, work->film, strip);
     }
   }
-  clock->Charge(Stage::kFilm);
+  work->clock->Charge(Stage::kFilm);
 }
 
 // Adds the samples of the pixels that EnterPixels has chosen, in rounds.
 void AddRounds(const FramePlan& plan, const Window& tile, int first, int end, TileWork* work,
-               TileFilm* film, StageClock* clock, RenderStats* stats) {
+               TileFilm* film) {
   const int per_round = plan.sampling.samples_per_round;
   film->runs = work->samples.runs;
   for (; first < end; first += per_round) {
     MakeSamples(plan.sampling, tile, first, std::min(per_round, end - first), &work->samples);
-    ShadeSamples(plan, work, clock, stats);
+    ShadeSamples(plan, work);
     AddToFilm(plan.film, BatchOf(plan, *work), &work->layer_room, film);
-    clock->Charge(Stage::kFilm);
+    work->clock->Charge(Stage::kFilm);
   }
 }
 
 // Finds the shapes that the tile's rays may hit. Returns false if the tile shows nothing but a
 // background of one colour.
-bool EnterTile(const FramePlan& plan, const Window& tile, TileWork* work, StageClock* clock) {
+bool EnterTile(const FramePlan& plan, const Window& tile, TileWork* work) {
   FindTileShapes(plan.hits, tile, &work->shapes);
-  clock->Charge(Stage::kIntersect);
+  work->clock->Charge(Stage::kIntersect);
   return ShowsAnything(plan, work->shapes);
 }
 
 }  // namespace
 
 void RenderTile(const FramePlan& plan, const Window& tile, TileWork* work, Strip* strip,
-                uint8_t* blank, StageClock* clock, RenderStats* stats) {
-  if (!EnterTile(plan, tile, work, clock)) {
+                uint8_t* blank) {
+  if (!EnterTile(plan, tile, work)) {
     ShowBackground(plan, tile, strip, blank);
-    clock->Charge(Stage::kFilm);
+    work->clock->Charge(Stage::kFilm);
     return;
   }
   EnterPixels(plan.sampling, tile, work->shapes, &work->samples);
-  if (plan.film.one_sample) return RenderOnce(plan, tile, work, strip, blank, clock, stats);
+  if (plan.film.one_sample) return RenderOnce(plan, tile, work, strip, blank);
   *blank = 0;
-  clock->Charge(Stage::kSample);
+  work->clock->Charge(Stage::kSample);
   StartTile(plan.film, tile, kBatchCapacity, &work->film);
-  clock->Charge(Stage::kFilm);
-  AddRounds(plan, tile, 0, plan.film.spp, work, &work->film, clock, stats);
+  work->clock->Charge(Stage::kFilm);
+  AddRounds(plan, tile, 0, plan.film.spp, work, &work->film);
   ResolveTile(plan.film, work->film, strip);
-  clock->Charge(Stage::kFilm);
+  work->clock->Charge(Stage::kFilm);
 }
 
 void AddTileSamples(const FramePlan& plan, const Window& tile, int first, int end, TileWork* work,
-                    TileFilm* film, StageClock* clock, RenderStats* stats) {
+                    TileFilm* film) {
   // Films are sums over hits, so a tile without any has nothing to add.
-  if (!EnterTile(plan, tile, work, clock)) return;
+  if (!EnterTile(plan, tile, work)) return;
   EnterPixels(plan.sampling, tile, work->shapes, &work->samples);
-  clock->Charge(Stage::kSample);
-  AddRounds(plan, tile, first, end, work, film, clock, stats);
+  work->clock->Charge(Stage::kSample);
+  AddRounds(plan, tile, first, end, work, film);
 }
 
 }  // namespace nacre

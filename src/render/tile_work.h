@@ -32,11 +32,13 @@ struct TileWork {
   TileFilm film;  // film: StartTile, AddToFilm; or adaptive sampling
   LayerRoom layer_room;
   const std::atomic<bool>* cancel = nullptr;  // RenderSettings::cancel
+  StageClock* clock = nullptr;                // of the strip that is rendered, as is `stats`
+  RenderStats* stats = nullptr;
 };
 
 // Traces and shades work->samples, which belong to a tile whose shapes are in work->shapes: fills
 // `hits`, `surfaces` and `radiance`. Throws Cancelled.
-void ShadeSamples(const FramePlan& plan, TileWork* work, StageClock* clock, RenderStats* stats);
+void ShadeSamples(const FramePlan& plan, TileWork* work);
 
 // What the film reads of the work.
 inline ShadedBatch BatchOf(const FramePlan& plan, const TileWork& work) {

@@ -293,13 +293,7 @@ std::string PanelText(const Figure& figure, size_t index, int width, int height)
 
 std::string GnuplotQuote(const std::string& text) {
   std::string quoted = "'";
-  for (const char c : Printable(text)) {
-    if (c == '\'') {
-      quoted += "’";
-    } else {
-      quoted += c;
-    }
-  }
+  for (const char& c : Printable(text)) quoted += c == '\'' ? "’" : std::string_view(&c, 1);
   return quoted + "'";
 }
 

@@ -2,7 +2,7 @@
 #include "report/page.h"
 
 #include <algorithm>
-#include <utility>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -21,13 +21,7 @@ constexpr int kDeflateLevel = 6;  // zlib's default, since files are written onc
 std::string EscapeJson(const std::string& json) {
   std::string out;
   out.reserve(json.size());
-  for (const char c : json) {
-    if (c == '<') {
-      out += "\\u003c";
-    } else {
-      out += c;
-    }
-  }
+  for (const char& c : json) out += c == '<' ? "\\u003c" : std::string_view(&c, 1);
   return out;
 }
 

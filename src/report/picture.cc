@@ -114,14 +114,12 @@ std::vector<LayerChannels> LayersOf(const Image& image) {
     // Ids of objects and of materials are layers of their own, as they are not parts of one colour.
     const std::string name =
         channel.type == PixelType::kUint ? channel.name : LayerOfChannel(channel.name);
-    auto found = std::find_if(layers.begin(), layers.end(),
-                              [&](const LayerChannels& l) { return l.name == name; });
+    auto found = std::ranges::find(layers, name, &LayerChannels::name);
     if (found == layers.end()) found = layers.insert(found, {name, {}});
     found->channels.push_back(&channel);
   }
   for (LayerChannels& layer : layers) {
-    std::stable_sort(layer.channels.begin(), layer.channels.end(),
-                     [](const Channel* a, const Channel* b) { return OrderOf(*a) < OrderOf(*b); });
+    std::ranges::stable_sort(layer.channels, {}, [](const Channel* c) { return OrderOf(*c); });
   }
   std::stable_partition(layers.begin(), layers.end(),
                         [](const LayerChannels& l) { return l.name.empty(); });

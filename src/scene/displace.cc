@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
-#include <tuple>
 #include <vector>
 
 #include "scene/mesh.h"
@@ -20,22 +18,6 @@ Vec3d SphereDirection(double u, double v) {
   const double phi = 2 * M_PI * u, theta = M_PI * (1 - v);
   const double ring = std::sin(theta);
   return {-ring * std::sin(phi), std::cos(theta), -ring * std::cos(phi)};
-}
-
-// For each position, the index of the first position that equals it.
-std::vector<uint32_t> FindTwins(const std::vector<Vec3d>& positions) {
-  const auto key = [&](uint32_t i) {
-    return std::make_tuple(positions[i].x, positions[i].y, positions[i].z, i);
-  };
-  std::vector<uint32_t> order(positions.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
-  std::vector<uint32_t> twins(positions.size());
-  for (size_t k = 0; k < order.size(); ++k) {
-    const bool same = k > 0 && positions[order[k]] == positions[order[k - 1]];
-    twins[order[k]] = same ? twins[order[k - 1]] : order[k];
-  }
-  return twins;
 }
 
 // The positions and triangles of `mesh`, with each index replaced by its twin's, so that the

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <variant>
 
 #include "scene/primitives.h"
 #include "scene/scene_with_lights.h"
@@ -62,6 +63,16 @@ Mesh MakeMesh(const MeshAreaLight& light) {
   return mesh;
 }
 
+// Calls use(light) if the light has the shape of a mesh.
+template <class Use>
+void VisitMeshLight(const Light& light, const Use& use) {
+  std::visit(
+      [&](const auto& kind) {
+        if constexpr (requires { MakeMesh(kind); }) use(kind);
+      },
+      light.kind);
+}
+
 // An upper bound of how far apart two planes that coincide may be for rays of the camera. It covers
 // the rounding of the coordinates of camera and shapes when shapes are made, when they are taken
 // relative to the camera, and in the depth of a hit: some 300 2^-53 of the coordinates for shapes
@@ -112,15 +123,11 @@ void MoveLightMeshes(const Scene& scene, SceneWithLights* with) {
   size_t next = scene.meshes.size();
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     if (with->primitives[i].end <= with->scene.spheres.size()) continue;
-    const auto move = [&](const auto& light) {
+    VisitMeshLight(scene.lights[i], [&](const auto& light) {
       Mesh mesh = MakeMesh(light);
       LiftFromItsPlane(scene.camera.position, &mesh);
       with->scene.meshes[next++].positions = std::move(mesh.positions);
-    };
-    const auto& kind = scene.lights[i].kind;
-    if (const auto* rectangle = std::get_if<RectangleAreaLight>(&kind)) move(*rectangle);
-    if (const auto* disk = std::get_if<DiskAreaLight>(&kind)) move(*disk);
-    if (const auto* mesh = std::get_if<MeshAreaLight>(&kind)) move(*mesh);
+    });
   }
 }
 
@@ -182,7 +189,7 @@ SceneWithLights AddLightShapes(const Scene& scene, const std::vector<bool>& show
   auto next = static_cast<uint32_t>(with.spheres.size() + CountTriangles(scene));
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     if (!shown[i]) continue;
-    const auto add = [&](const auto& light) {
+    VisitMeshLight(scene.lights[i], [&](const auto& light) {
       Mesh mesh = MakeMesh(light);
       LiftFromItsPlane(scene.camera.position, &mesh);
       mesh.name = "light " + scene.lights[i].name;
@@ -191,11 +198,7 @@ SceneWithLights AddLightShapes(const Scene& scene, const std::vector<bool>& show
       result.primitives[i] = {next, next + triangles};
       next += triangles;
       with.meshes.push_back(std::move(mesh));
-    };
-    if (const auto* rectangle = std::get_if<RectangleAreaLight>(&scene.lights[i].kind))
-      add(*rectangle);
-    if (const auto* disk = std::get_if<DiskAreaLight>(&scene.lights[i].kind)) add(*disk);
-    if (const auto* mesh = std::get_if<MeshAreaLight>(&scene.lights[i].kind)) add(*mesh);
+    });
   }
   return result;
 }

@@ -49,6 +49,9 @@ inline constexpr double kModelCreaseAngleDeg = 45;
 // Replaces normals that are not unit vectors by angle-weighted averages of the faces.
 void MendNormals(Mesh* mesh);
 
+// For each position, the lowest index of the positions that equal it.
+std::vector<uint32_t> FindTwins(const std::vector<Vec3d>& positions);
+
 // Whether any triangle has an area.
 bool HasArea(const Mesh& mesh);
 

@@ -85,15 +85,16 @@ void ValidateSplit(const Scene& scene, const Material& material, const std::stri
     const std::string place = fmt::format("{}/materials/{}", where, i);
     const MaterialId id = split.materials[i];
     CheckMaterial(id, scene.materials.size(), place, faults);
-    if (id.index < scene.materials.size() &&
-        std::holds_alternative<SplitMaterial>(scene.materials[id.index].model)) {
+    if (id.index >= scene.materials.size()) continue;
+    const Material& part = scene.materials[id.index];
+    if (std::holds_alternative<SplitMaterial>(part.model)) {
       faults->Add(place, "is a split itself", "name each band's material in one split");
     }
-    if (id.index < scene.materials.size() && CutsHoles(scene.materials[id.index])) {
+    if (CutsHoles(part)) {
       faults->Add(place, "its opacity cuts holes, which shadows would have in other bands, too",
                   "give the mesh that material, without a split");
     }
-    if (id.index < scene.materials.size() && scene.materials[id.index].single_sided) {
+    if (part.single_sided) {
       faults->Add(place, "it is single-sided, and shadows would be so in other bands, too",
                   "give the mesh that material, without a split");
     }

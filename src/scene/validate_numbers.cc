@@ -8,11 +8,14 @@
 namespace nacre {
 namespace {
 
-bool AllIn(const Range& range, double x, double y, double z) {
-  return range.Contains(x) && range.Contains(y) && range.Contains(z);
-}
+std::string Text(const Vec3d& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
 
-std::string Text(double x, double y, double z) { return fmt::format("[{}, {}, {}]", x, y, z); }
+// `each` says what the range holds for.
+void CheckAll(const Vec3d& v, const Range& range, const char* each, const std::string& where,
+              FaultList* faults) {
+  if (range.Contains(v.x) && range.Contains(v.y) && range.Contains(v.z)) return;
+  faults->Add(where, Text(v) + " is out of range", each + Describe(range));
+}
 
 }  // namespace
 
@@ -22,22 +25,18 @@ void CheckNumber(double value, const Range& range, const std::string& where, Fau
 }
 
 void CheckColor(const Rgb& value, const Range& range, const std::string& where, FaultList* faults) {
-  if (AllIn(range, value.x, value.y, value.z)) return;
-  faults->Add(where, Text(value.x, value.y, value.z) + " is out of range",
-              "each component " + Describe(range));
+  CheckAll(Vec3d(value), range, "each component ", where, faults);
 }
 
 void CheckPoint(const Vec3d& value, const std::string& where, FaultList* faults) {
-  if (AllIn(limits::kCoordinate, value.x, value.y, value.z)) return;
-  faults->Add(where, Text(value.x, value.y, value.z) + " is out of range",
-              "each coordinate " + Describe(limits::kCoordinate));
+  CheckAll(value, limits::kCoordinate, "each coordinate ", where, faults);
 }
 
 void CheckDirection(const Vec3d& value, const std::string& where, FaultList* faults) {
   const size_t before = faults->count();
   CheckPoint(value, where, faults);
   if (faults->count() == before && !limits::kLength.Contains(value.length())) {
-    faults->Add(where, Text(value.x, value.y, value.z) + " has no direction",
+    faults->Add(where, Text(value) + " has no direction",
                 "a vector of any length " + Describe(limits::kLength));
   }
 }

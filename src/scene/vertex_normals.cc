@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene/vertex_normals.cc: ComputeNormals() and MendNormals() of mesh.h. The faces around a vertex
-// fall into groups that share a normal there; without creases there is one group.
+// scene/vertex_normals.cc: ComputeNormals(), MendNormals() and FindTwins() of mesh.h. The faces
+// around a vertex fall into groups that share a normal there; without creases there is one group.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -21,20 +21,9 @@ double AngleBetween(const Vec3d& a, const Vec3d& b) {
 // For each position the number of its place: the lowest index of the positions that count as one
 // with it.
 std::vector<uint32_t> FindPlaces(const Mesh& mesh) {
+  if (!mesh.uvs.empty()) return FindTwins(mesh.positions);
   std::vector<uint32_t> place(mesh.positions.size());
   std::iota(place.begin(), place.end(), 0u);
-  if (mesh.uvs.empty()) return place;
-  std::vector<uint32_t> order = place;
-  const auto key = [&](uint32_t i) {
-    const Vec3d& p = mesh.positions[i];
-    return std::make_tuple(p.x, p.y, p.z);
-  };
-  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-    return std::make_tuple(key(a), a) < std::make_tuple(key(b), b);
-  });
-  for (size_t i = 1; i < order.size(); ++i) {
-    if (key(order[i]) == key(order[i - 1])) place[order[i]] = place[order[i - 1]];
-  }
   return place;
 }
 
@@ -178,6 +167,21 @@ std::vector<size_t> SplitPositions(Groups* groups, Mesh* mesh) {
 }
 
 }  // namespace
+
+std::vector<uint32_t> FindTwins(const std::vector<Vec3d>& positions) {
+  const auto key = [&](uint32_t i) {
+    return std::make_tuple(positions[i].x, positions[i].y, positions[i].z, i);
+  };
+  std::vector<uint32_t> order(positions.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
+  std::vector<uint32_t> twins(positions.size());
+  for (size_t k = 0; k < order.size(); ++k) {
+    const bool same = k > 0 && positions[order[k]] == positions[order[k - 1]];
+    twins[order[k]] = same ? twins[order[k - 1]] : order[k];
+  }
+  return twins;
+}
 
 Vec3d UnitOrUp(const Vec3d& sum) {
   const Vec3d normal = sum.normalized();

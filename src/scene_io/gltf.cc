@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <Imath/ImathQuat.h>
 #include <fmt/format.h>
 
 #include "scene_io/gltf_document.h"
@@ -40,11 +41,8 @@ Imath::M44d MatrixOf(GltfDocument* document, const gltf::Node& node, const std::
     if (!(length > 0) || !std::isfinite(length)) {
       document->Refuse(place + "/rotation", "is no rotation", "a quaternion of length 1");
     }
-    const double x = q[0] / length, y = q[1] / length, z = q[2] / length, w = q[3] / length;
-    matrix = matrix * Imath::M44d(1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w),
-                                  0, 2 * (x * y - z * w), 1 - 2 * (x * x + z * z),
-                                  2 * (y * z + x * w), 0, 2 * (x * z + y * w), 2 * (y * z - x * w),
-                                  1 - 2 * (x * x + y * y), 0, 0, 0, 0, 1);
+    const Imath::Quatd unit(q[3] / length, q[0] / length, q[1] / length, q[2] / length);
+    matrix = matrix * unit.toMatrix44();
   }
   if (!node.translation.empty()) {
     const auto& t = node.translation;

@@ -128,12 +128,6 @@ void GltfAccessor::ReadSparse(const GltfDocument& document, const gltf::Sparse& 
   }
 }
 
-void GltfAccessor::CheckCount(const GltfDocument& document, size_t positions) const {
-  if (count_ == positions) return;
-  document.Refuse(place_ + "/count",
-                  fmt::format("{} elements for {} positions", count_, positions));
-}
-
 bool GltfAccessor::is_unsigned() const { return IsUnsigned(type_); }
 
 const char* GltfAccessor::Bytes(size_t element) const {

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "scene_io/gltf_document.h"
 #include "scene_io/stored_number.h"
 
@@ -23,7 +25,11 @@ class GltfAccessor {
 
   size_t count() const { return count_; }
   // Refuses an attribute that does not have an element for each position.
-  void CheckCount(const GltfDocument& document, size_t positions) const;
+  void CheckCount(const GltfDocument& document, size_t positions) const {
+    if (count_ == positions) return;
+    document.Refuse(place_ + "/count",
+                    fmt::format("{} elements for {} positions", count_, positions));
+  }
   bool is_unsigned() const;  // unsigned integers, which can be indices
   bool is_float() const { return type_ == NumberType::kFloat; }
 

@@ -39,8 +39,7 @@ constexpr std::array<std::string_view, 12> kKnownExtensions = {
     "KHR_texture_transform",   "KHR_materials_variants"};
 
 bool IsKnown(const std::string& extension) {
-  return std::find(kKnownExtensions.begin(), kKnownExtensions.end(), extension) !=
-         kKnownExtensions.end();
+  return std::ranges::find(kKnownExtensions, extension) != kKnownExtensions.end();
 }
 
 uint32_t Word(std::string_view bytes, size_t offset) {
@@ -246,10 +245,6 @@ void CheckVersionAndExtensions(GltfDocument* document) {
 
 }  // namespace
 
-void GltfDocument::Warn(const std::string& text) {
-  if (warned.insert(text).second && on_warning) on_warning(file + ": " + text);
-}
-
 void GltfDocument::Refuse(const std::string& pointer, std::string what, std::string hint) const {
   throw Error(ExitCode::kBadInput, PlaceInFile(file, pointer), std::move(what), std::move(hint));
 }
@@ -258,17 +253,6 @@ void GltfDocument::RefuseExtension(const std::string& pointer, const std::string
   Refuse(pointer + "/extensions/" + PointerToken(name),
          fmt::format("the extension {} alone has its data and is not known here", Excerpt(name)),
          "export the model without it");
-}
-
-void GltfDocument::Check(const std::string& pointer, const Vec3d& value, const Range& range) const {
-  if (range.Contains(value)) return;
-  Refuse(pointer, fmt::format("[{}, {}, {}] is out of range", value.x, value.y, value.z),
-         "each number " + Describe(range));
-}
-
-void GltfDocument::Check(const std::string& pointer, double value, const Range& range) const {
-  if (range.Contains(value)) return;
-  Refuse(pointer, fmt::format("{} is out of range", value), "a number " + Describe(range));
 }
 
 std::filesystem::path GltfDocument::Resolve(const std::string& uri,

@@ -34,7 +34,9 @@ struct GltfDocument {
   int threads = 0;  // LoadOptions::threads
 
   // Reports `text` as a warning, once however often it is called.
-  void Warn(const std::string& text);
+  void Warn(const std::string& text) {
+    if (warned.insert(text).second && on_warning) on_warning(file + ": " + text);
+  }
   // Throws Error (kBadInput), located at `pointer`, a JSON pointer into the file.
   [[noreturn]] void Refuse(const std::string& pointer, std::string what,
                            std::string hint = {}) const;
@@ -52,8 +54,15 @@ struct GltfDocument {
     return *item;
   }
   // Refuses a colour, point or number that is not within the range.
-  void Check(const std::string& pointer, const Vec3d& value, const Range& range) const;
-  void Check(const std::string& pointer, double value, const Range& range) const;
+  void Check(const std::string& pointer, const Vec3d& value, const Range& range) const {
+    if (range.Contains(value)) return;
+    Refuse(pointer, fmt::format("[{}, {}, {}] is out of range", value.x, value.y, value.z),
+           "each number " + Describe(range));
+  }
+  void Check(const std::string& pointer, double value, const Range& range) const {
+    if (range.Contains(value)) return;
+    Refuse(pointer, fmt::format("{} is out of range", value), "a number " + Describe(range));
+  }
   // The path of the file that a URI names. It must not be a data URI; `pointer` says where the file
   // names it. Throws Error (kBadInput) for URLs, and as ResolveReference (text_file.h) does.
   std::filesystem::path Resolve(const std::string& uri, const std::string& pointer) const;

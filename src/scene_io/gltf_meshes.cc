@@ -77,7 +77,7 @@ std::vector<uint32_t> ReadTriangles(const GltfDocument& document, const Primitiv
   // Returns the first triangle with an index that is too large, or the number of triangles.
   const auto fill = [&](size_t corners, const auto& index_of) {
     const size_t count = TriangleCount(document, primitive, corners);
-    SpendTriangles(count, document.file, budget);
+    budget->Spend(count, document.file);
     triangles.resize(3 * count);
     return SetAll(count, document.threads, [&](size_t i) {
       bool fits = true;
@@ -235,7 +235,7 @@ GltfPlacement PlacementOf(const Primitive& primitive, size_t positions,
                           const Imath::M44d& world_from_node,
                           const std::vector<Imath::M44d>* joints, GltfDocument* document) {
   if (joints == nullptr) return GltfPlacement(world_from_node);
-  if (HasJoints(primitive.source)) {
+  if (AttributeOf(primitive, "JOINTS_0") >= 0 && AttributeOf(primitive, "WEIGHTS_0") >= 0) {
     return GltfPlacement(*document, primitive.source, positions, *joints);
   }
   document->Warn("a mesh with a skin has no JOINTS_0 and WEIGHTS_0: its node moves it");
@@ -344,7 +344,7 @@ void AddPrimitive(Primitive primitive, const std::string& name, const Imath::M44
                   SceneBudget* budget, Scene* scene) {
   const int mode = primitive.source.mode;
   const auto leave_out = [&](const char* warning) {
-    SpendTriangles(1, document->file, budget);  // bounds how often nodes may show it
+    budget->Spend(1, document->file);  // bounds how often nodes may show it
     document->Warn(warning);
   };
   if (mode < gltf::kTriangles) return leave_out("points and lines are not shown");
@@ -358,7 +358,7 @@ void AddPrimitive(Primitive primitive, const std::string& name, const Imath::M44
     return leave_out("primitives without positions are left out");
   }
   RefuseCompressed(*document, primitive);
-  SpendTriangles(SparseElements(document->model, primitive.source), document->file, budget);
+  budget->Spend(SparseElements(document->model, primitive.source), document->file);
   const GltfAccessor positions(*document, AttributeOf(primitive, "POSITION"), "VEC3");
   primitive.triangles = ReadTriangles(*document, primitive, positions.count(), budget);
   Compact(&primitive);

@@ -62,10 +62,6 @@ std::vector<Imath::M44d> JointMatrices(const GltfDocument& document, int skin,
   return matrices;
 }
 
-bool HasJoints(const gltf::Primitive& primitive) {
-  return SkinAttribute(primitive, "JOINTS", 0) >= 0 && SkinAttribute(primitive, "WEIGHTS", 0) >= 0;
-}
-
 GltfPlacement::GltfPlacement(const GltfDocument& document, const gltf::Primitive& primitive,
                              size_t positions, const std::vector<Imath::M44d>& joints)
     : document_(&document), joints_(&joints) {

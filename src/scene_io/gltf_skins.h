@@ -53,7 +53,4 @@ class GltfPlacement {
   std::vector<Influences> influences_;
 };
 
-// Whether a skin can move the primitive, which must then have the attribute JOINTS_0.
-bool HasJoints(const gltf::Primitive& primitive);
-
 }  // namespace nacre

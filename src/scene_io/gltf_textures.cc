@@ -33,41 +33,35 @@ TextureFilter FilterOf(const gltf::Sampler& sampler) {
   return sampler.minFilter == gltf::kLinear ? TextureFilter::kBilinear : TextureFilter::kTrilinear;
 }
 
-// KHR_texture_transform, in which v points down, converted to coordinates in which v points up.
-// With c and s, the cosine and sine of the rotation:
+// Applies KHR_texture_transform, in which v points down, to coordinates in which v points up. With
+// c and s, the cosine and sine of the rotation:
 //   u' = ox + sx c u + sy s (1 - v)
 //   v' = 1 - (oy - sx s u + sy c (1 - v))
-struct UvChange {
-  Vec2d offset{0, 0}, scale{1, 1};
-  double rotation = 0;
-
-  void Apply(Texture* texture) const {
-    const double c = std::cos(rotation), s = std::sin(rotation);
-    texture->scale = scale;
-    texture->uv_rotate_deg = rotation * 180 / M_PI;
-    texture->offset = {offset.x + scale.y * s, 1 - offset.y - scale.y * c};
-  }
-};
-
 // Checks the range here rather than in the validation of the scene, which would report converted
-// numbers that are not in the file. `place` is the pointer to the extension.
-void ApplyTransform(const GltfDocument& document, const UvChange& change, const std::string& place,
+// numbers that are not in the file.
+void ApplyTransform(const GltfDocument& document, const GltfExtension& transform,
                     Texture* texture) {
+  const Vec2d offset = transform.Pair("offset", {0, 0}), scale = transform.Pair("scale", {1, 1});
+  const double rotation = transform.Number("rotation", 0);
   const Range& range = limits::kTextureScale;
   const auto check = [&](const char* name, const Vec2d& given, const Vec2d& tested,
                          const char* hint) {
     if (range.Contains(tested.x) && range.Contains(tested.y)) return;
-    document.Refuse(place + "/" + name, fmt::format("[{}, {}] is out of range", given.x, given.y),
+    document.Refuse(transform.PlaceOf(name),
+                    fmt::format("[{}, {}] is out of range", given.x, given.y),
                     fmt::format("each number {}{}", Describe(range), hint));
   };
-  check("scale", change.scale, change.scale, "");
+  check("scale", scale, scale, "");
   constexpr double kMostTurns = limits::kAngleDeg.max / 360;
-  if (!(std::abs(change.rotation) <= kMostTurns * 2 * M_PI)) {
-    document.Refuse(place + "/rotation", fmt::format("{} is out of range", change.rotation),
+  if (!(std::abs(rotation) <= kMostTurns * 2 * M_PI)) {
+    document.Refuse(transform.PlaceOf("rotation"), fmt::format("{} is out of range", rotation),
                     fmt::format("radians, {} turns at most", kMostTurns));
   }
-  change.Apply(texture);
-  check("offset", change.offset, texture->offset, ", with what the scale adds to it");
+  const double c = std::cos(rotation), s = std::sin(rotation);
+  texture->scale = scale;
+  texture->uv_rotate_deg = rotation * 180 / M_PI;
+  texture->offset = {offset.x + scale.y * s, 1 - offset.y - scale.y * c};
+  check("offset", offset, texture->offset, ", with what the scale adds to it");
 }
 
 // Locates an image. Throws Error (kBadInput) for images that do not exist, are out of bounds, or
@@ -180,15 +174,6 @@ ImageId GltfTextures::DecodeImage(int image, const TextureReading& reading) {
   }
 }
 
-bool GltfTextures::IsWhite(TextureId texture) const {
-  return texture.valid() && scene_.images[scene_.textures[texture.index].image.index].is_white;
-}
-
-void GltfTextures::CheckIndex(int texture, const std::string& place) const {
-  document_.At(document_.model.textures, texture, place,
-               fmt::format("there is no texture {}", texture));
-}
-
 TextureId GltfTextures::Add(const GltfTextureUse& use, const std::string& place) {
   if (use.texture < 0) return {};
   CheckIndex(use.texture, place);
@@ -200,16 +185,11 @@ TextureId GltfTextures::Add(const GltfTextureUse& use, const std::string& place)
   }
   Texture texture;
   texture.name = fmt::format("texture {} of {}", use.texture, place);
-  UvChange change;
   double tex_coord = use.tex_coord;
   if (const Json* transform = gltf::FindExtension(use.extensions, "KHR_texture_transform")) {
-    const std::string extension = place + "/extensions/KHR_texture_transform";
-    const GltfExtension reader(document_, *transform, extension);
-    change.offset = reader.Pair("offset", change.offset);
-    change.scale = reader.Pair("scale", change.scale);
-    change.rotation = reader.Number("rotation", 0);
+    const GltfExtension reader(document_, *transform, place + "/extensions/KHR_texture_transform");
+    ApplyTransform(document_, reader, &texture);
     tex_coord = reader.Number("texCoord", tex_coord);
-    ApplyTransform(document_, change, extension, &texture);
   }
   if (tex_coord != 0 && tex_coord != 1) {
     document_.Warn("textures on other coordinates than TEXCOORD_0 and TEXCOORD_1 are left out");

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "scene/scene.h"
 #include "scene_io/gltf_document.h"
 #include "scene_io/temporary_file.h"
@@ -47,13 +49,18 @@ class GltfTextures {
   TextureId Add(const GltfTextureUse& use, const std::string& place);
 
   // Throws Error (kBadInput) if the file has no such texture.
-  void CheckIndex(int texture, const std::string& place) const;
+  void CheckIndex(int texture, const std::string& place) const {
+    document_.At(document_.model.textures, texture, place,
+                 fmt::format("there is no texture {}", texture));
+  }
 
   // Decodes the images that most materials have on several threads. To be called before Add.
   void DecodeAhead();
 
   // Whether the texture has no effect because all of its texels are 1.
-  bool IsWhite(TextureId texture) const;
+  bool IsWhite(TextureId texture) const {
+    return texture.valid() && scene_.images[scene_.textures[texture.index].image.index].is_white;
+  }
 
  private:
   ImageId AddImage(int image, const TextureReading& reading);

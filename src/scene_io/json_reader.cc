@@ -14,23 +14,30 @@ namespace {
 
 // The kind of a value in words: "a string", "an object".
 std::string_view KindOf(const Json& json) {
-  switch (json.type()) {
-    case Json::value_t::null:
-      return "null";
-    case Json::value_t::boolean:
-      return "true or false";
-    case Json::value_t::string:
-      return "a string";
-    case Json::value_t::array:
-      return "an array";
-    case Json::value_t::object:
-      return "an object";
-    default:
-      return "a number";
-  }
+  return json.is_null()      ? "null"
+         : json.is_boolean() ? "true or false"
+         : json.is_string()  ? "a string"
+         : json.is_array()   ? "an array"
+         : json.is_object()  ? "an object"
+                             : "a number";
 }
 
-std::string NumberHint(const Range& range) { return "a number " + Describe(range); }
+// Reads a number that is of this kind, "a number" or "a whole number", and in the range.
+bool ReadInRange(const JsonValue& value, std::string_view kind, bool is_whole, const Range& range,
+                 double* out) {
+  const std::string hint = fmt::format("{} {}", kind, Describe(range));
+  if (!value.Expect(value.json.is_number(), kind, hint)) return false;
+  const auto number = value.json.get<double>();
+  const bool is_kind = !is_whole || number == std::floor(number);
+  if (!is_kind || !range.Contains(number)) {
+    value.AddFault(is_kind ? fmt::format("{} is out of range", number)
+                           : fmt::format("{} is not {}", number, kind),
+                   hint);
+    return false;
+  }
+  *out = number;
+  return true;
+}
 
 std::string ComponentHint(const Range& range) {
   return "[r, g, b] or one number for grey, each " + Describe(range);
@@ -56,10 +63,6 @@ std::string JsonPath::ToString() const {
   return parent->ToString() + "/" + token;
 }
 
-void JsonValue::AddFault(std::string what, std::string hint) const {
-  faults->Add(path.ToString(), std::move(what), std::move(hint));
-}
-
 bool JsonValue::Expect(bool is_right, std::string_view expected, std::string_view hint) const {
   if (is_right) return true;
   std::string got(KindOf(json));
@@ -69,29 +72,12 @@ bool JsonValue::Expect(bool is_right, std::string_view expected, std::string_vie
 }
 
 bool ReadNumber(const JsonValue& value, const Range& range, double* out) {
-  if (!value.Expect(value.json.is_number(), "a number", NumberHint(range))) return false;
-  const auto number = value.json.get<double>();
-  if (!range.Contains(number)) {
-    value.AddFault(fmt::format("{} is out of range", number), NumberHint(range));
-    return false;
-  }
-  *out = number;
-  return true;
+  return ReadInRange(value, "a number", /*is_whole=*/false, range, out);
 }
 
 bool ReadWhole(const JsonValue& value, const Range& range, int64_t* out) {
   double number = 0;
-  const std::string hint = "a whole number " + Describe(range);
-  if (!value.Expect(value.json.is_number(), "a whole number", hint)) return false;
-  number = value.json.get<double>();
-  if (number != std::floor(number)) {
-    value.AddFault(fmt::format("{} is not a whole number", number), hint);
-    return false;
-  }
-  if (!range.Contains(number)) {
-    value.AddFault(fmt::format("{} is out of range", number), hint);
-    return false;
-  }
+  if (!ReadInRange(value, "a whole number", /*is_whole=*/true, range, &number)) return false;
   *out = static_cast<int64_t>(number);
   return true;
 }
@@ -189,42 +175,11 @@ std::optional<JsonValue> JsonObject::Require(std::string_view name, std::string_
   return found;
 }
 
-bool JsonObject::Number(std::string_view name, const Range& range, double* out) {
-  const auto value = Find(name);
-  return value && ReadNumber(*value, range, out);
-}
-
-bool JsonObject::Color(std::string_view name, const Range& range, Rgb* out) {
-  const auto value = Find(name);
-  return value && ReadColor(*value, range, out);
-}
-
-bool JsonObject::Point(std::string_view name, Vec3d* out) {
-  const auto value = Find(name);
-  return value && ReadPoint(*value, limits::kCoordinate, out);
-}
-
 bool JsonObject::Boolean(std::string_view name, bool* out) {
   const auto value = Find(name);
   if (!value || !value->Expect(value->json.is_boolean(), "true or false")) return false;
   *out = value->json.get<bool>();
   return true;
-}
-
-bool JsonObject::Text(std::string_view name, std::string* out) {
-  const auto value = Find(name);
-  return value && ReadText(*value, out);
-}
-
-bool JsonObject::WholeNumber(std::string_view name, const Range& range, int64_t* out) {
-  const auto value = Find(name);
-  return value && ReadWhole(*value, range, out);
-}
-
-bool JsonObject::Choice(std::string_view name, std::span<const std::string_view> names,
-                        size_t* out) {
-  const auto value = Find(name);
-  return value && ReadChoice(*value, name, names, out);
 }
 
 void JsonObject::RefuseOthers() {

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -44,7 +45,9 @@ struct JsonValue {
 
   JsonValue Element(size_t i) const { return {json[i], path.Element(i), faults}; }
 
-  void AddFault(std::string what, std::string hint = {}) const;
+  void AddFault(std::string what, std::string hint = {}) const {
+    faults->Add(path.ToString(), std::move(what), std::move(hint));
+  }
   // Unless `is_right`, adds the fault "expected a number, got a string", with the hint. Returns
   // is_right.
   bool Expect(bool is_right, std::string_view expected, std::string_view hint = {}) const;
@@ -88,20 +91,40 @@ class JsonObject {
   std::optional<JsonValue> Require(std::string_view name, std::string_view hint = {});
 
   // Each sets *out if the member is present and valid, and returns whether it did.
-  bool Number(std::string_view name, const Range& range, double* out);
-  bool Color(std::string_view name, const Range& range, Rgb* out);
-  bool Point(std::string_view name, Vec3d* out);
+  bool Number(std::string_view name, const Range& range, double* out) {
+    const auto value = Find(name);
+    return value && ReadNumber(*value, range, out);
+  }
+  bool Color(std::string_view name, const Range& range, Rgb* out) {
+    const auto value = Find(name);
+    return value && ReadColor(*value, range, out);
+  }
+  bool Point(std::string_view name, Vec3d* out) {
+    const auto value = Find(name);
+    return value && ReadPoint(*value, limits::kCoordinate, out);
+  }
   bool Boolean(std::string_view name, bool* out);
-  bool Text(std::string_view name, std::string* out);
+  bool Text(std::string_view name, std::string* out) {
+    const auto value = Find(name);
+    return value && ReadText(*value, out);
+  }
   template <typename Int>
   bool Whole(std::string_view name, const Range& range, Int* out) {
     int64_t whole = 0;
-    const bool is_set = WholeNumber(name, range, &whole);
+    const auto value = Find(name);
+    const bool is_set = value && ReadWhole(*value, range, &whole);
     if (is_set) *out = static_cast<Int>(whole);
     return is_set;
   }
-  // Reads one of `names` and sets *out to its index there.
-  bool Choice(std::string_view name, std::span<const std::string_view> names, size_t* out);
+  // Reads one of `names` and sets *out, an integer or an enumeration, to its index there.
+  template <typename Index>
+  bool Choice(std::string_view name, std::span<const std::string_view> names, Index* out) {
+    size_t index = 0;
+    const auto value = Find(name);
+    const bool is_set = value && ReadChoice(*value, name, names, &index);
+    if (is_set) *out = static_cast<Index>(index);
+    return is_set;
+  }
 
   void RefuseOthers();
 
@@ -110,8 +133,6 @@ class JsonObject {
   const JsonValue& value() const { return value_; }
 
  private:
-  bool WholeNumber(std::string_view name, const Range& range, int64_t* out);
-
   JsonValue value_;
   std::vector<std::string_view> known_;
 };

@@ -100,7 +100,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
     }
     constexpr int kNumberOverflow = 406;
     if (error.id == kNumberOverflow) {
-      throw Error(ExitCode::kBadInput, PlaceInFile(file_, PointerToNext()),
+      throw Error(ExitCode::kBadInput, PlaceInFile(file_, Pointer(/*to_next=*/true)),
                   fmt::format("{} is not a finite number", Excerpt(token)),
                   "at most 1.8e308 in magnitude");
     }
@@ -159,26 +159,16 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
     return !level->names.insert(name).second;
   }
 
-  // The JSON pointer to the innermost open object or array.
-  std::string Pointer() const {
+  // The JSON pointer to the innermost open object or array, or to the value that comes next in it.
+  std::string Pointer(bool to_next = false) const {
     std::string pointer;
-    for (size_t i = 0; i + 1 < levels_.size(); ++i) {
-      const Json& value = *levels_[i].value;
+    for (size_t i = 0; i + (to_next ? 0 : 1) < levels_.size(); ++i) {
+      const auto& [value, plain, name, names] = levels_[i];
+      const size_t is_open = i + 1 < levels_.size() ? 1 : 0;  // its last element is open, too
       pointer += '/';
-      pointer += value.is_array() ? std::to_string(value.size() + levels_[i].plain - 1)
-                                  : PointerToken(levels_[i].name);
+      pointer +=
+          value->is_array() ? std::to_string(value->size() + plain - is_open) : PointerToken(name);
     }
-    return pointer;
-  }
-
-  // The JSON pointer to the value that comes next.
-  std::string PointerToNext() const {
-    if (levels_.empty()) return {};
-    const Json& value = *levels_.back().value;
-    std::string pointer = Pointer();
-    pointer += '/';
-    pointer += value.is_array() ? std::to_string(value.size() + levels_.back().plain)
-                                : PointerToken(levels_.back().name);
     return pointer;
   }
 
@@ -206,7 +196,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
 
   bool Open(Json value) {
     if (levels_.size() >= kMaxJsonDepth) {
-      throw Error(ExitCode::kBadInput, PlaceInFile(file_, PointerToNext()),
+      throw Error(ExitCode::kBadInput, PlaceInFile(file_, Pointer(/*to_next=*/true)),
                   fmt::format("nested deeper than {} levels", kMaxJsonDepth));
     }
     Json* const inserted = Insert(std::move(value));
@@ -291,11 +281,10 @@ std::string PlaceInFile(const std::string& file, const std::string& pointer) {
   return file + ": " + Shortened(shown, kLongest);
 }
 
-void ThrowFaults(const FaultList& faults, const std::string& file, ExitCode code) {
-  if (faults.count() == 0) return;
-  std::vector<Fault> all = faults.All();
-  for (Fault& fault : all) fault.where = PlaceInFile(file, fault.where);
-  throw Error(code, std::move(all));
+void ThrowFaults(std::vector<Fault> faults, const std::string& file, ExitCode code) {
+  if (faults.empty()) return;
+  for (Fault& fault : faults) fault.where = PlaceInFile(file, fault.where);
+  throw Error(code, std::move(faults));
 }
 
 Json ParseJson(std::string_view text, const std::string& file, FaultList* faults,

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -45,7 +46,11 @@ std::string JsonText(const Json& json, int indent = -1);
 std::string PlaceInFile(const std::string& file, const std::string& pointer);
 
 // If there are any faults, throws an Error with all of them, each located in the file.
-void ThrowFaults(const FaultList& faults, const std::string& file,
+void ThrowFaults(std::vector<Fault> faults, const std::string& file,
                  ExitCode code = ExitCode::kBadInput);
+inline void ThrowFaults(const FaultList& faults, const std::string& file,
+                        ExitCode code = ExitCode::kBadInput) {
+  ThrowFaults(faults.All(), file, code);
+}
 
 }  // namespace nacre

@@ -7,11 +7,12 @@
 #include <utility>
 
 #include "scene/hash.h"
+#include "scene/validate.h"
 #include "scene_io/load_scene.h"
 #include "scene_io/model_scene.h"
-#include "scene_io/model_tree.h"
 #include "scene_io/overrides.h"
 #include "scene_io/read_scene.h"
+#include "scene_io/scene_json.h"
 
 namespace nacre {
 namespace {
@@ -51,8 +52,7 @@ SceneParts PartsOf(const std::string& pointer) {
                                                {"shapes", kMaterialParts | ScenePart::kShapes}}};
   if (pointer.empty()) return SceneParts::All();
   const std::string_view name = std::string_view(pointer).substr(1, pointer.find('/', 1) - 1);
-  const auto found = std::find_if(kMembers.begin(), kMembers.end(),
-                                  [&](const Member& member) { return member.name == name; });
+  const auto found = std::ranges::find(kMembers, name, &Member::name);
   return found != kMembers.end() ? found->parts : SceneParts();
 }
 
@@ -82,6 +82,12 @@ SceneParts DifferingParts(const SceneTree& a, const SceneTree& b) {
 // These parts of a scene file with the parts that must be read along with them.
 SceneParts WithMaterials(SceneParts parts) {
   return parts.HasAny(kMaterialParts | ScenePart::kShapes) ? parts | kMaterialParts : parts;
+}
+
+// The number of the shape that the pointer points at or into.
+std::optional<size_t> ShapeNumberOf(const std::vector<std::string>& tokens) {
+  if (tokens.size() < 2 || tokens[0] != "shapes") return std::nullopt;
+  return ElementOf(tokens[1], static_cast<size_t>(-1));
 }
 
 }  // namespace
@@ -209,16 +215,6 @@ LoadOptions LiveScene::Watching() {
   return options;
 }
 
-namespace {
-
-// The number of the shape that the pointer points at or into.
-std::optional<size_t> ShapeNumberOf(const std::vector<std::string>& tokens) {
-  if (tokens.size() < 2 || tokens[0] != "shapes") return std::nullopt;
-  return ElementOf(tokens[1], static_cast<size_t>(-1));
-}
-
-}  // namespace
-
 SceneChange LiveScene::Set(const std::string& pointer, const std::string& json) {
   const std::optional<size_t> number = ShapeNumberOf(TokensOf(pointer));
   const std::optional<size_t> shape =
@@ -256,8 +252,6 @@ std::optional<SceneChange> LiveScene::ReadItem(const std::string& pointer,
   if (was_displaced) return std::nullopt;
   return ReadShapeAlone(tree_, *shape, *ShapeNumberOf(tokens), Reading(), &members_, &scene_);
 }
-
-SceneReading LiveScene::Reading() { return {folder_, bytes_, &options_, &kept_, &files_}; }
 
 std::optional<std::string> LiveScene::Get(const std::string& pointer) const {
   const std::optional<Json> value =
@@ -339,7 +333,7 @@ SceneParts LiveScene::CompleteModel(SceneParts touched) {
   try {
     new_coordinates =
         CompleteModelScene({&overrides, &options, file_, model_->has_camera, &kept_}, parts, &next);
-    ThrowFaultsIn(next, touched == SceneParts::All() ? touched : parts, file_);
+    ThrowFaults(Validate(next, touched == SceneParts::All() ? touched : parts), file_);
   } catch (...) {
     SwapParts(others, &scene_, &next);
     throw;

@@ -101,7 +101,7 @@ class LiveScene {
   SceneTree Parse(std::string_view text) const;
   LoadOptions Watching();  // options_ that also add each file that is read to files_; they refer to
                            // *this
-  SceneReading Reading();
+  SceneReading Reading() { return {folder_, bytes_, &options_, &kept_, &files_}; }
   // Takes the place of this scene by another one, which was read with Watching().
   SceneParts Become(LiveScene fresh);
   std::optional<SceneChange> ReadItem(const std::string& pointer, std::optional<size_t> shape,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_io/load_scene.h"
 
-#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
@@ -17,17 +16,6 @@
 namespace nacre {
 namespace {
 
-constexpr uint64_t kMaxSceneBytes = uint64_t{1} << 30;
-
-}  // namespace
-
-Scene LoadSceneText(std::string_view text, const std::string& file,
-                    const std::filesystem::path& folder, const LoadOptions& options) {
-  return ReadSceneSource({text, file, folder}, options);
-}
-
-namespace {
-
 // Reads a model, and adds a camera and light where it has none.
 Scene LoadModel(const std::filesystem::path& path, const LoadOptions& options) {
   const std::string file = path.string();
@@ -35,7 +23,7 @@ Scene LoadModel(const std::filesystem::path& path, const LoadOptions& options) {
   Scene scene = ReadModel(path, options, &has_camera);
   const ModelOverrides overrides = OverridesOf(options);
   CompleteModelScene({&overrides, &options, file, has_camera, nullptr}, SceneParts::All(), &scene);
-  ThrowFaultsIn(scene, SceneParts::All(), file);
+  ThrowFaults(Validate(scene), file);
   return scene;
 }
 
@@ -92,14 +80,8 @@ Scene ReadModel(const std::filesystem::path& path, const LoadOptions& options, b
   return ReadGltf(path, options, has_camera);
 }
 
-void ThrowFaultsIn(const Scene& scene, SceneParts parts, const std::string& file) {
-  std::vector<Fault> faults = Validate(scene, parts);
-  if (faults.empty()) return;
-  for (Fault& fault : faults) fault.where = PlaceInFile(file, fault.where);
-  throw Error(ExitCode::kBadInput, std::move(faults));
-}
-
 std::string ReadSceneText(const std::filesystem::path& path) {
+  constexpr uint64_t kMaxSceneBytes = uint64_t{1} << 30;
   return ReadTextFile(path, kMaxSceneBytes);
 }
 
@@ -108,6 +90,11 @@ Scene LoadScene(const std::filesystem::path& path, const LoadOptions& options) {
   if (IsModelFile(path)) return LoadModel(path, options);
   const std::string text = ReadSceneText(path);
   return LoadSceneText(text, path.string(), path.parent_path(), options);
+}
+
+Scene LoadSceneText(std::string_view text, const std::string& file,
+                    const std::filesystem::path& folder, const LoadOptions& options) {
+  return ReadSceneSource({text, file, folder}, options);
 }
 
 Material LoadMaterialText(std::string_view json, const std::string& file) {

@@ -14,10 +14,10 @@
 
 #include "base/error.h"
 #include "scene/idle_layers.h"
-#include "scene_io/model_tree.h"
 #include "scene_io/overrides.h"
 #include "scene_io/read_scene.h"
 #include "scene_io/readers.h"
+#include "scene_io/scene_json.h"
 
 namespace nacre {
 namespace {
@@ -119,8 +119,7 @@ Json CompletedLights(const JsonValue& value, Scene* scene) {
   if (!value.json.is_object()) return value.json;
   Json lights = Json::object();
   for (const auto& [name, own] : value.json.items()) {
-    const auto found = std::find_if(scene->lights.begin(), scene->lights.end(),
-                                    [&, &name = name](const Light& l) { return l.name == name; });
+    const auto found = std::ranges::find(scene->lights, name, &Light::name);
     Json whole = found == scene->lights.end() ? Json() : ModelLightJson(*found);
     if (own.is_null()) {
       if (found != scene->lights.end()) scene->lights.erase(found);
@@ -146,8 +145,7 @@ void SetLights(const JsonValue& value, const SceneContext& context, Scene* scene
   const Json whole = CompletedLights(value, scene);
   ReadLights({whole, value.path, value.faults}, context, &lights);
   for (Light& light : lights) {
-    const auto found = std::find_if(scene->lights.begin(), scene->lights.end(),
-                                    [&](const Light& old) { return old.name == light.name; });
+    const auto found = std::ranges::find(scene->lights, light.name, &Light::name);
     if (found == scene->lights.end()) {
       scene->lights.push_back(std::move(light));
     } else {
@@ -155,38 +153,6 @@ void SetLights(const JsonValue& value, const SceneContext& context, Scene* scene
     }
   }
 }
-
-}  // namespace
-
-bool CompleteCoordinates(Scene* scene) {
-  bool any = false;
-  for (Mesh& mesh : scene->meshes) {
-    if (!mesh.uvs.empty() || TexturesOf(scene->materials[mesh.material.index]).empty()) continue;
-    mesh.uvs.assign(mesh.positions.size(), Vec2d(0, 0));
-    any = true;
-  }
-  return any;
-}
-
-void SplitColoredMaterials(Scene* scene) {
-  std::map<uint32_t, uint32_t> colored;  // index of the copy by index of the original
-  for (Mesh& mesh : scene->meshes) {
-    if (mesh.colors.empty()) continue;
-    const auto next = static_cast<uint32_t>(scene->materials.size());
-    const auto [copy, is_new] = colored.try_emplace(mesh.material.index, next);
-    if (is_new) {
-      Material material = scene->materials[mesh.material.index];
-      const auto* const lambert = std::get_if<LambertMaterial>(&material.model);
-      const bool unlit = lambert != nullptr && lambert->albedo == Rgb(0);
-      material.vertex_colors = unlit ? VertexColors::kEmission : VertexColors::kBase;
-      material.name += " with vertex colours";
-      scene->materials.push_back(std::move(material));
-    }
-    mesh.material = {copy->second};
-  }
-}
-
-namespace {
 
 // Points the camera at all spheres and meshes, in a three-quarter view from the front, the right
 // and above. Keeps its projection and field of view.
@@ -257,6 +223,34 @@ void AddStudioLights(Scene* scene) {
 
 }  // namespace
 
+bool CompleteCoordinates(Scene* scene) {
+  bool any = false;
+  for (Mesh& mesh : scene->meshes) {
+    if (!mesh.uvs.empty() || TexturesOf(scene->materials[mesh.material.index]).empty()) continue;
+    mesh.uvs.assign(mesh.positions.size(), Vec2d(0, 0));
+    any = true;
+  }
+  return any;
+}
+
+void SplitColoredMaterials(Scene* scene) {
+  std::map<uint32_t, uint32_t> colored;  // index of the copy by index of the original
+  for (Mesh& mesh : scene->meshes) {
+    if (mesh.colors.empty()) continue;
+    const auto next = static_cast<uint32_t>(scene->materials.size());
+    const auto [copy, is_new] = colored.try_emplace(mesh.material.index, next);
+    if (is_new) {
+      Material material = scene->materials[mesh.material.index];
+      const auto* const lambert = std::get_if<LambertMaterial>(&material.model);
+      const bool unlit = lambert != nullptr && lambert->albedo == Rgb(0);
+      material.vertex_colors = unlit ? VertexColors::kEmission : VertexColors::kBase;
+      material.name += " with vertex colours";
+      scene->materials.push_back(std::move(material));
+    }
+    mesh.material = {copy->second};
+  }
+}
+
 ModelOverrides OverridesOf(const LoadOptions& options) {
   ModelOverrides overrides;
   LoadOptions environment;
@@ -301,14 +295,14 @@ bool CompleteModelScene(const ModelCompletion& how, SceneParts parts, Scene* sce
   SetUpContext({.folder = std::filesystem::path(how.file).parent_path(),
                 .options = how.options,
                 .kept = how.kept},
-               &budget, &texels, scene, &context);
+               nullptr, &budget, &texels, scene, &context);
   for (const Light& light : scene->lights) {
     const auto* const sky = std::get_if<EnvironmentLight>(&light.kind);
     const auto* const room = sky != nullptr ? std::get_if<PictureSky>(&sky->sky) : nullptr;
     if (room != nullptr) context.room = room->picture;
   }
   for (uint32_t i = 0; i < scene->materials.size(); ++i) {  // a split may refer to them
-    context.materials.try_emplace(scene->materials[i].name, MaterialId{i});
+    context.read.names.try_emplace(scene->materials[i].name, MaterialId{i});
   }
   member("lights", ScenePart::kLights,
          [&](const JsonValue& value) { SetLights(value, context, scene); });

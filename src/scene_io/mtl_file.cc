@@ -48,13 +48,11 @@ constexpr std::array kImageKeys = {
     ImageKey{"map_bump", &MtlMaterial::bump},   ImageKey{"disp", &MtlMaterial::disp},
     ImageKey{"map_disp", &MtlMaterial::disp}};
 
-// Statements that are left out with a warning; numbers only if they are not 0.
+// Images that are left out with a warning.
 struct NotShown {
   std::string_view name;
   std::string_view warning;
 };
-constexpr std::array kNumbersNotShown = {
-    NotShown{"aniso", "anisotropy (aniso, anisor) is not shown"}};
 constexpr std::array kImagesNotShown = {
     NotShown{"refl", "reflection images (refl) are not shown"},
     NotShown{"map_refl", "reflection images (refl) are not shown"},
@@ -104,11 +102,9 @@ class MtlFileReader {
       has_opacity_ = false;
       return;
     }
-    const auto is_keyword = [&](const auto& known) { return known.name == keyword; };
-    const auto number = std::find_if(kNumbersNotShown.begin(), kNumbersNotShown.end(), is_keyword);
-    const auto image = std::find_if(kImagesNotShown.begin(), kImagesNotShown.end(), is_keyword);
-    if (number != kNumbersNotShown.end()) {
-      if (Number(keyword, line).value_or(0) != 0) warn_(std::string(number->warning));
+    const auto image = std::ranges::find(kImagesNotShown, keyword, &NotShown::name);
+    if (keyword == "aniso") {
+      if (Number(keyword, line).value_or(0) != 0) warn_("anisotropy (aniso, anisor) is not shown");
     } else if (image != kImagesNotShown.end()) {
       warn_(std::string(image->warning));
     } else if (materials_.empty()) {
@@ -143,26 +139,19 @@ class MtlFileReader {
   }
 
   void SetNumber(const std::string& keyword, double number, MtlMaterial* material) {
-    if (keyword == "ns") {
-      material->ns = Clamped(keyword, number, limits::kExponent);
-    } else if (keyword == "ni") {
-      material->ni = number;
-    } else if (keyword == "d") {
-      material->opacity = number;
-      has_opacity_ = true;
-    } else if (keyword == "tr") {
-      // Some programs write the opacity as Tr; their files also have d, which takes precedence.
-      if (!has_opacity_) material->opacity = 1 - number;
-    } else if (keyword == "illum") {
-      material->illum = static_cast<int>(std::clamp(number, 0.0, 10.0));
-    } else {
-      const double value = Clamped(keyword, number, limits::kUnit);
-      if (keyword == "pr") material->pr = value;
-      if (keyword == "pm") material->pm = value;
-      if (keyword == "ps") material->ps = value;
-      if (keyword == "pc") material->pc = value;
-      if (keyword == "pcr") material->pcr = value;
-    }
+    const auto clamped = [&] { return Clamped(keyword, number, limits::kUnit); };
+    if (keyword == "ns") material->ns = Clamped(keyword, number, limits::kExponent);
+    if (keyword == "ni") material->ni = number;
+    // Some programs write the opacity as Tr; their files also have d, which takes precedence.
+    if (keyword == "tr" && !has_opacity_) material->opacity = 1 - number;
+    if (keyword == "d") material->opacity = number;
+    has_opacity_ |= keyword == "d";
+    if (keyword == "illum") material->illum = static_cast<int>(std::clamp(number, 0.0, 10.0));
+    if (keyword == "pr") material->pr = clamped();
+    if (keyword == "pm") material->pm = clamped();
+    if (keyword == "ps") material->ps = clamped();
+    if (keyword == "pc") material->pc = clamped();
+    if (keyword == "pcr") material->pcr = clamped();
   }
 
   // The number in `word`; nullopt, with one warning per file, if there is none, or NaN or infinity.

@@ -411,7 +411,7 @@ class PieceJoiner {
     std::optional<Error> index_error;
     for (const ObjPiece& piece : pieces) {
       Warn(piece);
-      SpendTriangles(piece.triangles, file_, &budget_, kTooManyForItsSize);
+      budget_.Spend(piece.triangles, file_, kTooManyForItsSize);
       if (piece.error) throw Error(*piece.error);
       if (!index_error) index_error = piece.index_error;
       faces += piece.corner_counts.size();

@@ -69,8 +69,7 @@ std::vector<std::string> NamesIn(const Json& root, const char* part) {
 // The part into one of whose entries the tokens point; nullptr if there is none.
 const NamedPart* PartOfEntry(std::span<const std::string> tokens) {
   if (tokens.size() < 3) return nullptr;
-  const auto found = std::find_if(kNamedParts.begin(), kNamedParts.end(),
-                                  [&](const NamedPart& named) { return tokens[0] == named.part; });
+  const auto found = std::ranges::find(kNamedParts, tokens[0], &NamedPart::part);
   return found != kNamedParts.end() ? &*found : nullptr;
 }
 

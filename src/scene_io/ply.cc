@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -54,9 +55,7 @@ class PlyReader {
         budget_(TrianglesOfBytes(bytes_.size())) {}
 
   PlyData Read() {
-    const auto vertices =
-        std::find_if(header_.elements.begin(), header_.elements.end(),
-                     [](const PlyElement& element) { return element.name == "vertex"; });
+    const auto vertices = std::ranges::find(header_.elements, "vertex", &PlyElement::name);
     if (vertices == header_.elements.end() || vertices->count == 0) Refuse("has no vertices");
     vertex_count_ = vertices->count;
     if (vertex_count_ > 0xfffffffeu) Refuse("has more than 4 thousand million vertices");
@@ -64,7 +63,6 @@ class PlyReader {
       if (element.name == "vertex") {
         ReadVertices(element);
       } else if (element.name == "face") {
-        faces_ = 0;
         ReadFaces(element);
       } else if (element.name == "tristrips") {
         ReadStrips(element);
@@ -110,11 +108,12 @@ class PlyReader {
   template <size_t N, size_t Count>
   static std::array<size_t, N> FindFirst(
       const PlyElement& element, const std::array<std::array<std::string_view, N>, Count>& names) {
+    std::array<size_t, N> places{};
     for (const auto& candidate : names) {
-      const auto places = FindAll<N>(element, candidate);
-      if (places[0] != PlyElement::kNone) return places;
+      places = FindAll<N>(element, candidate);
+      if (places[0] != PlyElement::kNone) break;
     }
-    return FindAll<N>(element, names[0]);
+    return places;
   }
 
   static constexpr std::array<std::array<std::string_view, 3>, 3> kColorNames = {
@@ -199,53 +198,49 @@ class PlyReader {
     return PlyElement::kNone;
   }
 
+  // Calls read(property) where the list `list` of each element comes next, and skips all others.
+  template <class Read>
+  void ForEachList(const PlyElement& element, size_t list, const Read& read) {
+    for (faces_ = 0; faces_ < element.count; ++faces_) {
+      for (size_t k = 0; k < element.properties.size(); ++k) {
+        const PlyProperty& property = element.properties[k];
+        k == list ? read(property) : numbers_.Skip(property);
+      }
+    }
+  }
+
   void ReadFaces(const PlyElement& element) {
     const size_t indices = FindIndices(element);
     if (indices == PlyElement::kNone) Refuse("its faces have no list \"vertex_indices\"");
     data_.has_face_colors = FindFirst(element, kColorNames)[0] != PlyElement::kNone;
     data_.has_face_uvs = element.Find("texcoord") != PlyElement::kNone;
-    for (uint64_t i = 0; i < element.count; ++i) {
-      for (size_t k = 0; k < element.properties.size(); ++k) {
-        const PlyProperty& property = element.properties[k];
-        if (k != indices) {
-          numbers_.Skip(property);
-          continue;
-        }
-        const size_t count = numbers_.NextLength(property);
-        if (count > kMaxCorners) {
-          RefuseNumber(fmt::format("face {} has {} corners", faces_, count),
-                       fmt::format("at most {}", kMaxCorners));
-        }
-        if (count < 3) {
-          for (size_t c = 0; c < count; ++c) VertexOf(numbers_.Next(property.type));
-          if (data_.first_without_area == PlyData::kNone) data_.first_without_area = faces_;
-          continue;
-        }
-        SpendTriangles(count - 2, file_, &budget_, kTooManyForItsSize);
-        corner_counts_.push_back(static_cast<uint16_t>(count));
-        for (size_t c = 0; c < count; ++c) {
-          corners_.push_back(VertexOf(numbers_.Next(property.type)));
-        }
+    ForEachList(element, indices, [&](const PlyProperty& property) {
+      const size_t count = numbers_.NextLength(property);
+      if (count > kMaxCorners) {
+        RefuseNumber(fmt::format("face {} has {} corners", faces_, count),
+                     fmt::format("at most {}", kMaxCorners));
       }
-      ++faces_;
-    }
+      if (count < 3) {
+        for (size_t c = 0; c < count; ++c) VertexOf(numbers_.Next(property.type));
+        if (data_.first_without_area == PlyData::kNone) data_.first_without_area = faces_;
+        return;
+      }
+      budget_.Spend(count - 2, file_, kTooManyForItsSize);
+      corner_counts_.push_back(static_cast<uint16_t>(count));
+      for (size_t c = 0; c < count; ++c) {
+        corners_.push_back(VertexOf(numbers_.Next(property.type)));
+      }
+    });
   }
 
   // Reads strips, which follow each other with -1 between them.
   void ReadStrips(const PlyElement& element) {
-    const size_t indices = FindIndices(element);
-    for (uint64_t i = 0; i < element.count; ++i) {
-      for (const PlyProperty& property : element.properties) {
-        if (&property - element.properties.data() != static_cast<std::ptrdiff_t>(indices)) {
-          numbers_.Skip(property);
-          continue;
-        }
-        std::vector<uint32_t> strip;
-        const size_t count = numbers_.NextLength(property);
-        SpendTriangles(count, file_, &budget_, kTooManyForItsSize);
-        for (size_t k = 0; k < count; ++k) AddToStrip(numbers_.Next(property.type), &strip);
-      }
-    }
+    ForEachList(element, FindIndices(element), [&](const PlyProperty& property) {
+      std::vector<uint32_t> strip;
+      const size_t count = numbers_.NextLength(property);
+      budget_.Spend(count, file_, kTooManyForItsSize);
+      for (size_t k = 0; k < count; ++k) AddToStrip(numbers_.Next(property.type), &strip);
+    });
   }
 
   void AddToStrip(double index, std::vector<uint32_t>* strip) {
@@ -284,7 +279,7 @@ class PlyReader {
   SceneBudget budget_;
   PlyData data_;
   uint64_t vertex_count_ = 0;
-  uint64_t faces_ = 0;
+  uint64_t faces_ = 0;                   // number of the present face, or strip
   std::vector<uint16_t> corner_counts_;  // for each face,
   std::vector<uint32_t> corners_;        // and its vertex indices
 };
@@ -315,44 +310,33 @@ double SuitableRadius(const std::vector<Vec3d>& positions) {
   return spacing > 0 ? std::max(spacing / 3, limits::kLength.min) : 1;
 }
 
-// The materials of the colours in a cloud. More than kMaxColors are rounded to 16 steps per
-// channel.
-class CloudMaterials {
- public:
-  explicit CloudMaterials(Scene* scene) : scene_(*scene) {}
+constexpr size_t kMaxColors = 4096;
 
-  // Returns false if there would be too many.
-  bool AddAll(const std::vector<Rgb>& colors, int steps) {
-    ids_.clear();
-    scene_.materials.clear();
-    by_color_.clear();
-    for (const Rgb& color : colors) {
-      std::array<double, 3> key = {color.x, color.y, color.z};
-      if (steps > 0) {
-        for (double& c : key) {
-          c = SrgbEotf(std::round(SrgbOetf(c) * (steps - 1)) / (steps - 1));
-        }
-      }
-      const auto id = static_cast<uint32_t>(scene_.materials.size());
-      const auto [entry, is_new] = by_color_.try_emplace(key, id);
-      if (is_new) {
-        if (scene_.materials.size() == kMaxColors) return false;
-        Material& material = scene_.materials.emplace_back(MakeClay());
-        material.name = fmt::format("color {}", id);
-        std::get<MetallicRoughnessMaterial>(material.model).base_color = {key[0], key[1], key[2]};
-      }
-      ids_.push_back(entry->second);
+// Replaces the scene's materials by those of the colours in a cloud, which are rounded to `steps`
+// per channel unless that is 0. Returns the index of each point's material; nullopt if there would
+// be more than kMaxColors.
+std::optional<std::vector<uint32_t>> AddColors(const std::vector<Rgb>& colors, int steps,
+                                               Scene* scene) {
+  std::map<std::array<double, 3>, uint32_t> by_color;
+  std::vector<uint32_t> indices;
+  scene->materials.clear();
+  for (const Rgb& color : colors) {
+    std::array<double, 3> key = {color.x, color.y, color.z};
+    if (steps > 0) {
+      for (double& c : key) c = SrgbEotf(std::round(SrgbOetf(c) * (steps - 1)) / (steps - 1));
     }
-    return true;
+    const auto next = static_cast<uint32_t>(scene->materials.size());
+    const auto [entry, is_new] = by_color.try_emplace(key, next);
+    if (is_new) {
+      if (scene->materials.size() == kMaxColors) return std::nullopt;
+      Material& material = scene->materials.emplace_back(MakeClay());
+      material.name = fmt::format("color {}", next);
+      std::get<MetallicRoughnessMaterial>(material.model).base_color = {key[0], key[1], key[2]};
+    }
+    indices.push_back(entry->second);
   }
-  MaterialId IdOf(size_t point) const { return {ids_.empty() ? 0 : ids_[point]}; }
-
- private:
-  static constexpr size_t kMaxColors = 4096;
-  Scene& scene_;
-  std::map<std::array<double, 3>, uint32_t> by_color_;
-  std::vector<uint32_t> ids_;
-};
+  return indices;
+}
 
 void AddCloud(const PlyData& data, const std::string& file, const LoadOptions& options,
               Scene* scene) {
@@ -360,15 +344,14 @@ void AddCloud(const PlyData& data, const std::string& file, const LoadOptions& o
     throw Error(ExitCode::kBadInput, file, fmt::format("{} points", data.positions.size()),
                 fmt::format("at most {}", limits::kCloudCount.max));
   }
-  CloudMaterials materials(scene);
-  if (data.colors.empty()) {
-    scene->materials.push_back(MakeClay());
-  } else if (!materials.AddAll(data.colors, 0)) {
-    materials.AddAll(data.colors, 16);
+  std::optional<std::vector<uint32_t>> materials = AddColors(data.colors, 0, scene);
+  if (!materials) {
+    materials = AddColors(data.colors, 16, scene);
     if (options.on_warning) {
       options.on_warning(file + ": more than 4096 colours: rounded to 16 steps a channel");
     }
   }
+  if (data.colors.empty()) scene->materials.push_back(MakeClay());
   const double radius = SuitableRadius(data.positions);
   scene->spheres.reserve(data.positions.size());
   for (size_t i = 0; i < data.positions.size(); ++i) {
@@ -377,7 +360,7 @@ void AddCloud(const PlyData& data, const std::string& file, const LoadOptions& o
       throw Error(ExitCode::kBadInput, file, fmt::format("vertex {} has radius {}", i, own),
                   "a length " + Describe(limits::kLength));
     }
-    scene->spheres.push_back({data.positions[i], own, materials.IdOf(i)});
+    scene->spheres.push_back({data.positions[i], own, {materials->empty() ? 0 : (*materials)[i]}});
   }
 }
 

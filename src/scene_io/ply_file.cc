@@ -203,13 +203,6 @@ std::optional<double> ParseNonFinite(std::string_view word) {
 
 }  // namespace
 
-size_t PlyElement::Find(std::string_view property) const {
-  for (size_t i = 0; i < properties.size(); ++i) {
-    if (properties[i].name == property) return i;
-  }
-  return kNone;
-}
-
 void CheckPlyMagic(std::string_view head, const std::string& file) {
   std::string_view line = WithoutByteOrderMark(head, file);
   line = line.substr(0, line.find_first_of("\r\n"));
@@ -220,9 +213,6 @@ void CheckPlyMagic(std::string_view head, const std::string& file) {
 PlyHeader ReadPlyHeader(const std::string& bytes, const std::string& file) {
   return HeaderReader(bytes, file).Read();
 }
-
-PlyNumbers::PlyNumbers(const std::string& bytes, const PlyHeader& header, const std::string& file)
-    : bytes_(bytes), file_(file), format_(header.format), position_(header.length) {}
 
 void PlyNumbers::Refuse(std::string what) const {
   throw Error(ExitCode::kBadInput, place(), std::move(what), "the file is damaged or incomplete");

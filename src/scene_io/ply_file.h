@@ -28,7 +28,12 @@ struct PlyElement {
 
   // The index of the property with this name, or kNone.
   static constexpr size_t kNone = static_cast<size_t>(-1);
-  size_t Find(std::string_view property) const;
+  size_t Find(std::string_view property) const {
+    for (size_t i = 0; i < properties.size(); ++i) {
+      if (properties[i].name == property) return i;
+    }
+    return kNone;
+  }
 };
 
 enum class PlyFormat : uint8_t { kText, kLittleEndian, kBigEndian };
@@ -50,7 +55,8 @@ PlyHeader ReadPlyHeader(const std::string& bytes, const std::string& file);
 class PlyNumbers {
  public:
   // Refers to all of its arguments, which must outlive it.
-  PlyNumbers(const std::string& bytes, const PlyHeader& header, const std::string& file);
+  PlyNumbers(const std::string& bytes, const PlyHeader& header, const std::string& file)
+      : bytes_(bytes), file_(file), format_(header.format), position_(header.length) {}
 
   // Reads the next number. Throws Error (kBadInput) at the end of the file, and, in text, for a
   // word that is not a number of the type.

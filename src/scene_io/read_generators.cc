@@ -130,9 +130,7 @@ void ReadGrid(JsonObject* shape, SceneContext* context) {
 void ReadPair(JsonObject* shape, SceneContext* context) {
   constexpr std::array<std::string_view, 2> kArrangements = {"stacked", "side_by_side"};
   PairRow row;
-  size_t arrangement = 0;
-  shape->Choice("arrangement", kArrangements, &arrangement);
-  row.arrangement = static_cast<PairRow::Arrangement>(arrangement);
+  shape->Choice("arrangement", kArrangements, &row.arrangement);
   shape->Point("center", &row.center);
   shape->Number("pair_spacing", limits::kLength, &row.pair_spacing);
   shape->Number("spacing", limits::kLength, &row.spacing);

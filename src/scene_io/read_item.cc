@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <variant>
@@ -31,13 +32,6 @@ bool AreAlike(const Material& a, const Material& b, size_t inline_ones) {
          TexturesOf(a) == TexturesOf(b);
 }
 
-void Truncate(const ShapeCounts& counts, Scene* scene) {
-  scene->spheres.resize(counts.spheres);
-  scene->meshes.resize(counts.meshes);
-  scene->labels.resize(counts.labels);
-  scene->materials.resize(counts.materials);
-}
-
 // Calls read(&context, &faults), which may append to the scene and returns whether it succeeded;
 // then removes what it has appended. If it returns false, it must have left the rest of the scene
 // unchanged.
@@ -47,19 +41,13 @@ bool TryToRead(const SceneReading& reading, ScenePart part, ReadMembers* members
   SceneContext context;
   SceneBudget budget(reading.options->max_primitives.value_or(kDefaultMaxPrimitives));
   TexelBudget texels(reading.bytes);
-  SetUpContext(reading, &budget, &texels, scene, &context);
-  if (reading.files != nullptr) {
-    context.references.on_file = [&, tell = context.references.on_file](const auto& file) {
-      reading.files->Add(file, part);
-      if (tell) tell(file);
-    };
-  }
+  SetUpContext(reading, &part, &budget, &texels, scene, &context);
   std::vector<std::string> warnings;
   if (context.on_warning) {
     context.on_warning = [&](const std::string& warning) { warnings.push_back(warning); };
   }
-  std::swap(context.materials, members->names);
-  std::swap(context.textures, members->sources);
+  std::swap(context.read.names, members->names);
+  std::swap(context.read.sources, members->sources);
   context.whole_materials = &members->whole;
   const ShapeCounts before = CountShapes(*scene);
   const size_t textures = scene->textures.size(), images = scene->images.size();
@@ -70,14 +58,17 @@ bool TryToRead(const SceneReading& reading, ScenePart part, ReadMembers* members
            scene->images.size() == images;
   } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch): a full read will throw it
   }
-  Truncate(before, scene);
+  scene->spheres.resize(before.spheres);
+  scene->meshes.resize(before.meshes);
+  scene->labels.resize(before.labels);
+  scene->materials.resize(before.materials);
   scene->textures.resize(textures);
   scene->images.resize(images);
-  std::swap(context.materials, members->names);
-  std::swap(context.textures, members->sources);
+  std::swap(context.read.names, members->names);
+  std::swap(context.read.sources, members->sources);
   members->current = well;
   if (!well) return false;
-  members->varied.merge(context.varied_materials);
+  members->varied.merge(context.read.varied);
   for (const std::string& warning : warnings) reading.options->on_warning(warning);
   return true;
 }
@@ -90,12 +81,6 @@ const Material& WholeMaterial(size_t index, const Scene& scene, const ReadMember
 void SetWhole(size_t index, std::optional<Material> whole, ReadMembers* members) {
   members->whole.erase(static_cast<uint32_t>(index));
   if (whole) members->whole.emplace(static_cast<uint32_t>(index), *std::move(whole));
-}
-
-std::vector<uint32_t> Numbers(size_t first, size_t count) {
-  std::vector<uint32_t> numbers(count);
-  for (size_t i = 0; i < count; ++i) numbers[i] = static_cast<uint32_t>(first + i);
-  return numbers;
 }
 
 // Swaps what a shape has made anew, at the end of the scene, with what it had made before.
@@ -262,7 +247,7 @@ std::optional<SceneChange> ReadMaterialAlone(const SceneTree& tree, const std::s
         const ShapeCounts before = CountShapes(*scene);
         Material now = ReadNamedMaterial({json, all.Member(name), faults}, name, context);
         if (faults->count() > 0 || CountShapes(*scene) != before ||
-            !AreAlike(WholeMaterial(index, *scene, *members), now, context->materials.size())) {
+            !AreAlike(WholeMaterial(index, *scene, *members), now, context->read.names.size())) {
           return false;
         }
         whole = RemoveIdleLayers(*scene, &now);
@@ -313,7 +298,9 @@ std::optional<SceneChange> ReadShapeAlone(const SceneTree& tree, size_t index, s
   if (!same_shapes) change.parts |= ScenePart::kShapes;
   if (made.materials > 0) {
     change.parts |= ScenePart::kMaterials;
-    change.materials = Numbers(first.materials, made.materials);
+    change.materials.resize(made.materials);
+    std::iota(change.materials.begin(), change.materials.end(),
+              static_cast<uint32_t>(first.materials));
   }
   return change;
 }

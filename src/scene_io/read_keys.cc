@@ -4,7 +4,23 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "scene/filter_width.h"
+#include "scene_io/readers.h"
+
 namespace nacre {
+namespace {
+
+void ReadFilter(const JsonValue& value, ImageSettings* image) {
+  JsonObject object(value, R"(for example {"type": "gaussian", "width": 3})");
+  PixelFilter& filter = image->filter;
+  constexpr double kUnset = 0;  // outside of the range of its width
+  filter.width = kUnset;
+  ReadInnerKeys("filter", &object, image);
+  if (filter.width == kUnset) filter.width = DefaultFilterWidth(filter.kind);
+  object.RefuseOthers();
+}
+
+}  // namespace
 
 std::string HintOf(KeyForm form, const Range& range, std::span<const std::string_view> options,
                    std::string_view meaning) {
@@ -77,6 +93,21 @@ Json KeyValueJson(KeyForm form, std::span<const std::string_view> options, const
       return options[static_cast<size_t>(value.x)];
   }
   return value.x;
+}
+
+void ReadCamera(const JsonValue& value, Camera* camera) {
+  JsonObject object(value);
+  // The first key, the type, decides which other keys there are.
+  ReadKey(KeysFor(*camera).front(), &object, camera);
+  for (const auto& key : KeysFor(*camera).subspan(1)) ReadKey(key, &object, camera);
+  object.RefuseOthers();
+}
+
+void ReadImageSettings(const JsonValue& value, ImageSettings* image) {
+  JsonObject object(value);
+  ReadKeys(&object, image);
+  if (const auto filter = object.Find("filter")) ReadFilter(*filter, image);
+  object.RefuseOthers();
 }
 
 }  // namespace nacre

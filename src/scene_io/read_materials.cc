@@ -76,21 +76,15 @@ void ReadMaterial(const JsonValue& value, SceneContext* context, Material* mater
   object.RefuseOthers();
 }
 
-// The reflection model that the caller supplies for a material, or null.
-std::shared_ptr<const UserBrdf> UserBrdfOf(const SceneContext& context, const std::string& name) {
-  const auto found = context.user_brdfs->find(name);
-  return found != context.user_brdfs->end() ? found->second : nullptr;
-}
-
 // The material with this name; if there is none, adds a fault.
 MaterialId FindMaterial(const JsonValue& value, const SceneContext& context) {
   const auto name = value.json.get<std::string>();
-  const auto found = context.materials.find(name);
-  if (found != context.materials.end()) return found->second;
+  const auto found = context.read.names.find(name);
+  if (found != context.read.names.end()) return found->second;
   if (!context.has_materials) return {};
   std::vector<std::string> names;
   if (value.faults->count() < FaultList::kMaxKept) {  // further faults are only counted
-    for (const auto& [known, id] : context.materials) names.push_back(known);
+    for (const auto& [known, id] : context.read.names) names.push_back(known);
   }
   std::sort(names.begin(), names.end());
   FaultUnknownName(value, "material", name, names);
@@ -108,7 +102,7 @@ void ReadMaterials(const JsonValue& value, SceneContext* context) {
   // Registers all names first: a split may name a material that comes after it.
   std::vector<Material>& materials = context->scene->materials;
   for (const auto& [name, json] : value.json.items()) {
-    context->materials.try_emplace(name, MaterialId{static_cast<uint32_t>(materials.size())});
+    context->read.names.try_emplace(name, MaterialId{static_cast<uint32_t>(materials.size())});
     materials.emplace_back().name = name;
   }
   uint32_t index = 0;
@@ -125,7 +119,8 @@ void ReadMaterials(const JsonValue& value, SceneContext* context) {
 Material ReadNamedMaterial(const JsonValue& value, const std::string& name, SceneContext* context) {
   Material material;
   material.name = name;
-  material.user = UserBrdfOf(*context, name);
+  const auto user = context->user_brdfs->find(name);
+  if (user != context->user_brdfs->end()) material.user = user->second;
   ReadMaterial(value, context, &material);
   return material;
 }
@@ -176,7 +171,7 @@ bool ReadBaseMaterial(const JsonValue& value, SceneContext* context, Material* m
     const WholeMaterials* const whole = context->whole_materials;
     *material = whole != nullptr && whole->contains(id.index) ? whole->at(id.index)
                                                               : context->scene->materials[id.index];
-    context->varied_materials.insert(id.index);
+    context->read.varied.insert(id.index);
     return true;
   }
   if (!value.Expect(value.json.is_object(), "a material", kReferenceHint)) return false;

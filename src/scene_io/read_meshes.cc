@@ -73,9 +73,7 @@ void ReadNormals(JsonObject* shape, NormalSettings* normals) {
 void ReadInterpolation(JsonObject* shape, Mesh* mesh) {
   // The names are in the order of Interpolation.
   constexpr std::array<std::string_view, 4> kNames = {"phong", "gouraud", "flat", "faceted"};
-  size_t choice = 0;
-  shape->Choice("interpolation", kNames, &choice);
-  mesh->interpolation = static_cast<Interpolation>(choice);
+  shape->Choice("interpolation", kNames, &mesh->interpolation);
   shape->Boolean("smooth_terminator", &mesh->smooth_terminator);
 }
 
@@ -143,25 +141,6 @@ void AddMesh(Mesh mesh, const Mesh& settings, SceneContext* context) {
   mesh.interpolation = settings.interpolation;
   mesh.smooth_terminator = settings.smooth_terminator;
   context->scene->meshes.push_back(std::move(mesh));
-}
-
-// Adds the mesh of the file that `value` names, unless there are faults.
-void LoadMesh(const JsonValue& value, const Transform& transform, const NormalSettings& normals,
-              const std::optional<Displacement>& displacement, const Mesh& settings,
-              SceneContext* context) {
-  std::optional<Mesh> mesh = ReadMeshFile(value, transform, normals, *context);
-  if (!mesh) return;
-  PrepareNormals(value, normals, context->threads, &*mesh);
-  if (displacement) DisplaceMesh(value, *displacement, *context->scene, &*mesh);
-  AddMesh(std::move(*mesh), settings, context);
-}
-
-template <typename SphereMesh>
-void ReadPlace(JsonObject* shape, SphereMesh* sphere) {
-  shape->Require("center", "[x, y, z]");
-  shape->Point("center", &sphere->center);
-  shape->Require("radius", "a length greater than 0");
-  shape->Number("radius", limits::kLength, &sphere->radius);
 }
 
 void ReadFineness(JsonObject* shape, Icosphere* sphere) {
@@ -244,18 +223,22 @@ bool ReadDisplacement(JsonObject* shape, bool is_sphere, SceneContext* context,
 }
 
 void ReadMesh(JsonObject* shape, SceneContext* context) {
-  Mesh mesh;
-  ReadMaterialOf(shape, context, &mesh.material);
+  Mesh settings;
+  ReadMaterialOf(shape, context, &settings.material);
   Transform transform;
   if (const auto value = shape->Find("transform")) ReadTransform(*value, &transform);
   NormalSettings normals;
   ReadNormals(shape, &normals);
-  ReadInterpolation(shape, &mesh);
+  ReadInterpolation(shape, &settings);
   std::optional<Displacement> displacement(std::in_place);
   if (!ReadDisplacement(shape, false, context, &*displacement)) displacement.reset();
-  if (const auto file = shape->Require("file", "an OBJ or PLY file in the scene's folder")) {
-    LoadMesh(*file, transform, normals, displacement, mesh, context);
-  }
+  const auto file = shape->Require("file", "an OBJ or PLY file in the scene's folder");
+  if (!file) return;
+  std::optional<Mesh> mesh = ReadMeshFile(*file, transform, normals, *context);
+  if (!mesh) return;
+  PrepareNormals(*file, normals, context->threads, &*mesh);
+  if (displacement) DisplaceMesh(*file, *displacement, *context->scene, &*mesh);
+  AddMesh(*std::move(mesh), settings, context);
 }
 
 std::shared_ptr<const Mesh> ReadLightMesh(JsonObject* light, const SceneContext& context) {

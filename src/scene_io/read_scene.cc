@@ -5,6 +5,7 @@
 #include <iterator>
 #include <set>
 #include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -49,21 +50,14 @@ void CheckIsObject(const Json& root, const std::string& file) {
 }
 
 // Reads the given parts. Members for other parts are recognised, but not read.
-void ReadRoot(const SceneTree& tree, SceneParts parts, WatchedFiles* files, FaultList* faults,
-              SceneContext* context, ReadMembers* read) {
+void ReadRoot(const SceneTree& tree, SceneParts parts, FaultList* faults, SceneContext* context,
+              ScenePart* being_read) {
   JsonObject object({tree.root, JsonPath{}, faults});
   Scene* const scene = context->scene;
-  ScenePart being_read = ScenePart::kCamera;
-  if (files != nullptr) {
-    context->references.on_file = [&, tell = context->references.on_file](const auto& file) {
-      files->Add(file, being_read);
-      if (tell) tell(file);
-    };
-  }
   const auto member = [&](std::string_view name, ScenePart part, const auto& read_member) {
     const auto value = object.Find(name);
     if (!value || !parts.Has(part)) return;
-    being_read = part;
+    *being_read = part;
     read_member(*value);
   };
   std::string schema;
@@ -79,9 +73,9 @@ void ReadRoot(const SceneTree& tree, SceneParts parts, WatchedFiles* files, Faul
     DecodeMapsAhead(value.json, context);
     ReadMaterials(value, context);
   });
-  read->materials = scene->materials.size();
-  read->textures = scene->textures.size();
-  read->images = scene->images.size();
+  context->read.materials = scene->materials.size();
+  context->read.textures = scene->textures.size();
+  context->read.images = scene->images.size();
   member("lights", ScenePart::kLights,
          [&](const JsonValue& value) { ReadLights(value, *context, &scene->lights); });
   member("shapes", ScenePart::kShapes,
@@ -89,12 +83,7 @@ void ReadRoot(const SceneTree& tree, SceneParts parts, WatchedFiles* files, Faul
   member("background", ScenePart::kBackground,
          [&](const JsonValue& value) { ReadColor(value, limits::kRadiance, &scene->background); });
   object.RefuseOthers();
-  read->current = true;
-  read->names = std::move(context->materials);
-  read->sources = std::move(context->textures);
-  read->varied = std::move(context->varied_materials);
-  read->shapes = std::move(context->shapes);
-  read->runs = std::move(context->runs);
+  context->read.current = true;
 }
 
 // Adds what shapes had brought to the materials, textures and images that the file defines. Returns
@@ -264,11 +253,18 @@ void CheckVersion(const Json& root, const std::string& file) {
   throw Error(ExitCode::kBadInput, {JudgeVersion(*version, PlaceInFile(file, "/nacre"))});
 }
 
-void SetUpContext(const SceneReading& reading, SceneBudget* budget, TexelBudget* texels,
-                  Scene* scene, SceneContext* context) {
+void SetUpContext(const SceneReading& reading, const ScenePart* part, SceneBudget* budget,
+                  TexelBudget* texels, Scene* scene, SceneContext* context) {
   const LoadOptions& options = *reading.options;
   context->folder = reading.folder;
   context->references = RulesOf(options);
+  if (reading.files != nullptr) {
+    context->references.on_file = [part, files = reading.files,
+                                   tell = options.on_file](const std::filesystem::path& file) {
+      files->Add(file, *part);
+      if (tell) tell(file);
+    };
+  }
   context->threads = options.threads;
   context->user_brdfs = &options.user_brdfs;
   context->scene = scene;
@@ -283,9 +279,10 @@ std::optional<ReadMembers> ReadScene(const SceneTree& tree, SceneParts parts,
   SceneContext context;
   SceneBudget budget(reading.options->max_primitives.value_or(kDefaultMaxPrimitives));
   TexelBudget texels(reading.bytes);
-  SetUpContext(reading, &budget, &texels, scene, &context);
-  ReadMembers read;
-  ReadRoot(tree, parts, reading.files, faults, &context, &read);
+  ScenePart being_read = ScenePart::kCamera;
+  SetUpContext(reading, &being_read, &budget, &texels, scene, &context);
+  ReadRoot(tree, parts, faults, &context, &being_read);
+  ReadMembers& read = context.read;
   if (reading.before != nullptr &&
       !TakeOverBrought(*reading.before, *reading.members, &read, scene)) {
     return std::nullopt;
@@ -299,7 +296,7 @@ std::optional<ReadMembers> ReadScene(const SceneTree& tree, SceneParts parts,
     }
   }
   AddValidation(*scene, parts, faults);
-  return read;
+  return std::move(read);
 }
 
 }  // namespace nacre

@@ -79,9 +79,6 @@ std::string ReadSceneText(const std::filesystem::path& path);
 // Reads a model as its file has it. *has_camera is set for glTF, the only kind that may have one.
 Scene ReadModel(const std::filesystem::path& path, const LoadOptions& options, bool* has_camera);
 
-// Throws Error with everything that is wrong in these parts of a model's scene.
-void ThrowFaultsIn(const Scene& scene, SceneParts parts, const std::string& file);
-
 // Reads these parts, which `scene` must lack, and validates them; the other parts must be there.
 // Reading shapes requires reading materials, and reading materials requires reading textures. Adds
 // what is wrong to `faults`. Returns nullopt if what was to be taken over from reading.before no

@@ -19,10 +19,7 @@ namespace {
 
 void ReadSphere(JsonObject* shape, SceneContext* context) {
   Sphere sphere;
-  shape->Require("center", "[x, y, z]");
-  shape->Point("center", &sphere.center);
-  shape->Require("radius", "a length greater than 0");
-  shape->Number("radius", limits::kLength, &sphere.radius);
+  ReadPlace(shape, &sphere);
   ReadMaterialOf(shape, context, &sphere.material);
   Displacement displacement;
   if (!ReadDisplacement(shape, true, context, &displacement)) {
@@ -49,7 +46,7 @@ void ReadSpheres(JsonObject* shape, SceneContext* context) {
   if (const auto materials = shape->Find("materials")) {
     ReadMaterialList(*materials, context, &settings.materials);
   }
-  settings.by_name = &context->materials;
+  settings.by_name = &context->read.names;
   const auto file = shape->Require("file", "a .ply, .csv or .npy file");
   // After a fault, materials that the file refers to may be missing.
   if (!file || shape->faults()->count() != 0) return;
@@ -88,8 +85,8 @@ std::vector<MaterialId> FindMaterials(const std::vector<std::string>& names,
   std::vector<MaterialId> ids;
   ids.reserve(names.size());
   for (const std::string& name : names) {
-    const auto found = context.materials.find(name);
-    ids.push_back(found != context.materials.end() ? found->second : MaterialId{});
+    const auto found = context.read.names.find(name);
+    ids.push_back(found != context.read.names.end() ? found->second : MaterialId{});
   }
   return ids;
 }
@@ -160,9 +157,9 @@ void ReadShapes(const JsonValue& value, const PlainSpheres& spheres, SceneContex
   for (const Json& shape : value.json) {
     const ShapeCounts first = CountShapes(*context->scene);
     ReadShape({shape, value.path.Element(place++), value.faults}, context);
-    context->shapes.push_back({first, CountShapes(*context->scene) - first});
+    context->read.shapes.push_back({first, CountShapes(*context->scene) - first});
     if (run == spheres.runs.end() || run->first != place) continue;
-    context->runs.push_back(context->scene->spheres.size());
+    context->read.runs.push_back(context->scene->spheres.size());
     ReadRun(*run, spheres, ids, value, context);
     place += run->spheres.size();
     ++run;

@@ -20,15 +20,6 @@ constexpr std::array<std::string_view, 5> kMappings = {"uv", "spherical", "cylin
 constexpr std::array<std::string_view, 2> kConventions = {"exact_flat", "literal"};
 constexpr std::string_view kTextureHint = "the name of one in \"textures\"";
 
-template <size_t kCount, typename Enum>
-bool ReadChoice(JsonObject* object, std::string_view name,
-                const std::array<std::string_view, kCount>& names, Enum* out) {
-  size_t choice = 0;
-  const bool is_set = object->Choice(name, names, &choice);
-  if (is_set) *out = static_cast<Enum>(choice);
-  return is_set;
-}
-
 // Reads [u, v], or one number for both.
 void ReadUv(JsonObject* object, std::string_view name, Vec2d* out) {
   const auto value = object->Find(name);
@@ -47,7 +38,7 @@ void ReadMapping(const JsonValue& value, Texture* texture) {
   }
   JsonObject object(value, R"("spherical", or {"kind": "spherical", "rotate_deg": 90})");
   object.Require("kind", "one of: uv, spherical, cylindrical, planar, cube");
-  ReadChoice(&object, "kind", kMappings, &texture->mapping);
+  object.Choice("kind", kMappings, &texture->mapping);
   object.Point("axis", &texture->axis);
   object.Number("rotate_deg", limits::kAngleDeg, &texture->rotate_deg);
   object.Point("center", &texture->center);
@@ -165,7 +156,7 @@ void ReadTexture(const JsonValue& value, const std::string& name, SceneContext* 
   if (encoding != 0) {
     source.encoding = static_cast<TextureEncoding>(encoding - 1);
   }
-  ReadChoice(&object, "filter", kTextureFilters, &texture.sampling.filter);
+  object.Choice("filter", kTextureFilters, &texture.sampling.filter);
   if (const auto mapping = object.Find("mapping")) ReadMapping(*mapping, &texture);
   // Beyond a pole, or beyond the face of a cube, there is not the opposite edge of the image.
   if (texture.mapping == MappingKind::kSpherical || texture.mapping == MappingKind::kCylindrical) {
@@ -173,26 +164,14 @@ void ReadTexture(const JsonValue& value, const std::string& name, SceneContext* 
   } else if (texture.mapping == MappingKind::kCube) {
     texture.sampling.wrap_u = texture.sampling.wrap_v = Wrap::kClamp;
   }
-  ReadChoice(&object, "wrap_u", kWraps, &texture.sampling.wrap_u);
-  ReadChoice(&object, "wrap_v", kWraps, &texture.sampling.wrap_v);
+  object.Choice("wrap_u", kWraps, &texture.sampling.wrap_u);
+  object.Choice("wrap_v", kWraps, &texture.sampling.wrap_v);
   ReadUv(&object, "scale", &texture.scale);
   ReadUv(&object, "offset", &texture.offset);
   object.Number("rotate_deg", limits::kAngleDeg, &texture.uv_rotate_deg);
   object.RefuseOthers();
-  context->textures.emplace(name, std::move(source));
+  context->read.sources.emplace(name, std::move(source));
 }
-
-}  // namespace
-
-void ReadTextures(const JsonValue& value, SceneContext* context) {
-  const JsonObject object(value, R"(textures by name: {"earth": {"file": "earth.png"}})");
-  if (!object.is_object()) return;
-  for (const auto& [name, json] : value.json.items()) {
-    ReadTexture({json, value.path.Member(name), value.faults}, name, context);
-  }
-}
-
-namespace {
 
 // What the map with this name means, in whatever model; nullopt if there is no such map.
 std::optional<MapUse> UseOfMap(std::string_view name) {
@@ -226,16 +205,24 @@ void RefuseGrey(const JsonValue& value, const Scene& scene, TextureId id) {
 
 }  // namespace
 
+void ReadTextures(const JsonValue& value, SceneContext* context) {
+  const JsonObject object(value, R"(textures by name: {"earth": {"file": "earth.png"}})");
+  if (!object.is_object()) return;
+  for (const auto& [name, json] : value.json.items()) {
+    ReadTexture({json, value.path.Member(name), value.faults}, name, context);
+  }
+}
+
 void DecodeMapsAhead(const Json& materials, SceneContext* context) {
-  if (context->textures.size() < 2 || !materials.is_object()) return;
+  if (context->read.sources.size() < 2 || !materials.is_object()) return;
   for (const Json& material : materials) {
     if (!material.is_object()) continue;
     for (const auto& [member, map] : material.items()) {
       const std::string* const name = NameOfTexture(map);
       const std::optional<MapUse> use = name != nullptr ? UseOfMap(member) : std::nullopt;
       if (!use) continue;
-      const auto found = context->textures.find(*name);
-      if (found == context->textures.end() || !found->second.is_readable) continue;
+      const auto found = context->read.sources.find(*name);
+      if (found == context->read.sources.end() || !found->second.is_readable) continue;
       const TextureReading reading = ReadingOf(found->second, *use, *context);
       try {
         const auto path =
@@ -254,12 +241,12 @@ void ReadTextureId(const JsonValue& value, MapUse use, SceneContext* context, Te
   std::string name;
   if (!value.Expect(value.json.is_string(), "a texture", kTextureHint)) return;
   ReadText(value, &name);
-  const auto found = context->textures.find(name);
-  if (found == context->textures.end()) {
+  const auto found = context->read.sources.find(name);
+  if (found == context->read.sources.end()) {
     std::vector<std::string> names;
-    names.reserve(context->textures.size());
+    names.reserve(context->read.sources.size());
     if (value.faults->count() < FaultList::kMaxKept) {  // further faults are only counted
-      for (const auto& [known, source] : context->textures) names.push_back(known);
+      for (const auto& [known, source] : context->read.sources) names.push_back(known);
     }
     std::sort(names.begin(), names.end());
     FaultUnknownName(value, "texture", name, names);
@@ -283,15 +270,12 @@ void ReadTextureId(const JsonValue& value, MapUse use, SceneContext* context, Te
 
 void ReadMaps(const MaterialModel& model, JsonObject* object, SceneContext* context,
               Material* material) {
-  const auto member = [&](std::string_view name, const auto& read) {
-    if (const auto value = object->Find(name)) read(*value);
-  };
   for (const MaterialMap& map : model.maps) {
-    member(map.name, [&](const JsonValue& value) {
-      TextureId id;
-      if (!value.json.is_null()) ReadTextureId(value, map.use, context, &id);
-      map.set(*material, id);
-    });
+    const auto value = object->Find(map.name);
+    if (!value) continue;
+    TextureId id;
+    if (!value->json.is_null()) ReadTextureId(*value, map.use, context, &id);
+    map.set(*material, id);
   }
   // Reads a texture's name, or an object with the member "texture".
   const auto texture_of = [&](const JsonValue& value, TextureId* id, const auto& read_others) {
@@ -304,28 +288,28 @@ void ReadMaps(const MaterialModel& model, JsonObject* object, SceneContext* cont
     map.RefuseOthers();
   };
   for (const MaterialNormalMap& row : model.normal_maps) {
-    member(row.name, [&](const JsonValue& value) {
-      NormalMap& normal = row.of(*material);
-      if (value.json.is_null()) {
-        normal = {};
-        return;
-      }
-      texture_of(value, &normal.texture, [&](JsonObject* map) {
-        map->Number("scale", limits::kNormalScale, &normal.scale);
-        ReadChoice(map, "convention", kConventions, &normal.convention);
-      });
-      RefuseGrey(value, *context->scene, normal.texture);
-    });
-  }
-  member("bump_map", [&](const JsonValue& value) {
-    BumpMap& bump = material->bump_map;
-    if (value.json.is_null()) {
-      bump = {};
-      return;
+    const auto value = object->Find(row.name);
+    if (!value) continue;
+    NormalMap& normal = row.of(*material);
+    if (value->json.is_null()) {
+      normal = {};
+      continue;
     }
-    texture_of(value, &bump.texture, [&](JsonObject* map) {
-      map->Number("distance", limits::kCoordinate, &bump.distance);
+    texture_of(*value, &normal.texture, [&](JsonObject* map) {
+      map->Number("scale", limits::kNormalScale, &normal.scale);
+      map->Choice("convention", kConventions, &normal.convention);
     });
+    RefuseGrey(*value, *context->scene, normal.texture);
+  }
+  const auto value = object->Find("bump_map");
+  if (!value) return;
+  BumpMap& bump = material->bump_map;
+  if (value->json.is_null()) {
+    bump = {};
+    return;
+  }
+  texture_of(*value, &bump.texture, [&](JsonObject* map) {
+    map->Number("distance", limits::kCoordinate, &bump.distance);
   });
 }
 

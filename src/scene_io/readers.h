@@ -15,6 +15,7 @@
 #include "scene/displace.h"
 #include "scene/generators.h"
 #include "scene/material_parameters.h"
+#include "scene/parts.h"
 #include "scene/scene.h"
 #include "scene/user_brdf.h"
 #include "scene_io/json_reader.h"
@@ -27,6 +28,7 @@
 
 namespace nacre {
 
+// The parts "camera" and "image" consist of keys alone. In read_keys.cc.
 void ReadCamera(const JsonValue& value, Camera* camera);
 void ReadImageSettings(const JsonValue& value, ImageSettings* image);
 
@@ -39,16 +41,11 @@ struct SceneContext {
   Scene* scene = nullptr;
   SceneBudget* budget = nullptr;
   TexelBudget* texels = nullptr;
-  MaterialNames materials;
+  ReadMembers read;  // what has been read so far
   // So that one fault does not cause more in everything that refers to it:
-  bool has_materials = true;                          // false: their names could not be read
-  std::unordered_set<uint32_t> unreadable_materials;  // indices of materials that have faults
-  std::unordered_set<uint32_t> varied_materials;      // materials that shapes have made variants of
-  const WholeMaterials* whole_materials = nullptr;    // ReadMembers::whole of an earlier reading
-  // The shapes read, as in ReadMembers.
-  std::vector<ShapeRead> shapes;
-  std::vector<size_t> runs;
-  TextureSources textures;
+  bool has_materials = true;                           // false: their names could not be read
+  std::unordered_set<uint32_t> unreadable_materials;   // indices of materials that have faults
+  const WholeMaterials* whole_materials = nullptr;     // ReadMembers::whole of an earlier reading
   std::unordered_map<std::string, ImageId> images;     // by path, encoding and part
   TexturesAhead ahead;                                 // filled by DecodeMapsAhead
   std::function<void(const std::string&)> on_warning;  // LoadOptions::on_warning
@@ -58,10 +55,11 @@ struct SceneContext {
   std::shared_ptr<const SkyPicture> room;
 };
 
-// Sets up a context before anything is read. SceneReading is defined in read_scene.h.
+// Sets up a context before anything is read. SceneReading is defined in read_scene.h; its `files`
+// receive files as those of the part that `*part` is by then.
 struct SceneReading;
-void SetUpContext(const SceneReading& reading, SceneBudget* budget, TexelBudget* texels,
-                  Scene* scene, SceneContext* context);
+void SetUpContext(const SceneReading& reading, const ScenePart* part, SceneBudget* budget,
+                  TexelBudget* texels, Scene* scene, SceneContext* context);
 
 // Reads the object "lights"; `context` says where their pictures are.
 void ReadLights(const JsonValue& value, const SceneContext& context, std::vector<Light>* lights);
@@ -115,6 +113,15 @@ void ReadShape(const JsonValue& value, SceneContext* context);
 
 // The plain sphere as the file has it.
 Json JsonOf(const Sphere& sphere, const std::string& material);
+
+// Reads the required members "center" and "radius" of a sphere or sphere mesh.
+template <typename AnySphere>
+void ReadPlace(JsonObject* shape, AnySphere* sphere) {
+  shape->Require("center", "[x, y, z]");
+  shape->Point("center", &sphere->center);
+  shape->Require("radius", "a length greater than 0");
+  shape->Number("radius", limits::kLength, &sphere->radius);
+}
 
 // Readers of shapes that have a file or faces of their own.
 void ReadMesh(JsonObject* shape, SceneContext* context);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -50,12 +51,14 @@ class SceneBudget {
 
   explicit SceneBudget(uint64_t primitives) : allowed_(primitives), left_(primitives) {}
 
-  // To be called before primitives are made. Throws Error (kBadInput), without a location.
-  void Spend(uint64_t primitives) {
+  // To be called before primitives are made. Throws Error (kBadInput), located at `where`, if there
+  // are too many.
+  void Spend(uint64_t primitives, const std::string& where = {},
+             const char* hint = kPrimitivesHint) {
     if (primitives > left_) {
-      throw Error(ExitCode::kBadInput, {},
+      throw Error(ExitCode::kBadInput, where,
                   fmt::format("the scene would have more than {} spheres and triangles", allowed_),
-                  kPrimitivesHint);
+                  hint);
     }
     left_ -= primitives;
   }
@@ -63,26 +66,12 @@ class SceneBudget {
   bool IsSpent() const { return left_ == 0; }
 
   // False from the second time on: a scene has one environment, whose picture may be large.
-  bool TakeSkyPicture() {
-    const bool first = !has_sky_picture_;
-    has_sky_picture_ = true;
-    return first;
-  }
+  bool TakeSkyPicture() { return !std::exchange(has_sky_picture_, true); }
 
  private:
   uint64_t allowed_, left_;
   bool has_sky_picture_ = false;
 };
-
-// SceneBudget::Spend for a model file, which becomes the location of the error.
-inline void SpendTriangles(uint64_t triangles, const std::string& file, SceneBudget* budget,
-                           const char* hint = kPrimitivesHint) {
-  try {
-    budget->Spend(triangles);
-  } catch (const Error& error) {
-    throw Error(error.code(), file, error.faults().front().what, hint);
-  }
-}
 
 // The hint for files that do not instance anything, and whose bound therefore is their size alone.
 inline constexpr const char* kTooManyForItsSize =

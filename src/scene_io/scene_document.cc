@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "scene/validate.h"
 #include "scene_io/load_scene.h"
 #include "scene_io/model_scene.h"
 #include "scene_io/overrides.h"
@@ -16,22 +17,18 @@ namespace nacre {
 
 SceneDocument DocumentOfModel(const std::filesystem::path& path) {
   RefuseOtherModels(path);
-  SceneDocument document;
-  document.model = path;
-  document.file = path.string();
-  document.folder = path.parent_path();
-  document.tree.root = Json::object();
-  return document;
+  return {.model = path,
+          .file = path.string(),
+          .folder = path.parent_path(),
+          .tree = {Json::object(), {}}};
 }
 
 SceneDocument ParseDocument(const SceneSource& source, FaultList* faults) {
-  return {{},
-          source.file,
-          source.folder,
-          source.text.size(),
-          ParseScene(source, LoadOptions(), faults),
-          false,
-          {}};
+  return {.model = {},
+          .file = source.file,
+          .folder = source.folder,
+          .bytes = source.text.size(),
+          .tree = ParseScene(source, LoadOptions(), faults)};
 }
 
 namespace {
@@ -93,12 +90,8 @@ void PutShape(const std::string& json, SceneDocument* document) {
   Json shape = ParseJson(json, "AddShape", &faults);
   ThrowFaults(faults, "AddShape");
   Json* const root = &document->tree.root;
-  const auto shapes = root->is_object() ? root->find("shapes") : root->end();
-  const bool none = root->is_object() && (shapes == root->end() || shapes->is_null());
-  if (none) {
-    (*root)["shapes"] = Json::array({std::move(shape)});
-    return;
-  }
+  Json* const shapes = root->is_object() ? &(*root)["shapes"] : root;
+  if (root->is_object() && shapes->is_null()) *shapes = Json::array();
   if (!root->is_object() || !shapes->is_array()) {
     throw Error(ExitCode::kUsage, "AddShape", "the scene's \"shapes\" are no list",
                 "set /shapes to []");
@@ -114,7 +107,7 @@ Scene ReadDocument(const SceneDocument& document, const LoadOptions& options, Fa
     const ModelOverrides overrides{document.tree.root, document.own_lights};
     CompleteModelScene({&overrides, &options, document.file, has_camera, nullptr},
                        SceneParts::All(), &scene);
-    ThrowFaultsIn(scene, SceneParts::All(), document.file);
+    ThrowFaults(Validate(scene), document.file);
     return scene;
   }
   CheckVersion(document.tree.root, document.file);

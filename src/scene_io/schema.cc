@@ -59,6 +59,14 @@ std::string TypeOf(bool is_color, const Range& range) {
                      number);
 }
 
+// A property with this type; without a description or a default where these are empty.
+std::string Property(std::string_view name, std::string_view meaning, const std::string& type,
+                     const std::string& value = {}) {
+  return fmt::format("{}: {{ {}{}{} }}", Quoted(name),
+                     meaning.empty() ? "" : fmt::format(R"("description": {}, )", Quoted(meaning)),
+                     type, value.empty() ? "" : fmt::format(R"(, "default": {})", value));
+}
+
 // A key's type, and its default value as text.
 struct KeyText {
   std::string type, value;
@@ -97,55 +105,35 @@ KeyTexts TextsOf(const Owner& defaults, std::string_view outer = "") {
     // The type of a camera is in the template.
     if (OuterName(key.name) != outer || key.name == "type") continue;
     const auto [type, value] = TextOf(key.form, key.range, key.options, key.get(defaults));
-    std::string text = fmt::format("{}: {{ ", Quoted(InnerName(key.name)));
-    if (!key.meaning.empty()) text += fmt::format(R"("description": {}, )", Quoted(key.meaning));
-    text += type;
     const bool has_default = key.use == KeyUse::kOptional || key.form == KeyForm::kChoice;
-    if (has_default) text += fmt::format(R"(, "default": {})", value);
-    texts.properties.push_back(text + " }");
+    texts.properties.push_back(
+        Property(InnerName(key.name), key.meaning, type, has_default ? value : ""));
     if (key.use == KeyUse::kRequired) texts.required += ", " + Quoted(InnerName(key.name));
   }
   return texts;
 }
 
-std::string PropertyOf(const MaterialParameter& parameter, const Material& defaults) {
-  return fmt::format(R"({}: {{ "description": {}, {}, "default": {} }})", Quoted(parameter.name),
-                     Quoted(parameter.meaning), TypeOf(parameter.is_color, parameter.range),
-                     ValueText(Vec3d(parameter.get(defaults)), true));
-}
-
-std::string PropertyOf(const MaterialChoice& choice, const Material& defaults) {
-  std::string value;
-  if (choice.get != nullptr) {
-    value = fmt::format(R"(, "default": {})", Quoted(choice.options[choice.get(defaults)]));
-  }
-  return fmt::format(R"({}: {{ "description": {}, {}{} }})", Quoted(choice.name),
-                     Quoted(choice.meaning), EnumOf(choice.options), value);
-}
-
-std::string PropertyOf(const MaterialMap& map) {
-  return fmt::format(R"({}: {{ "description": {}, "$ref": "#/$defs/texture_name" }})",
-                     Quoted(map.name), Quoted(map.meaning));
-}
-
 std::string DefinitionOf(const MaterialModel& model) {
   const Material defaults = model.make();
   std::vector<std::string> properties = {
-      fmt::format(R"("model": {{ "const": {} }})", Quoted(model.name))};
+      Property("model", "", fmt::format(R"("const": {})", Quoted(model.name)))};
   for (const MaterialChoice& choice : model.choices) {
-    properties.push_back(PropertyOf(choice, defaults));
+    const std::string value =
+        choice.get != nullptr ? Quoted(choice.options[choice.get(defaults)]) : "";
+    properties.push_back(Property(choice.name, choice.meaning, EnumOf(choice.options), value));
   }
   for (const MaterialParameter& parameter : model.parameters) {
-    properties.push_back(PropertyOf(parameter, defaults));
+    properties.push_back(Property(parameter.name, parameter.meaning,
+                                  TypeOf(parameter.is_color, parameter.range),
+                                  ValueText(Vec3d(parameter.get(defaults)), true)));
   }
-  for (const MaterialMap& map : model.maps) properties.push_back(PropertyOf(map));
-  for (const MaterialNormalMap& row : model.normal_maps) {
-    const std::string meaning =
-        row.meaning.empty() ? "" : fmt::format(R"("description": {}, )", Quoted(row.meaning));
-    properties.push_back(
-        fmt::format(R"("{}": {{ {}"$ref": "#/$defs/normal_map" }})", row.name, meaning));
+  for (const MaterialMap& map : model.maps) {
+    properties.push_back(Property(map.name, map.meaning, Reference("texture_name")));
   }
-  properties.emplace_back(R"("bump_map": { "$ref": "#/$defs/bump_map" })");
+  for (const MaterialNormalMap& map : model.normal_maps) {
+    properties.push_back(Property(map.name, map.meaning, Reference("normal_map")));
+  }
+  properties.push_back(Property("bump_map", "", Reference("bump_map")));
   return fmt::format(R"(    "{}_material": {{
       "title": {},
       "type": "object",
@@ -181,7 +169,7 @@ void PutLight(std::string_view name, const Kind& light, std::string* schema) {
   const size_t begin = schema->find(mark);
   if (begin == std::string::npos) return PutKeys(fmt::format("{}_light", name), texts, schema);
   const auto add = [&](const char* property, const char* definition) {
-    texts.properties.push_back(fmt::format("\"{}\": {{ {} }}", property, Reference(definition)));
+    texts.properties.push_back(Property(property, "", Reference(definition)));
   };
   if constexpr (requires { light.attenuation; }) add("attenuation", "attenuation");
   if constexpr (!std::is_same_v<Kind, AmbientLight>) {

@@ -2,15 +2,18 @@
 #include "scene_io/sheet_axis.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/error.h"
 #include "color/transfer.h"
 #include "scene/generators.h"
+#include "scene/material_parameters.h"
 
 namespace nacre {
 namespace {
@@ -68,10 +71,9 @@ Json ParseAxisValue(const std::string& text) {
   if (text.starts_with('#')) return HexColor(text);
   const Json value = TryParseJson(text).value_or(Json());
   if (value.is_number() || value.is_object() || IsColorArray(value)) return value;
-  const bool is_name = !text.empty() && text.find_first_not_of(
-                                            "abcdefghijklmnopqrstuvwxyz"
-                                            "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                            "0123456789_") == std::string::npos;
+  const bool is_name = !text.empty() && std::ranges::all_of(text, [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_';
+  });
   return is_name ? Json(text) : Json();
 }
 
@@ -171,6 +173,72 @@ void ParseList(const std::string& option, const std::string& text, SheetAxis* ax
   }
 }
 
+[[noreturn]] void RefuseMaterial(const std::string& option, std::string what, std::string hint) {
+  throw Error(ExitCode::kBadInput, option, std::move(what), std::move(hint));
+}
+
+std::string NearestOrAll(const std::string& word, const std::vector<std::string>& names) {
+  return NearestHint(word, names, fmt::format("one of: {}", fmt::join(names, ", ")));
+}
+
+const MaterialModel& ModelOfJson(const std::string& option, const Json& material) {
+  const auto found = material.find("model");
+  const std::string name =
+      found != material.end() && found->is_string() ? found->get<std::string>() : "";
+  if (const MaterialModel* model = FindModel(name)) return *model;
+  std::vector<std::string> names;
+  for (const MaterialModel& model : MaterialModels()) names.emplace_back(model.name);
+  RefuseMaterial(option, fmt::format("\"{}\" is no model", name), NearestOrAll(name, names));
+}
+
+void CheckParameter(const std::string& option, const MaterialParameter& parameter,
+                    const SheetAxis& axis) {
+  for (const Json& value : axis.values) {
+    const bool fits = value.is_number() || (value.is_array() && parameter.is_color);
+    if (!fits) {
+      RefuseMaterial(
+          option, fmt::format("{} is no value of {}", JsonText(value), axis.name),
+          parameter.is_color ? "a colour is #rrggbb, [r,g,b] or one number" : "give numbers");
+    }
+    for (const Json& number : value.is_array() ? value : Json::array({value})) {
+      if (parameter.range.Contains(number.get<double>())) continue;
+      RefuseMaterial(option, fmt::format("{} is out of range for {}", JsonText(number), axis.name),
+                     Describe(parameter.range));
+    }
+  }
+}
+
+void CheckChoice(const std::string& option, const MaterialChoice& choice, const SheetAxis& axis) {
+  const std::vector<std::string> names(choice.options.begin(), choice.options.end());
+  for (const Json& value : axis.values) {
+    const std::string word = value.is_string() ? value.get<std::string>() : JsonText(value);
+    if (std::find(names.begin(), names.end(), word) == names.end()) {
+      RefuseMaterial(option, fmt::format("\"{}\" is no {}", word, axis.name),
+                     NearestOrAll(word, names));
+    }
+  }
+}
+
+SheetAxis::Kind CheckAgainst(const std::string& option, const MaterialModel& model,
+                             const SheetAxis& axis) {
+  if (const MaterialParameter* parameter = FindParameter(model, axis.name)) {
+    CheckParameter(option, *parameter, axis);
+    return SheetAxis::Kind::kParameter;
+  }
+  std::vector<std::string> names;
+  for (const MaterialParameter& parameter : model.parameters) names.emplace_back(parameter.name);
+  for (const MaterialChoice& choice : model.choices) {
+    if (choice.name == axis.name) {
+      CheckChoice(option, choice, axis);
+      return SheetAxis::Kind::kChoice;
+    }
+    names.emplace_back(choice.name);
+  }
+  names.emplace_back("material");
+  RefuseMaterial(option, fmt::format("{} has no parameter \"{}\"", model.name, axis.name),
+                 NearestOrAll(axis.name, names));
+}
+
 }  // namespace
 
 SheetAxis ParseSheetAxis(const std::string& option, const std::string& text) {
@@ -190,6 +258,21 @@ SheetAxis ParseSheetAxis(const std::string& option, const std::string& text) {
     ParseList(option, values, &axis);
   }
   return axis;
+}
+
+void CheckModels(const std::string& option, const std::vector<Json>& materials) {
+  for (const Json& material : materials) ModelOfJson(option, material);
+}
+
+void CheckSheetAxis(const std::string& option, const std::vector<Json>& materials,
+                    SheetAxis* axis) {
+  if (axis->kind == SheetAxis::Kind::kMaterial) {
+    CheckModels(option, axis->values);
+    return;
+  }
+  for (const Json& material : materials) {
+    axis->kind = CheckAgainst(option, ModelOfJson(option, material), *axis);
+  }
 }
 
 Json ParseMaterialText(const std::string& option, const std::string& text) {

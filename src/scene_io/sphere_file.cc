@@ -90,10 +90,8 @@ class SphereRows {
       std::vector<std::string> names;
       for (const auto& [known, id] : *settings_.by_name) names.push_back(known);
       std::sort(names.begin(), names.end());
-      const std::string nearest = NearestName(last_name_, names);
       RefuseRow(row, fmt::format("unknown material \"{}\"", Excerpt(name)),
-                nearest.empty() ? "the name of one in the scene's \"materials\""
-                                : fmt::format("did you mean \"{}\"?", nearest));
+                NearestHint(last_name_, names, "the name of one in the scene's \"materials\""));
     }
     last_material_ = found->second;
     return last_material_;
@@ -290,31 +288,18 @@ class CsvReader {
   TableColumns columns_;
 };
 
-void AddNpy(const NpyMatrix& matrix, SphereRows* rows) {
-  const TableColumns columns = ColumnsInOrder(matrix.columns());
-  const bool has_radii = columns.radius != TableColumns::kNone;
-  const bool has_materials = columns.material != TableColumns::kNone;
+// Adds `count` rows of numbers: at(row, column), the columns in the order of ColumnsInOrder.
+template <class At>
+void AddNumbers(uint64_t count, bool has_radii, bool has_materials, const At& at,
+                SphereRows* rows) {
   rows->CheckColumns(has_radii, has_materials);
-  rows->Reserve(matrix.rows());
-  for (uint64_t row = 0; row < matrix.rows(); ++row) {
-    const Vec3d center(matrix.At(row, 0), matrix.At(row, 1), matrix.At(row, 2));
-    const double radius = has_radii ? matrix.At(row, columns.radius) : rows->RadiusOf(row);
-    const MaterialId material = has_materials
-                                    ? rows->MaterialOfNumber(matrix.At(row, columns.material), row)
-                                    : rows->MaterialOf(row);
+  rows->Reserve(count);
+  for (uint64_t row = 0; row < count; ++row) {
+    const Vec3d center(at(row, 0), at(row, 1), at(row, 2));
+    const double radius = has_radii ? at(row, 3) : rows->RadiusOf(row);
+    const MaterialId material =
+        has_materials ? rows->MaterialOfNumber(at(row, 4), row) : rows->MaterialOf(row);
     rows->Add(center, radius, material, row);
-  }
-}
-
-void AddPlyPoints(const PlyPoints& points, SphereRows* rows) {
-  rows->CheckColumns(!points.radii.empty(), !points.materials.empty());
-  rows->Reserve(points.positions.size());
-  for (size_t i = 0; i < points.positions.size(); ++i) {
-    const double radius = points.radii.empty() ? rows->RadiusOf(i) : points.radii[i];
-    const MaterialId material = points.materials.empty()
-                                    ? rows->MaterialOf(i)
-                                    : rows->MaterialOfNumber(points.materials[i], i);
-    rows->Add(points.positions[i], radius, material, i);
   }
 }
 
@@ -325,13 +310,22 @@ std::vector<Sphere> ReadSphereFile(const std::filesystem::path& path,
   const std::string file = path.string();
   if (HasExtension(file, ".ply")) {
     SphereRows rows(settings, budget, file, ": vertex ");
-    AddPlyPoints(ReadPlyPoints(path), &rows);
+    const PlyPoints points = ReadPlyPoints(path);
+    const auto at = [&](uint64_t row, int column) {
+      return column < 3    ? points.positions[row][column]
+             : column == 3 ? points.radii[row]
+                           : points.materials[row];
+    };
+    AddNumbers(points.positions.size(), !points.radii.empty(), !points.materials.empty(), at,
+               &rows);
     return rows.Take();
   }
   if (HasExtension(file, ".npy")) {
     SphereRows rows(settings, budget, file, ": row ");
     const std::string bytes = ReadBytes(path, kMaxSphereFileBytes);
-    AddNpy(NpyMatrix(bytes, file), &rows);
+    const NpyMatrix matrix(bytes, file);
+    const auto at = [&](uint64_t row, uint64_t column) { return matrix.At(row, column); };
+    AddNumbers(matrix.rows(), matrix.columns() > 3, matrix.columns() > 4, at, &rows);
     return rows.Take();
   }
   if (HasExtension(file, ".csv")) {

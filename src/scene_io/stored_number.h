@@ -38,25 +38,10 @@ double LoadAs(const char* bytes, bool swap) {
 
 // The number stored at `bytes`. `swap`: the bytes are in big-endian order.
 inline double LoadNumber(const char* bytes, NumberType type, bool swap) {
-  switch (type) {
-    case NumberType::kInt8:
-      return LoadAs<int8_t>(bytes, swap);
-    case NumberType::kUint8:
-      return LoadAs<uint8_t>(bytes, swap);
-    case NumberType::kInt16:
-      return LoadAs<int16_t>(bytes, swap);
-    case NumberType::kUint16:
-      return LoadAs<uint16_t>(bytes, swap);
-    case NumberType::kInt32:
-      return LoadAs<int32_t>(bytes, swap);
-    case NumberType::kUint32:
-      return LoadAs<uint32_t>(bytes, swap);
-    case NumberType::kFloat:
-      return LoadAs<float>(bytes, swap);
-    case NumberType::kDouble:
-      break;
-  }
-  return LoadAs<double>(bytes, swap);
+  constexpr std::array<double (*)(const char*, bool), 8> kLoad = {
+      LoadAs<int8_t>,  LoadAs<uint8_t>,  LoadAs<int16_t>, LoadAs<uint16_t>,
+      LoadAs<int32_t>, LoadAs<uint32_t>, LoadAs<float>,   LoadAs<double>};
+  return kLoad[static_cast<size_t>(type)](bytes, swap);
 }
 
 }  // namespace nacre

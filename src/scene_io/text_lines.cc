@@ -37,23 +37,18 @@ bool HasComment(std::string_view line) {
 
 bool GoesOn(std::string_view line) { return line.ends_with('\\') && !HasComment(line); }
 
-[[noreturn]] void RefuseWideText(const std::string& file) {
-  throw Error(ExitCode::kBadInput, file, "is text in UTF-16 or UTF-32", "save it as UTF-8");
-}
-
 }  // namespace
 
 std::string_view WithoutByteOrderMark(std::string_view text, const std::string& file) {
   using namespace std::string_view_literals;
   if (text.starts_with("\xef\xbb\xbf"sv)) return text.substr(3);
-  for (const std::string_view mark : {"\xff\xfe"sv, "\xfe\xff"sv, "\0\0\xfe\xff"sv}) {
-    if (!text.starts_with(mark)) continue;
-    RefuseWideText(file);
-  }
+  const bool has_mark = text.starts_with("\xff\xfe"sv) || text.starts_with("\xfe\xff"sv) ||
+                        text.starts_with("\0\0\xfe\xff"sv);
   // UTF-16 or UTF-32 without a mark: the first character is ASCII, so its other bytes are 0.
-  if (text.size() >= 2 && (text[0] == 0) != (text[1] == 0)) RefuseWideText(file);
-  if (text.size() >= 4 && text.starts_with("\0\0\0"sv) && text[3] != 0) RefuseWideText(file);
-  return text;
+  const bool is_utf16 = text.size() >= 2 && (text[0] == 0) != (text[1] == 0);
+  const bool is_utf32 = text.size() >= 4 && text.starts_with("\0\0\0"sv) && text[3] != 0;
+  if (!has_mark && !is_utf16 && !is_utf32) return text;
+  throw Error(ExitCode::kBadInput, file, "is text in UTF-16 or UTF-32", "save it as UTF-8");
 }
 
 std::string_view TextLines::NextInFile() {

@@ -154,40 +154,6 @@ Texels DecodeIntegers(const TextureReading& reading, std::span<float> values, fl
   return PackTexels(values);
 }
 
-}  // namespace
-
-void TexelBudget::AddFile(const std::filesystem::path& path) {
-  std::error_code error;
-  const uintmax_t bytes = std::filesystem::file_size(path, error);
-  if (!error && files_.insert(path).second) file_bytes_ += bytes;
-}
-
-void TexelBudget::Spend(const std::string& where, int64_t width, int64_t height, size_t channels) {
-  // Each side fits 32 bits, but the product may need more than 64.
-  const double values =
-      static_cast<double>(width) * static_cast<double>(height) * static_cast<double>(channels);
-  const auto total = [&](uint64_t before) { return static_cast<double>(before) + values; };
-  constexpr Range kSide = limits::kImageSide;
-  if (!kSide.Contains(static_cast<double>(width)) || !kSide.Contains(static_cast<double>(height)) ||
-      total(values_before_ + spent_) > static_cast<double>(kMaxTexelValues)) {
-    throw Error(ExitCode::kBadInput, where,
-                fmt::format("{} x {} texels are too many for a texture", width, height),
-                "make it smaller: 65536 a side, 2^30 values in all textures of a scene");
-  }
-  const double by_size = static_cast<double>(kFreeSamples) +
-                         static_cast<double>(kSamplesPerByte) * static_cast<double>(file_bytes_);
-  if (total(spent_) > by_size) {
-    throw Error(ExitCode::kBadInput, where,
-                fmt::format("{} x {} texels are too many for textures of files of {} bytes", width,
-                            height, file_bytes_),
-                "over 2^27 values in all textures the files need a byte for 64 of them: make the "
-                "image smaller, or save it with less compression");
-  }
-  spent_ += static_cast<uint64_t>(values);
-}
-
-namespace {
-
 // An image file whose header has been read and checked.
 struct OpenTexture {
   ImageFile image;
@@ -269,6 +235,36 @@ DecodedImage DecodeTextureImage(const OpenTexture& open, const TextureReading& r
 }
 
 }  // namespace
+
+void TexelBudget::AddFile(const std::filesystem::path& path) {
+  std::error_code error;
+  const uintmax_t bytes = std::filesystem::file_size(path, error);
+  if (!error && files_.insert(path).second) file_bytes_ += bytes;
+}
+
+void TexelBudget::Spend(const std::string& where, int64_t width, int64_t height, size_t channels) {
+  // Each side fits 32 bits, but the product may need more than 64.
+  const double values =
+      static_cast<double>(width) * static_cast<double>(height) * static_cast<double>(channels);
+  const auto total = [&](uint64_t before) { return static_cast<double>(before) + values; };
+  constexpr Range kSide = limits::kImageSide;
+  if (!kSide.Contains(static_cast<double>(width)) || !kSide.Contains(static_cast<double>(height)) ||
+      total(values_before_ + spent_) > static_cast<double>(kMaxTexelValues)) {
+    throw Error(ExitCode::kBadInput, where,
+                fmt::format("{} x {} texels are too many for a texture", width, height),
+                "make it smaller: 65536 a side, 2^30 values in all textures of a scene");
+  }
+  const double by_size = static_cast<double>(kFreeSamples) +
+                         static_cast<double>(kSamplesPerByte) * static_cast<double>(file_bytes_);
+  if (total(spent_) > by_size) {
+    throw Error(ExitCode::kBadInput, where,
+                fmt::format("{} x {} texels are too many for textures of files of {} bytes", width,
+                            height, file_bytes_),
+                "over 2^27 values in all textures the files need a byte for 64 of them: make the "
+                "image smaller, or save it with less compression");
+  }
+  spent_ += static_cast<uint64_t>(values);
+}
 
 std::string TextureReading::Key(const std::filesystem::path& path) const {
   const std::string gloss = glossiness > 0 ? fmt::format("{} ", glossiness) : "";

@@ -3,11 +3,14 @@
 // repeated.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
+
+#include <fmt/format.h>
 
 namespace nacre {
 
@@ -16,7 +19,16 @@ class UniqueNames {
   // Returns `wanted`. If that is empty or was returned before, returns `wanted`, `separator` and
   // the first number from `number` on that give a name not returned before. Takes constant time on
   // average, whatever the names are.
-  std::string Take(const std::string& wanted, std::string_view separator, size_t number);
+  std::string Take(const std::string& wanted, std::string_view separator, size_t number) {
+    if (!wanted.empty() && taken_.insert(wanted).second) return wanted;
+    size_t& next = next_[wanted];
+    next = std::max(next, number);
+    std::string name;
+    do {
+      name = fmt::format("{}{}{}", wanted, separator, next++);
+    } while (!taken_.insert(name).second);
+    return name;
+  }
 
  private:
   std::unordered_set<std::string> taken_;

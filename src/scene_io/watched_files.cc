@@ -41,8 +41,4 @@ SceneParts WatchedFiles::ChangedParts() const {
   return parts;
 }
 
-void WatchedFiles::ForgetChanges() {
-  for (auto& [path, file] : files_) file.changed = false;
-}
-
 }  // namespace nacre

@@ -27,7 +27,9 @@ class WatchedFiles {
 
   // The parts made from files for which Changed() has returned true since the last ForgetChanges.
   SceneParts ChangedParts() const;
-  void ForgetChanges();
+  void ForgetChanges() {
+    for (auto& [path, file] : files_) file.changed = false;
+  }
 
  private:
   struct File {

@@ -19,18 +19,25 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
 
-HWY_INLINE SphereLightV<V> SphereAt(const SampledLight& light, const HitBatch& hits, size_t i) {
-  return {Offset(light, hits, i), hn::Set(D(), static_cast<float>(light.radius))};
-}
-
-HWY_INLINE RectangleLightV<V> RectangleAt(const SampledLight& light, const HitBatch& hits,
-                                          size_t i) {
-  return {Offset(light, hits, i), SetVec3(D(), light.edge_x), SetVec3(D(), light.edge_y)};
-}
-
-HWY_INLINE DiskLightV<V> DiskAt(const SampledLight& light, const HitBatch& hits, size_t i) {
-  return {Offset(light, hits, i), SetVec3(D(), light.normal),
-          hn::Set(D(), static_cast<float>(light.radius))};
+// Calls use(at), where at(i) is the light relative to hits i...
+template <class Use>
+HWY_INLINE void VisitShape(const SampledLight& light, const HitBatch& hits, const Use& use) {
+  if (light.form == SampledForm::kSphere) {
+    return use([&](size_t i) HWY_ATTR {
+      return SphereLightV<V>{Offset(light, hits, i),
+                             hn::Set(D(), static_cast<float>(light.radius))};
+    });
+  }
+  if (light.form == SampledForm::kRectangle) {
+    return use([&](size_t i) HWY_ATTR {
+      return RectangleLightV<V>{Offset(light, hits, i), SetVec3(D(), light.edge_x),
+                                SetVec3(D(), light.edge_y)};
+    });
+  }
+  use([&](size_t i) HWY_ATTR {
+    return DiskLightV<V>{Offset(light, hits, i), SetVec3(D(), light.normal),
+                         hn::Set(D(), static_cast<float>(light.radius))};
+  });
 }
 
 // Where a direction meets the light: the distance, and the cosine at the light, of which callers
@@ -41,7 +48,7 @@ struct MeetingV {
 
 // The distance to a sphere is the product of the distances to both intersections, divided by the
 // farther one.
-HWY_INLINE MeetingV Meet(const SphereLightV<V>& light, const Vec3V<V>& direction) {
+HWY_INLINE MeetingV Meet(const SphereLightV<V>& light, const Vec3V<V>& direction, const Vec3V<V>&) {
   const D d;
   const V zero = hn::Zero(d);
   const V distance = Length(light.centre);
@@ -54,13 +61,17 @@ HWY_INLINE MeetingV Meet(const SphereLightV<V>& light, const Vec3V<V>& direction
           hn::Sub(distance, light.radius)};
 }
 
-HWY_INLINE MeetingV MeetPlane(const Vec3V<V>& point, const Vec3V<V>& normal,
-                              const Vec3V<V>& direction) {
+HWY_INLINE Vec3V<V> PointOf(const RectangleLightV<V>& light) { return light.corner; }
+HWY_INLINE Vec3V<V> PointOf(const DiskLightV<V>& light) { return light.centre; }
+
+// A flat light, which has this normal.
+template <class Flat>
+HWY_INLINE MeetingV Meet(const Flat& light, const Vec3V<V>& direction, const Vec3V<V>& normal) {
   const D d;
   const V towards = FusedDot(direction, normal);
   const auto parallel = hn::Eq(towards, hn::Zero(d));
   const V safe = hn::IfThenElse(parallel, hn::Set(d, 1.0f), towards);
-  return {hn::IfThenElseZero(hn::Not(parallel), hn::Div(FusedDot(point, normal), safe)),
+  return {hn::IfThenElseZero(hn::Not(parallel), hn::Div(FusedDot(PointOf(light), normal), safe)),
           hn::Neg(towards)};
 }
 
@@ -90,85 +101,55 @@ void SampleShape(const SampledLight& light, size_t count, const UnitPoints& poin
   }
 }
 
-template <class At, class MeetAt>
-void FindShape(const SampledLight& light, size_t count, LightDirections* directions, const At& at,
-               const MeetAt& meet) {
+template <class At>
+void FindShape(const SampledLight& light, size_t count, LightDirections* directions, const At& at) {
   const D d;
+  const Vec3V<V> normal = SetVec3(d, light.normal);
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
     const Vec3V<V> to_light = LoadSoa(D(), directions->to_light, i);
     const auto shape = at(i);
-    const MeetingV meeting = meet(shape, to_light);
+    const MeetingV meeting = Meet(shape, to_light, normal);
     Keep(light, meeting.distance, LightPdf(d, shape, to_light), meeting.cos_light, i, directions);
+  }
+}
+
+// Whether hits see a side that emits. `normal` is that of flat lights.
+HWY_INLINE hn::Mask<D> IsSeen(const SphereLightV<V>& light, const Vec3V<V>&) {
+  return hn::Gt(Length(light.centre), light.radius);
+}
+template <class Flat>
+HWY_INLINE hn::Mask<D> IsSeen(const Flat& light, const Vec3V<V>& normal) {
+  return hn::Lt(FusedDot(PointOf(light), normal), hn::Zero(D()));
+}
+
+template <class At>
+void ShapeIrradiance(const SampledLight& light, const Surface& surface, size_t count,
+                     float* irradiance, const At& at) {
+  const D d;
+  const Soa3<float>& n = surface.normal;
+  const Vec3V<V> normal = SetVec3(d, light.normal);
+  for (size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const auto shape = at(i);
+    const V value = hn::Max(Irradiance(d, shape, LoadSoa(D(), n, i)), hn::Zero(d));
+    hn::StoreU(light.two_sided ? value : hn::IfThenElseZero(IsSeen(shape, normal), value), d,
+               irradiance + i);
   }
 }
 
 void SampleAreaT(const SampledLight& light, const HitBatch& hits, const UnitPoints& points,
                  LightDirections* directions) {
-  const auto sample = [&](const auto& at) {
-    SampleShape(light, hits.count, points, directions, at);
-  };
-  if (light.form == SampledForm::kSphere) {
-    return sample([&](size_t i) HWY_ATTR { return SphereAt(light, hits, i); });
-  }
-  if (light.form == SampledForm::kRectangle) {
-    return sample([&](size_t i) HWY_ATTR { return RectangleAt(light, hits, i); });
-  }
-  sample([&](size_t i) HWY_ATTR { return DiskAt(light, hits, i); });
+  VisitShape(light, hits,
+             [&](const auto& at) { SampleShape(light, hits.count, points, directions, at); });
 }
 
 void FindAreaT(const SampledLight& light, const HitBatch& hits, LightDirections* directions) {
-  const auto find = [&](const auto& at, const auto& meet) {
-    FindShape(light, hits.count, directions, at, meet);
-  };
-  if (light.form == SampledForm::kSphere) {
-    return find([&](size_t i) HWY_ATTR { return SphereAt(light, hits, i); },
-                [](const SphereLightV<V>& sphere, const Vec3V<V>& direction)
-                    HWY_ATTR { return Meet(sphere, direction); });
-  }
-  const Vec3V<V> normal = SetVec3(D(), light.normal);
-  if (light.form == SampledForm::kRectangle) {
-    return find([&](size_t i) HWY_ATTR { return RectangleAt(light, hits, i); },
-                [&](const RectangleLightV<V>& rectangle, const Vec3V<V>& direction)
-                    HWY_ATTR { return MeetPlane(rectangle.corner, normal, direction); });
-  }
-  find([&](size_t i) HWY_ATTR { return DiskAt(light, hits, i); },
-       [&](const DiskLightV<V>& disk, const Vec3V<V>& direction)
-           HWY_ATTR { return MeetPlane(disk.centre, normal, direction); });
-}
-
-// front(shape) selects the hits that see a side that emits.
-template <class At, class Front>
-void ShapeIrradiance(const SampledLight& light, const Surface& surface, size_t count,
-                     float* irradiance, const At& at, const Front& front) {
-  const D d;
-  const Soa3<float>& n = surface.normal;
-  for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const auto shape = at(i);
-    const V value = hn::Max(Irradiance(d, shape, LoadSoa(D(), n, i)), hn::Zero(d));
-    hn::StoreU(light.two_sided ? value : hn::IfThenElseZero(front(shape), value), d,
-               irradiance + i);
-  }
+  VisitShape(light, hits, [&](const auto& at) { FindShape(light, hits.count, directions, at); });
 }
 
 void AreaIrradianceT(const SampledLight& light, const HitBatch& hits, const Surface& surface,
                      float* irradiance) {
-  const auto fill = [&](const auto& at, const auto& front) {
-    ShapeIrradiance(light, surface, hits.count, irradiance, at, front);
-  };
-  const Vec3V<V> normal = SetVec3(D(), light.normal);
-  const auto before = [&](const Vec3V<V>& offset)
-                          HWY_ATTR { return hn::Lt(FusedDot(offset, normal), hn::Zero(D())); };
-  if (light.form == SampledForm::kSphere) {
-    return fill([&](size_t i) HWY_ATTR { return SphereAt(light, hits, i); },
-                [](const SphereLightV<V>& sphere)
-                    HWY_ATTR { return hn::Gt(Length(sphere.centre), sphere.radius); });
-  }
-  if (light.form == SampledForm::kRectangle) {
-    return fill([&](size_t i) HWY_ATTR { return RectangleAt(light, hits, i); },
-                [&](const RectangleLightV<V>& r) HWY_ATTR { return before(r.corner); });
-  }
-  fill([&](size_t i) HWY_ATTR { return DiskAt(light, hits, i); },
-       [&](const DiskLightV<V>& disk) HWY_ATTR { return before(disk.centre); });
+  VisitShape(light, hits,
+             [&](const auto& at) { ShapeIrradiance(light, surface, hits.count, irradiance, at); });
 }
 
 using DD = hn::ScalableTag<double>;
@@ -195,9 +176,7 @@ void AreaEndsT(const SampledLight& light, const HitBatch& hits, const Soa3<float
     const VD given = hn::LoadU(d, t_max + i);
     const auto asked = hn::Gt(given, zero);
     if (hn::AllFalse(d, asked)) continue;
-    const Vec3V<VD> offset =
-        Sub(place, LoadU3(d, hits.position.x.data() + i, hits.position.y.data() + i,
-                          hits.position.z.data() + i));
+    const Vec3V<VD> offset = Sub(place, LoadSoa(d, hits.position, i));
     const Vec3V<VD> direction = PromoteSoa(d, to_light, i);
     const VD end = light.form == SampledForm::kSphere
                        ? EndOnSphere(offset, light.radius, direction)

@@ -17,29 +17,16 @@
 namespace nacre {
 namespace {
 
-// One level of hits: the model and its layers, or the coat.
-struct Level {
-  const ShadingMaterial& material;
-  const HitBatch& hits;
-  const Surface& surface;
-  HitParameters* textures;
-  size_t begin, end;
-
-  LobeRange Range() const { return {hits, surface, begin, end, textures}; }
-};
-
-Level ModelLevel(const BsdfHits& at) {
-  return {at.material, at.hits, at.surface, at.textures, at.begin, at.end};
-}
-
-Level CoatLevel(const BsdfHits& at, size_t k) {
-  const CoatHits& coat = at.coats[k];
-  return {*at.material.coats[k], coat.hits, coat.surface, coat.textures.get(), at.begin, at.end};
-}
-
-// The textures of the level if its hits have parameters of their own; else null.
-const HitParameters* MapsOf(const Level& level) {
-  return level.material.by_hit.model ? level.textures : nullptr;
+// One level of hits: level 0 is the model and its layers, level 1 + k coat k.
+MaterialHits LevelOf(const MaterialHits& at, size_t level) {
+  if (level == 0) return at;
+  const CoatHits& coat = at.coats[level - 1];
+  return {*at.material.coats[level - 1],
+          coat.hits,
+          coat.surface,
+          at.begin,
+          at.end,
+          coat.textures.get()};
 }
 
 bool HasLayers(const ShadingMaterial& material, LobeKind kind) {
@@ -63,50 +50,37 @@ bool HasMirroredLobe(const ShadingMaterial& material) {
 }
 
 // Makes room->mirrored->light. Returns false if f(l') is 0 at all hits.
-bool MirrorLight(const Level& level, const LightBatch& light, BsdfRoom* room) {
+bool MirrorLight(const MaterialHits& level, const LightBatch& light, BsdfRoom* room) {
   if (!HasMirroredLobe(level.material)) return false;
   if (!room->mirrored) room->mirrored = std::make_unique<MirroredLobe>();
-  return MirrorAtHorizon(level.surface, level.begin, level.end, light, &room->mirrored->light);
+  return MirrorAtHorizon(level, light, &room->mirrored->light);
 }
 
 // Adds the term f(l') to the sum and the specular component.
-void AddMirroredLobe(const Level& level, const Rgb& color, const LightBatch& light, BsdfRoom* room,
-                     ReflectedRadiance* radiance) {
-  if (!MirrorLight(level, light, room)) return;
+void AddMirroredLobe(const LitHits& level, BsdfRoom* room) {
+  if (!MirrorLight(level, *level.on_hits, room)) return;
   MirroredLobe& mirrored = *room->mirrored;
-  const ShadingLight given{.form = LightForm::kGiven, .color = color};
-  ShadeRun(level.material,
-           {level.hits, level.surface, given, &mirrored.light, true, level.textures}, level.begin,
-           level.end, &room->shade, &mirrored.radiance);
-  AddSoa(mirrored.radiance.specular, level.begin, level.end, &radiance->sum);
-  AddSoa(mirrored.radiance.specular, level.begin, level.end, &radiance->specular);
-}
-
-// What one level reflects, whatever lies over it.
-void EvaluateLevel(const Level& level, const ShadingLight& light, const LightBatch* on_hits,
-                   bool components, BsdfRoom* room, ReflectedRadiance* radiance) {
-  ShadeRun(level.material, {level.hits, level.surface, light, on_hits, components, level.textures},
-           level.begin, level.end, &room->shade, radiance);
-  if (level.material.by_hit.normal) AddMirroredLobe(level, light.color, *on_hits, room, radiance);
+  const ShadingLight given{.form = LightForm::kGiven, .color = level.light.color};
+  ShadeRun({level, given, &mirrored.light, &mirrored.radiance}, &room->shade);
+  AddSoa(mirrored.radiance.specular, level.begin, level.end, &level.radiance->sum);
+  AddSoa(mirrored.radiance.specular, level.begin, level.end, &level.radiance->specular);
 }
 
 // The pdf of the model's glossy lobe. Samples at l' are mirrored to l (RaiseAboveHorizon).
-void ModelLobePdf(const Level& level, const LightBatch& light, BsdfRoom* room, float* pdf) {
-  LobePdf(level.material, level.Range(), light, &room->shade, pdf);
+void ModelLobePdf(const MaterialHits& level, const LightBatch& light, BsdfRoom* room, float* pdf) {
+  LobePdf(level, light, &room->shade, pdf);
   if (!MirrorLight(level, light, room)) return;
   MirroredLobe& mirrored = *room->mirrored;
-  LobePdf(level.material, level.Range(), mirrored.light, &room->shade, mirrored.pdf.data());
+  LobePdf(level, mirrored.light, &room->shade, mirrored.pdf.data());
   for (size_t i = level.begin; i < level.end; ++i) {
     if (mirrored.light.irradiance[i] > 0) pdf[i] += mirrored.pdf[i];
   }
 }
 
-void SampleModelLobe(const Level& level, const float* u, const float* v, BsdfRoom* room,
+void SampleModelLobe(const MaterialHits& level, const float* u, const float* v, BsdfRoom* room,
                      Soa3<float>* to_light) {
-  SampleLobe(level.material, level.Range(), u, v, &room->shade, to_light);
-  if (HasMirroredLobe(level.material)) {
-    RaiseAboveHorizon(level.surface, level.begin, level.end, to_light);
-  }
+  SampleLobe(level, u, v, &room->shade, to_light);
+  if (HasMirroredLobe(level.material)) RaiseAboveHorizon(level, to_light);
 }
 
 // --- Stacks.
@@ -127,8 +101,8 @@ void Cover(const Soa3<float>& transmittance, const Soa3<float>& over, size_t beg
 // The layers of one kind at one hit, over the model's lobe of that kind.
 class LayersAtHit {
  public:
-  LayersAtHit(const BsdfHits& at, LobeKind kind, size_t i)
-      : material_(at.material), kind_(kind), maps_(MapsOf(ModelLevel(at))), i_(i) {
+  LayersAtHit(const MaterialHits& at, LobeKind kind, size_t i)
+      : material_(at.material), kind_(kind), maps_(at.Maps()), i_(i) {
     const double n_dot_v = NDotV(at.surface, i);
     const double below = kind == LobeKind::kDiffuse
                              ? BaseAlbedo(material_, maps_, i)
@@ -181,7 +155,8 @@ bool HasDiffuse(const ShadingMaterial& material) {
 }
 
 // The pdf of a layer's samples at hit i. Like the model's, glossy ones are mirrored at the horizon.
-double LayerPdfAt(const BsdfHits& at, const LayerModel& layer, size_t i, const Vec3d& to_light) {
+double LayerPdfAt(const MaterialHits& at, const LayerModel& layer, size_t i,
+                  const Vec3d& to_light) {
   const Surface& surface = at.surface;
   const Vec3d n = VectorAt(surface.normal, i), v = VectorAt(surface.to_view, i);
   const double pdf = LayerPdf(layer, ComputeAngles(n, to_light, v));
@@ -192,7 +167,7 @@ double LayerPdfAt(const BsdfHits& at, const LayerModel& layer, size_t i, const V
 }
 
 // Mixes the pdfs of the layers of a kind with that of the model's lobe, which `pdf` holds.
-void MixLayerPdfs(const BsdfHits& at, LobeKind kind, const LightBatch& light, float* pdf) {
+void MixLayerPdfs(const MaterialHits& at, LobeKind kind, const LightBatch& light, float* pdf) {
   for (size_t i = at.begin; i < at.end; ++i) {
     const LayersAtHit layers(at, kind, i);
     if (!layers.Reflects()) continue;
@@ -210,18 +185,18 @@ void MixLayerPdfs(const BsdfHits& at, LobeKind kind, const LightBatch& light, fl
   }
 }
 
-void FindDiffusePdf(const BsdfHits& at, const LightBatch& light, float* pdf) {
-  CosinePdfs(at.surface, at.begin, at.end, light.to_light, pdf);
+void FindDiffusePdf(const MaterialHits& at, const LightBatch& light, float* pdf) {
+  CosinePdfs(at, light.to_light, pdf);
   if (HasLayers(at.material, LobeKind::kDiffuse)) MixLayerPdfs(at, LobeKind::kDiffuse, light, pdf);
 }
 
-void FindGlossyPdf(const BsdfHits& at, const LightBatch& light, BsdfRoom* room, float* pdf) {
-  ModelLobePdf(ModelLevel(at), light, room, pdf);
+void FindGlossyPdf(const MaterialHits& at, const LightBatch& light, BsdfRoom* room, float* pdf) {
+  ModelLobePdf(at, light, room, pdf);
   if (HasLayers(at.material, LobeKind::kGlossy)) MixLayerPdfs(at, LobeKind::kGlossy, light, pdf);
   if (!CoatsAreSampled(at.material, LobeKind::kGlossy)) return;
   if (room->coat_pdf.size() == 0) room->coat_pdf = AlignedArray<float>(kBatchCapacity);
   for (size_t k = 0; k < at.material.coats.size(); ++k) {
-    ModelLobePdf(CoatLevel(at, k), light, room, room->coat_pdf.data());
+    ModelLobePdf(LevelOf(at, 1 + k), light, room, room->coat_pdf.data());
     for (size_t i = at.begin; i < at.end; ++i) {
       const float chance = at.coats[k].chance[i];
       pdf[i] = chance * room->coat_pdf[i] + (1 - chance) * pdf[i];
@@ -239,7 +214,7 @@ Vec3d SampleCosineInPolar(const Vec3d& normal, double u, double v) {
 
 // Chooses a lobe of the kind for each hit. Where it is a layer's, or the diffuse base under layers,
 // the direction is sampled at once.
-void ChooseLobes(const BsdfHits& at, LobeKind kind, const float* u, const float* v,
+void ChooseLobes(const MaterialHits& at, LobeKind kind, const float* u, const float* v,
                  StackRoom* room) {
   const size_t coats = CoatsAreSampled(at.material, kind) ? at.material.coats.size() : 0;
   const bool layers = HasLayers(at.material, kind);
@@ -270,7 +245,7 @@ void ChooseLobes(const BsdfHits& at, LobeKind kind, const float* u, const float*
 }
 
 // Takes the directions at hits where this lobe was chosen.
-void TakeChosen(const BsdfHits& at, const StackRoom& room, size_t lobe, const Soa3<float>& from,
+void TakeChosen(const MaterialHits& at, const StackRoom& room, size_t lobe, const Soa3<float>& from,
                 Soa3<float>* to_light) {
   for (size_t i = at.begin; i < at.end; ++i) {
     if (room.lobe[i] == lobe) SetVector(VectorAt(from, i), i, to_light);
@@ -278,11 +253,11 @@ void TakeChosen(const BsdfHits& at, const StackRoom& room, size_t lobe, const So
 }
 
 // The coats of the material at hit i.
-std::array<CoatInView, kMostCoats> CoatsInView(const BsdfHits& at, size_t i) {
+std::array<CoatInView, kMostCoats> CoatsInView(const MaterialHits& at, size_t i) {
   std::array<CoatInView, kMostCoats> coats;
   for (size_t k = 0; k < at.material.coats.size(); ++k) {
     coats[k] = {Rgb(VectorAt(at.coats[k].surface.transmittance, i)),
-                IsMirror(*at.material.coats[k], CoatLevel(at, k).Range(), i)};
+                IsMirror(LevelOf(at, 1 + k), i)};
   }
   return coats;
 }
@@ -295,8 +270,8 @@ void SetToNormals(const Surface& surface, size_t begin, size_t end, Soa3<float>*
 // --- Mirrors.
 
 // The factor by which the layers over hit i attenuate a mirror's reflection.
-double TransmittedByLayers(const BsdfHits& at, size_t i) {
-  const HitParameters* const maps = MapsOf(ModelLevel(at));
+double TransmittedByLayers(const MaterialHits& at, size_t i) {
+  const HitParameters* const maps = at.Maps();
   const double n_dot_v = NDotV(at.surface, i);
   double left = 1;
   for (const LayerModel& layer : at.material.layers) {
@@ -329,7 +304,7 @@ void PrepareBsdf(const ShadingMaterial& material, size_t begin, size_t end,
   for (size_t k = 0; k < count; ++k) {
     PrepareRun(*material.coats[k], begin, end, &coats[k].surface, coats[k].textures.get());
   }
-  const BsdfHits at{material, coats[0].hits, *surface, begin, end, nullptr, coats};
+  const MaterialHits at{material, coats[0].hits, *surface, begin, end, nullptr, coats};
   const HitParameters* const maps = material.by_hit.model ? textures : nullptr;
   std::array<double, kMostCoats> chances;
   for (size_t i = begin; i < end; ++i) {
@@ -340,29 +315,22 @@ void PrepareBsdf(const ShadingMaterial& material, size_t begin, size_t end,
   }
 }
 
-void HideUnreflectedLight(const BsdfHits& at, LightBatch* light) {
-  std::array<const Surface*, 1 + kMostCoats> levels = {&at.surface};
-  const size_t coats = at.material.coats.size();
-  for (size_t k = 0; k < coats; ++k) levels[1 + k] = &at.coats[k].surface;
-  HideFacingAway({levels.data(), 1 + coats}, at.begin, at.end, light);
-}
-
-void EvaluateBsdf(const BsdfHits& at, const ShadingLight& light, const LightBatch* on_hits,
-                  bool components, BsdfRoom* room, ReflectedRadiance* radiance,
-                  const LobePdfs& pdfs) {
-  EvaluateLevel(ModelLevel(at), light, on_hits, components, room, radiance);
-  for (size_t k = 0; k < at.material.coats.size(); ++k) {
-    if (!room->of_coat) room->of_coat = std::make_unique<ReflectedRadiance>();
-    EvaluateLevel(CoatLevel(at, k), light, on_hits, components, room, room->of_coat.get());
-    const Soa3<float>& transmittance = at.coats[k].surface.transmittance;
-    const ReflectedRadiance& over = *room->of_coat;
-    Cover(transmittance, over.sum, at.begin, at.end, &radiance->sum);
-    if (!components) continue;
-    Cover(transmittance, over.diffuse, at.begin, at.end, &radiance->diffuse);
-    Cover(transmittance, over.specular, at.begin, at.end, &radiance->specular);
+void EvaluateBsdf(const LitHits& lit, BsdfRoom* room, const LobePdfs& pdfs) {
+  for (size_t k = 0; k <= lit.material.coats.size(); ++k) {
+    if (k > 0 && !room->of_coat) room->of_coat = std::make_unique<ReflectedRadiance>();
+    ReflectedRadiance* const own = k > 0 ? room->of_coat.get() : lit.radiance;
+    const LitHits level{LevelOf(lit, k), lit.light, lit.on_hits, own, lit.components};
+    ShadeRun(level, &room->shade);
+    if (level.material.by_hit.normal) AddMirroredLobe(level, room);
+    if (k == 0) continue;
+    const Soa3<float>& transmittance = level.surface.transmittance;
+    Cover(transmittance, own->sum, lit.begin, lit.end, &lit.radiance->sum);
+    if (!lit.components) continue;
+    Cover(transmittance, own->diffuse, lit.begin, lit.end, &lit.radiance->diffuse);
+    Cover(transmittance, own->specular, lit.begin, lit.end, &lit.radiance->specular);
   }
-  if (pdfs.diffuse != nullptr) FindDiffusePdf(at, *on_hits, pdfs.diffuse);
-  if (pdfs.glossy != nullptr) FindGlossyPdf(at, *on_hits, room, pdfs.glossy);
+  if (pdfs.diffuse != nullptr) FindDiffusePdf(lit, *lit.on_hits, pdfs.diffuse);
+  if (pdfs.glossy != nullptr) FindGlossyPdf(lit, *lit.on_hits, room, pdfs.glossy);
 }
 
 bool HasLobes(const ShadingMaterial& material, LobeKind kind) {
@@ -370,8 +338,8 @@ bool HasLobes(const ShadingMaterial& material, LobeKind kind) {
   return kind == LobeKind::kDiffuse ? HasDiffuse(material) : HasSampledLobe(material);
 }
 
-void SampleLobes(const BsdfHits& at, LobeKind kind, const float* u, const float* v, BsdfRoom* room,
-                 Soa3<float>* to_light) {
+void SampleLobes(const MaterialHits& at, LobeKind kind, const float* u, const float* v,
+                 BsdfRoom* room, Soa3<float>* to_light) {
   const bool layers = HasLayers(at.material, kind), coats = CoatsAreSampled(at.material, kind);
   const bool stacked = layers || coats;
   if (stacked) {
@@ -380,36 +348,35 @@ void SampleLobes(const BsdfHits& at, LobeKind kind, const float* u, const float*
   }
   const float* const rest = stacked ? room->stack->u.data() : u;
   if (kind == LobeKind::kDiffuse) {
-    SampleCosines(at.surface, at.begin, at.end, rest, v, to_light);
+    SampleCosines(at, rest, v, to_light);
   } else {
-    SampleModelLobe(ModelLevel(at), rest, v, room, to_light);
+    SampleModelLobe(at, rest, v, room, to_light);
   }
   if (!stacked) return;
   StackRoom& stack = *room->stack;
   if (layers && kind == LobeKind::kGlossy && at.material.by_hit.normal) {
-    RaiseAboveHorizon(at.surface, at.begin, at.end, &stack.to_light);
+    RaiseAboveHorizon(at, &stack.to_light);
   }
   if (layers) TakeChosen(at, stack, StackRoom::kSampled, stack.to_light, to_light);
   for (size_t k = 0; coats && k < at.material.coats.size(); ++k) {
-    SampleModelLobe(CoatLevel(at, k), rest, v, room, &stack.to_light);
+    SampleModelLobe(LevelOf(at, 1 + k), rest, v, room, &stack.to_light);
     TakeChosen(at, stack, StackRoom::kCoatLobe + k, stack.to_light, to_light);
   }
 }
 
-bool AnyMirror(const BsdfHits& at, size_t level) {
-  if (level > at.material.coats.size()) return false;
-  const Level of = level == 0 ? ModelLevel(at) : CoatLevel(at, level - 1);
-  return AnyMirror(of.material, of.Range());
+bool AnyMirror(const MaterialHits& at, size_t level) {
+  return level <= at.material.coats.size() && AnyMirror(LevelOf(at, level));
 }
 
-bool SampleMirror(const BsdfHits& at, size_t level, Soa3<float>* to_light, Soa3<float>* weight) {
+bool SampleMirror(const MaterialHits& at, size_t level, Soa3<float>* to_light,
+                  Soa3<float>* weight) {
   if (!AnyMirror(at, level)) return false;
-  const Level of = level == 0 ? ModelLevel(at) : CoatLevel(at, level - 1);
-  MirrorDirections(of.Range(), to_light);
-  MirrorReflectances(of.material, of.Range(), weight);
+  const MaterialHits of = LevelOf(at, level);
+  MirrorDirections(of, to_light);
+  MirrorReflectances(of, weight);
   for (size_t i = at.begin; i < at.end; ++i) {
     Vec3d reflected(0, 0, 0);
-    if (IsMirror(of.material, of.Range(), i)) {
+    if (IsMirror(of, i)) {
       reflected = VectorAt(*weight, i);
       if (level == 0) reflected *= TransmittedByLayers(at, i);
       for (size_t k = level; k < at.material.coats.size(); ++k) {
@@ -423,8 +390,8 @@ bool SampleMirror(const BsdfHits& at, size_t level, Soa3<float>* to_light, Soa3<
 
 namespace {
 
-KindChances KindChancesAt(const BsdfHits& at, size_t i) {
-  const HitParameters* const maps = MapsOf(ModelLevel(at));
+KindChances KindChancesAt(const MaterialHits& at, size_t i) {
+  const HitParameters* const maps = at.Maps();
   const double n_dot_v = NDotV(at.surface, i);
   std::vector<LayerModel> layers;
   for (const LayerModel& layer : at.material.layers) {
@@ -436,7 +403,7 @@ KindChances KindChancesAt(const BsdfHits& at, size_t i) {
 
 // Samples the directions of one choice and takes them, and the weights of mirrors, where it was
 // chosen.
-void SampleChosen(const BsdfHits& at, size_t code, const float* v, BsdfRoom* room,
+void SampleChosen(const MaterialHits& at, size_t code, const float* v, BsdfRoom* room,
                   SampleRoom* sample, BsdfSamples* samples) {
   SetToNormals(at.surface, at.begin, at.end, &sample->to_light);
   if (code < kMirrorChosen) {
@@ -454,7 +421,7 @@ void SampleChosen(const BsdfHits& at, size_t code, const float* v, BsdfRoom* roo
 
 }  // namespace
 
-void SampleBsdf(const BsdfHits& at, const float* u, const float* v, BsdfRoom* room,
+void SampleBsdf(const MaterialHits& at, const float* u, const float* v, BsdfRoom* room,
                 SampleRoom* sample, BsdfSamples* samples) {
   for (size_t i = at.begin; i < at.end; ++i) {
     sample->chances[i] = KindChancesAt(at, i);
@@ -474,7 +441,7 @@ void SampleBsdf(const BsdfHits& at, const float* u, const float* v, BsdfRoom* ro
     sample->light.irradiance[i] = above ? 1.0f : 0.0f;
   }
   const ShadingLight unit{.form = LightForm::kGiven, .color = Rgb(1, 1, 1)};
-  EvaluateBsdf(at, unit, &sample->light, true, room, &sample->reflected,
+  EvaluateBsdf({at, unit, &sample->light, &sample->reflected}, room,
                {sample->diffuse_pdf.data(), sample->glossy_pdf.data()});
   for (size_t i = at.begin; i < at.end; ++i) {
     const KindChances& chances = sample->chances[i];
@@ -518,8 +485,8 @@ void EvaluateBatch(const ShadingMaterial& material, const HitBatch& hits, const 
   if (coats->size() < material.coats.size()) coats->resize(material.coats.size());
   for (size_t k = 0; k < material.coats.size(); ++k) CopyToCoat(hits, *surface, &(*coats)[k]);
   PrepareBsdf(material, 0, hits.count, nullptr, surface, *coats);
-  EvaluateBsdf({material, hits, *surface, 0, hits.count, nullptr, *coats}, light, &on_hits, true,
-               room, radiance);
+  const MaterialHits all{material, hits, *surface, 0, hits.count, nullptr, *coats};
+  EvaluateBsdf({all, light, &on_hits, radiance}, room);
 }
 
 }  // namespace nacre

@@ -16,35 +16,13 @@
 #include <span>
 #include <vector>
 
-#include "hit/batch.h"
-#include "shading/hit_parameters.h"
 #include "shading/light.h"
 #include "shading/lobe_chances.h"
-#include "shading/material.h"
+#include "shading/material_hits.h"
 #include "shading/reflection.h"
 #include "shading/surface.h"
 
 namespace nacre {
-
-// One coat over the hits of a batch, by index of the hit: the same positions, with the coat's
-// shading normals, parameters and constants. Entries of hits without this coat are not used.
-struct CoatHits {
-  HitBatch hits;
-  Surface surface;                          // Surface::transmittance is that of the coat
-  std::unique_ptr<HitParameters> textures;  // made for the first coat with maps
-  // The probability of sampling the coat's lobe rather than a glossy lobe below it; 0 for mirrors.
-  AlignedArray<float> chance{kBatchCapacity};
-};
-
-// Hits [begin, end) of a batch, all of one material.
-struct BsdfHits {
-  const ShadingMaterial& material;
-  const HitBatch& hits;
-  const Surface& surface;
-  size_t begin, end;
-  HitParameters* textures = nullptr;     // for materials with maps
-  std::span<const CoatHits> coats = {};  // at least those that the material has
-};
 
 // Where to store the pdfs, per solid angle, with which SampleLobes chooses the direction to the
 // light from the lobes of each kind. Null if they are not asked for.
@@ -89,8 +67,8 @@ void PrepareBsdf(const ShadingMaterial& material, size_t begin, size_t end,
                  const HitParameters* textures, Surface* surface, std::span<CoatHits> coats);
 
 // Sets the light's irradiance to 0 at hits of a normal-mapped batch (Surface::normal_mapped) where
-// no lobe faces the light.
-void HideUnreflectedLight(const BsdfHits& at, LightBatch* light);
+// no lobe faces the light (normal_map_kernel.cc).
+void HideUnreflectedLight(const MaterialHits& at, LightBatch* light);
 
 // Whether the hits' BSDF needs EvaluateLight: if false, EvaluateBsdf evaluates lights for which
 // EvaluatedInPlace is true itself, with the same bits.
@@ -98,14 +76,11 @@ inline bool NeedsLightAtHits(const ShadingMaterial& material) {
   return material.by_hit.normal || !material.coats.empty() || !material.layers.empty();
 }
 
-// Stores in `radiance` what the hits reflect of the light, f |n.l| times its irradiance and colour,
-// and the pdfs of the light's directions that are asked for, which hold where its irradiance is
-// above 0. `on_hits` is the light at the hits; it
-// may be null unless NeedsLightAtHits or pdfs are asked for. Light from below the horizon is 0.
-// `components` says whether diffuse and specular radiance are stored, too.
-void EvaluateBsdf(const BsdfHits& at, const ShadingLight& light, const LightBatch* on_hits,
-                  bool components, BsdfRoom* room, ReflectedRadiance* radiance,
-                  const LobePdfs& pdfs = {});
+// Stores what the hits reflect of the light, f |n.l| times its irradiance and colour, and the pdfs
+// of the light's directions that are asked for, which hold where its irradiance is above 0.
+// lit.on_hits may be null unless NeedsLightAtHits or pdfs are asked for. Light from below the
+// horizon is 0.
+void EvaluateBsdf(const LitHits& lit, BsdfRoom* room, const LobePdfs& pdfs = {});
 
 // Whether the material has, or with maps may have, a lobe of this kind to sample. kDelta is not
 // answered here, but hit by hit (AnyMirror).
@@ -115,17 +90,17 @@ bool HasLobes(const ShadingMaterial& material, LobeKind kind);
 // points (u, v) in [0, 1)^2. From the top down, each lobe is sampled with a probability that is
 // about its fraction of the albedo of these lobes. Directions below the surface reflect nothing.
 // Without such lobes, directions are left as they are.
-void SampleLobes(const BsdfHits& at, LobeKind kind, const float* u, const float* v, BsdfRoom* room,
-                 Soa3<float>* to_light);
+void SampleLobes(const MaterialHits& at, LobeKind kind, const float* u, const float* v,
+                 BsdfRoom* room, Soa3<float>* to_light);
 
 // Whether any of the hits has a perfect mirror's lobe at a level: the model is level 0, coat k
 // level 1 + k. With maps this depends on the hit's roughness.
-bool AnyMirror(const BsdfHits& at, size_t level);
+bool AnyMirror(const MaterialHits& at, size_t level);
 
 // Sets `to_light` to the view direction mirrored about the normal of the level, and `weight` to the
 // radiance reflected of radiance 1 from there, attenuated by the levels above; 0 at hits that have
 // no mirror at this level. Both are left as they are if none has. Returns AnyMirror.
-bool SampleMirror(const BsdfHits& at, size_t level, Soa3<float>* to_light, Soa3<float>* weight);
+bool SampleMirror(const MaterialHits& at, size_t level, Soa3<float>* to_light, Soa3<float>* weight);
 
 // One direction for each hit, sampled from the whole material.
 struct BsdfSamples {
@@ -150,7 +125,7 @@ struct SampleRoom {
 
 // Samples directions from the whole material with points (u, v) in [0, 1)^2: chooses a kind of
 // lobe, in proportion to an estimate of each kind's albedo, and samples the lobes of this kind.
-void SampleBsdf(const BsdfHits& at, const float* u, const float* v, BsdfRoom* room,
+void SampleBsdf(const MaterialHits& at, const float* u, const float* v, BsdfRoom* room,
                 SampleRoom* sample, BsdfSamples* samples);
 
 // Whether the material's diffuse reflection is a function of the view direction times the light's

@@ -41,8 +41,10 @@ HWY_INLINE Vec3V<V> NextPixel(const Vec3V<V>& step, const Vec3V<V>& along, const
           hn::NegMulAdd(along.z, back, step.z)};
 }
 
-void FindSteps(const TexturedRun& run, const HitBatch& hits, HitParameters* t) {
+void FindSteps(const TexturedRun& run) {
   const D d;
+  const HitBatch& hits = run.hits;
+  HitParameters* const t = &run.textures;
   const CameraFrame& camera = run.scene.camera;
   const bool perspective = camera.projection == Projection::kPerspective;
   const Vec3V<V> forward = SetVec3(d, camera.forward);
@@ -60,21 +62,22 @@ void FindSteps(const TexturedRun& run, const HitBatch& hits, HitParameters* t) {
   }
 }
 
-// Sets t->point at hits on meshes, in the units of the mapping. FindPoints has set it on spheres.
-void PlaceMeshPoints(const TexturedRun& run, const PreparedTexture& texture, const HitBatch& hits,
-                     HitParameters* t) {
+// Sets HitParameters::point at hits on meshes, in the units of the mapping. FindPoints has set it
+// on spheres.
+void PlaceMeshPoints(const TexturedRun& run, const PreparedTexture& texture) {
+  const HitBatch& hits = run.hits;
+  HitParameters* const t = &run.textures;
   const auto sphere_count = static_cast<uint32_t>(run.scene.scene->spheres.size());
   for (size_t i = run.begin; i < run.end; ++i) {
     if (hits.primitive[i] < sphere_count) continue;
-    t->point.x[i] = (hits.position.x[i] - texture.center.x) * texture.inverse_size;
-    t->point.y[i] = (hits.position.y[i] - texture.center.y) * texture.inverse_size;
-    t->point.z[i] = (hits.position.z[i] - texture.center.z) * texture.inverse_size;
+    SetVector((VectorAt(hits.position, i) - texture.center) * texture.inverse_size, i, &t->point);
     t->inverse_size[i] = texture.inverse_size;
   }
 }
 
-void MapRun(const TexturedRun& run, const PreparedTexture& texture, HitParameters* t) {
+void MapRun(const TexturedRun& run, const PreparedTexture& texture) {
   const D d;
+  HitParameters* const t = &run.textures;
   const Vec3V<V> fx = SetVec3(d, texture.frame[0]), fy = SetVec3(d, texture.frame[1]);
   const Vec3V<V> fz = SetVec3(d, texture.frame[2]);
   for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
@@ -121,14 +124,14 @@ HWY_INLINE void TransformHit(const PreparedTexture& texture, hn::Mask<D> upside_
   store(FusedDot(gradient_v, dy), &t->dv_dy);
 }
 
-void MakeCoordinatesT(const TexturedRun& run, const PreparedTexture& texture, const HitBatch& hits,
-                      HitParameters* t) {
+void MakeCoordinatesT(const TexturedRun& run, const PreparedTexture& texture) {
   const D d;
+  HitParameters* const t = &run.textures;
   const bool own = texture.mapping == MappingKind::kUv;
-  FindSteps(run, hits, t);
-  if (t->any_mesh && !own) PlaceMeshPoints(run, texture, hits, t);
-  MapRun(run, texture, t);  // at hits on meshes with their own (u, v), the result is not used
-  if (t->any_mesh && own) FindMeshCoordinates(run, texture, hits, t);
+  FindSteps(run);
+  if (t->any_mesh && !own) PlaceMeshPoints(run, texture);
+  MapRun(run, texture);  // at hits on meshes with their own (u, v), the result is not used
+  if (t->any_mesh && own) FindMeshCoordinates(run, texture);
   const auto sphere_count = static_cast<uint32_t>(run.scene.scene->spheres.size());
   const bool down = IsUpsideDown(texture.mapping);
   for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
@@ -136,7 +139,7 @@ void MakeCoordinatesT(const TexturedRun& run, const PreparedTexture& texture, co
     if (t->any_mesh && own) {
       alignas(64) double is_sphere[8] = {};
       for (size_t k = 0; k < hn::Lanes(d); ++k) {
-        is_sphere[k] = hits.primitive[i + k] < sphere_count ? 1 : 0;
+        is_sphere[k] = run.hits.primitive[i + k] < sphere_count ? 1 : 0;
       }
       upside_down = hn::Gt(hn::Load(d, is_sphere), hn::Zero(d));
     }
@@ -153,9 +156,8 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(MakeCoordinatesT);
 
-void MakeCoordinates(const TexturedRun& run, const PreparedTexture& texture, const HitBatch& hits,
-                     HitParameters* textures) {
-  HWY_DYNAMIC_DISPATCH(MakeCoordinatesT)(run, texture, hits, textures);
+void MakeCoordinates(const TexturedRun& run, const PreparedTexture& texture) {
+  HWY_DYNAMIC_DISPATCH(MakeCoordinatesT)(run, texture);
 }
 }  // namespace nacre
 #endif

@@ -99,48 +99,42 @@ HWY_INLINE AnglesV<V> AnglesAt(const Surface& surface, const LightBatch& light, 
 
 // light * share, but 0 for a share of 0 even where the light has overflowed: infinity times 0 is
 // NaN.
-HWY_INLINE V Left(V light, V share) {
+HWY_INLINE Vec3V<V> Left(const Vec3V<V>& light, V share) {
   const D d;
-  return hn::IfThenElseZero(hn::Gt(share, hn::Zero(d)), hn::Mul(light, share));
+  const auto any = hn::Gt(share, hn::Zero(d));
+  const Vec3V<V> left = Scale(light, share);
+  return {hn::IfThenElseZero(any, left.x), hn::IfThenElseZero(any, left.y),
+          hn::IfThenElseZero(any, left.z)};
 }
 
 template <class Model>
-void Cover(const Model& model, const HitParameters* maps, const ShadeRange& range) {
+void Cover(const Model& model, const LitHits& lit) {
   const D d;
   const HalfFloatTag df;
-  const Rgb& light = range.light.color;
-  const LayerOnHits<Model> layer(model, maps);
-  auto& [sum, diffuse, specular] = *range.radiance;
+  const LayerOnHits<Model> layer(model, lit.Maps());
+  auto& [sum, diffuse, specular] = *lit.radiance;
   constexpr bool kIsDiffuse = Model::kKind == LobeKind::kDiffuse;
   Soa3<float>& own = kIsDiffuse ? diffuse : specular;  // the component that the layer adds to
   Soa3<float>& other = kIsDiffuse ? specular : diffuse;
-  for (size_t i = range.begin; i < range.end; i += hn::Lanes(d)) {
-    const auto mask = hn::FirstN(df, range.end - i);
-    const AnglesV<V> angles = AnglesAt(range.surface, *range.on_hits, i);
+  for (size_t i = lit.begin; i < lit.end; i += hn::Lanes(d)) {
+    const auto mask = hn::FirstN(df, lit.end - i);
+    const AnglesV<V> angles = AnglesAt(lit.surface, *lit.on_hits, i);
     const LayerReflectionV terms = layer.At(i, angles);
-    const Vec3V<V> lobe = Scale(terms.lobe, PromoteAt(d, range.on_hits->irradiance, i));
-    const auto cover = [&](AlignedArray<float>& below, V added) HWY_ATTR {
-      const V left = Left(PromoteAt(d, below, i), terms.below);
-      hn::BlendedStore(hn::DemoteTo(df, hn::Add(left, added)), mask, df, below.data() + i);
+    const Vec3V<V> lobe = Scale(terms.lobe, PromoteAt(d, lit.on_hits->irradiance, i));
+    const Vec3V<V> of_layer = Mul3(lobe, SetVec3(d, lit.light.color));
+    const auto cover = [&](Soa3<float>& below, const Vec3V<V>& added) HWY_ATTR {
+      const Vec3V<V> left = Left(PromoteSoa(d, below, i), terms.below);
+      BlendedStoreSoa(df, Demote3(d, Add(left, added)), mask, i, &below);
     };
-    const Vec3V<V> of_layer{hn::Mul(lobe.x, hn::Set(d, light.x)),
-                            hn::Mul(lobe.y, hn::Set(d, light.y)),
-                            hn::Mul(lobe.z, hn::Set(d, light.z))};
-    cover(sum.x, of_layer.x);
-    cover(sum.y, of_layer.y);
-    cover(sum.z, of_layer.z);
-    if (!range.components) continue;
-    cover(own.x, of_layer.x);
-    cover(own.y, of_layer.y);
-    cover(own.z, of_layer.z);
-    cover(other.x, hn::Zero(d));
-    cover(other.y, hn::Zero(d));
-    cover(other.z, hn::Zero(d));
+    cover(sum, of_layer);
+    if (!lit.components) continue;
+    cover(own, of_layer);
+    cover(other, SetVec3(d, Vec3d(0)));
   }
 }
 
-void CoverByLayerT(const LayerModel& layer, const HitParameters* maps, const ShadeRange& range) {
-  std::visit([&](const auto& model) { Cover(model, maps, range); }, layer);
+void CoverByLayerT(const LayerModel& layer, const LitHits& lit) {
+  std::visit([&](const auto& model) { Cover(model, lit); }, layer);
 }
 
 }  // namespace
@@ -152,8 +146,8 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(CoverByLayerT);
 
-void CoverByLayer(const LayerModel& layer, const HitParameters* textures, const ShadeRange& range) {
-  HWY_DYNAMIC_DISPATCH(CoverByLayerT)(layer, textures, range);
+void CoverByLayer(const LayerModel& layer, const LitHits& lit) {
+  HWY_DYNAMIC_DISPATCH(CoverByLayerT)(layer, lit);
 }
 }  // namespace nacre
 #endif

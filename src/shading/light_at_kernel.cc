@@ -41,16 +41,12 @@ HWY_INLINE void ForEachPacket(const HitBatch& hits, const Surface& surface, Ligh
   const FloatTag d;
   // Normal-mapped hits get light from above the unmapped surface.
   const Soa3<float>& n = HorizonNormal(surface);
-  Soa3<float>& l = result->to_light;
   for (size_t i = 0; i < hits.count; i += hn::Lanes(d)) {
     const LightV light = at(i);
-    const Vec3V<FloatV> normal = LoadU3(d, n.x.data() + i, n.y.data() + i, n.z.data() + i);
-    const FloatV n_dot_l = light.toward.Dot(normal);
+    const FloatV n_dot_l = light.toward.Dot(LoadSoa(d, n, i));
     // No model reflects light from below the surface, so no shadow ray need be traced to it.
     const FloatV irradiance = hn::IfThenElseZero(hn::Gt(n_dot_l, hn::Zero(d)), light.irradiance);
-    hn::StoreU(light.toward.offset.x, d, l.x.data() + i);
-    hn::StoreU(light.toward.offset.y, d, l.y.data() + i);
-    hn::StoreU(light.toward.offset.z, d, l.z.data() + i);
+    StoreSoa(d, light.toward.offset, i, &result->to_light);
     hn::StoreU(light.toward.inverse_length, d, result->inverse_length.data() + i);
     hn::StoreU(irradiance, d, result->irradiance.data() + i);
   }

@@ -49,12 +49,10 @@ void SkyRadiance(const SampledLight& light, const Soa3<double>& directions, size
   NormalizeDirections(directions, count, radiance);
   EvaluateSky(light, *radiance, count, radiance, nullptr);
   const Vec3f color(light.color);
-  const auto scale = [&](float by, AlignedArray<float>* channel) {
-    for (size_t i = 0; i < count; ++i) (*channel)[i] *= by;
-  };
-  scale(color.x, &radiance->x);
-  scale(color.y, &radiance->y);
-  scale(color.z, &radiance->z);
+  for (int c = 0; c < 3; ++c) {
+    float* const channel = ChannelOf(*radiance, c).data();
+    for (size_t i = 0; i < count; ++i) channel[i] *= color[c];
+  }
 }
 
 }  // namespace nacre

@@ -5,34 +5,9 @@
 
 #include "base/overloaded.h"
 #include "shading/lobe_sample.h"
-#include "shading/mapped.h"
 #include "shading/models_at_hit.h"
 #include "shading/scalar_bsdf.h"
 #include "shading/user_model.h"
-
-#ifndef NACRE_SHADING_LOBE_KERNEL_ONCE_
-#define NACRE_SHADING_LOBE_KERNEL_ONCE_
-namespace nacre {
-namespace {
-
-// A GGX lobe to sample, with constants that all hits share or those of each hit. `fit` is as in
-// MicrofacetUniforms.
-template <class Number>
-struct GgxLobe {
-  const MicrofacetModel& model;
-  MicrofacetConstants<Number> constants;
-  const float* fit;
-};
-
-// The exponent of a Phong lobe.
-struct PhongExponent {
-  float uniform;        // of all hits, if by_hit is null
-  const float* by_hit;  // of each hit, or null
-};
-
-}  // namespace
-}  // namespace nacre
-#endif
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/lobe_kernel.cc"
@@ -53,34 +28,32 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
 
-// Calls at(i) for each packet of hits and stores the direction that it gives, in lanes of the
-// range only: a packet may reach into the next one.
-template <class At>
-HWY_INLINE void ForEachPacket(size_t begin, size_t end, Soa3<float>* to, const At& at) {
+// Stores the direction of(i) for each packet of hits, in lanes of the range only: a packet may
+// reach into the next one.
+template <class Of>
+HWY_INLINE void ForEachPacket(const MaterialHits& at, Soa3<float>* to, const Of& of) {
   const D d;
-  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-    const auto mask = hn::FirstN(d, end - i);
-    BlendedStoreSoa(d, at(i), mask, i, to);
+  for (size_t i = at.begin; i < at.end; i += hn::Lanes(d)) {
+    const auto mask = hn::FirstN(d, at.end - i);
+    BlendedStoreSoa(d, of(i), mask, i, to);
   }
 }
 
-void SampleCosinesT(const Surface& surface, size_t begin, size_t end, const float* u,
-                    const float* v, Soa3<float>* to_light) {
+void SampleCosinesT(const MaterialHits& at, const float* u, const float* v, Soa3<float>* to_light) {
   const D d;
-  ForEachPacket(begin, end, to_light, [&](size_t i) HWY_ATTR {
-    return SampleCosine(d, LoadSoa(D(), surface.normal, i), hn::LoadU(d, u + i),
+  ForEachPacket(at, to_light, [&](size_t i) HWY_ATTR {
+    return SampleCosine(d, LoadSoa(D(), at.surface.normal, i), hn::LoadU(d, u + i),
                         hn::LoadU(d, v + i));
   });
 }
 
 // The product is not fused, so that every target gives the same bits.
-void CosinePdfsT(const Surface& surface, size_t begin, size_t end, const Soa3<float>& to_light,
-                 float* pdf) {
+void CosinePdfsT(const MaterialHits& at, const Soa3<float>& to_light, float* pdf) {
   const D d;
   const V by_pi = hn::Set(d, static_cast<float>(M_1_PI));
-  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-    const V n_dot_l = Dot(LoadSoa(d, surface.normal, i), LoadSoa(d, to_light, i));
-    hn::BlendedStore(hn::Mul(n_dot_l, by_pi), hn::FirstN(d, end - i), d, pdf + i);
+  for (size_t i = at.begin; i < at.end; i += hn::Lanes(d)) {
+    const V n_dot_l = Dot(LoadSoa(d, at.surface.normal, i), LoadSoa(d, to_light, i));
+    hn::BlendedStore(hn::Mul(n_dot_l, by_pi), hn::FirstN(d, at.end - i), d, pdf + i);
   }
 }
 
@@ -102,7 +75,7 @@ HWY_INLINE V MaxChannel(const Number (&rgb)[3], size_t i) {
 template <class Number>
 class KullaContyShares {
  public:
-  KullaContyShares(const GgxLobe<Number>& lobe, const Surface& surface)
+  KullaContyShares(const MicrofacetNumbers<Number>& lobe, const Surface& surface)
       : lobe_(lobe),
         multiple_(surface.multiple.data()),
         form_(lobe.model.albedo.lobe.shape.form),
@@ -112,18 +85,16 @@ class KullaContyShares {
   HWY_INLINE V Share(size_t i) const {
     const D d;
     const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-    const MicrofacetConstants<Number>& constants = lobe_.constants;
-    const V scale = NumberAt(constants.multiple, i);
-    const V f0 = MaxChannel(constants.f0, i), f90 = NumberAt(constants.f90, i);
+    const V scale = NumberAt(lobe_.multiple, i);
+    const V f0 = MaxChannel(lobe_.f0, i), f90 = NumberAt(lobe_.f90, i);
     const auto loses = hn::Gt(scale, zero);
     const V loss = hn::Min(hn::IfThenElseZero(loses, hn::Div(hn::LoadU(d, multiple_ + i),
                                                              hn::IfThenElse(loses, scale, one))),
                            one);
     // The mean of Schlick's curve approximates that of all Fresnel curves.
     const V f_average = hn::MulAdd(hn::Sub(f90, f0), hn::Set(d, 1.0f / 21), f0);
-    const V single =
-        hn::Mul(hn::Mul(f_average, hn::Sub(one, loss)), NumberAt(constants.not_delta, i));
-    const V multiple = hn::Mul(MaxChannel(constants.f_multiple, i), loss);
+    const V single = hn::Mul(hn::Mul(f_average, hn::Sub(one, loss)), NumberAt(lobe_.not_delta, i));
+    const V multiple = hn::Mul(MaxChannel(lobe_.f_multiple, i), loss);
     const auto any = hn::Gt(multiple, zero);
     const V sum = hn::IfThenElse(any, hn::Add(multiple, single), one);
     return hn::IfThenElseZero(any, hn::Div(multiple, sum));
@@ -143,29 +114,29 @@ class KullaContyShares {
   }
 
  private:
-  const GgxLobe<Number>& lobe_;
+  const MicrofacetNumbers<Number>& lobe_;
   const float* multiple_;
   AlbedoForm form_;
   float spread_;
 };
 
 template <class Number>
-void SampleGgxOf(const GgxLobe<Number>& lobe, const LobeRange& range, const float* u,
+void SampleGgxOf(const MicrofacetNumbers<Number>& lobe, const MaterialHits& at, const float* u,
                  const float* v, Soa3<float>* to_light) {
   const D d;
   const V one = hn::Set(d, 1.0f), zero = hn::Zero(d);
   if (lobe.model.compensation != Compensation::kKullaConty) {
-    ForEachPacket(range.begin, range.end, to_light, [&](size_t i) HWY_ATTR {
-      return SampleGgxVisible(
-          d, LoadSoa(D(), range.surface.normal, i), LoadSoa(D(), range.surface.to_view, i),
-          NumberAt(lobe.constants.alpha, i), hn::LoadU(d, u + i), hn::LoadU(d, v + i));
+    ForEachPacket(at, to_light, [&](size_t i) HWY_ATTR {
+      return SampleGgxVisible(d, LoadSoa(D(), at.surface.normal, i),
+                              LoadSoa(D(), at.surface.to_view, i), NumberAt(lobe.alpha, i),
+                              hn::LoadU(d, u + i), hn::LoadU(d, v + i));
     });
     return;
   }
-  const KullaContyShares<Number> shares(lobe, range.surface);
+  const KullaContyShares<Number> shares(lobe, at.surface);
   const V below_one = hn::Set(d, 1 - 0x1p-24f);
-  ForEachPacket(range.begin, range.end, to_light, [&](size_t i) HWY_ATTR {
-    const Vec3V<V> normal = LoadSoa(D(), range.surface.normal, i);
+  ForEachPacket(at, to_light, [&](size_t i) HWY_ATTR {
+    const Vec3V<V> normal = LoadSoa(D(), at.surface.normal, i);
     const V u0 = hn::LoadU(d, u + i), u1 = hn::LoadU(d, v + i);
     const V share = shares.Share(i), rest = hn::Sub(one, share);
     const auto multiple = hn::Lt(u0, share);
@@ -175,31 +146,24 @@ void SampleGgxOf(const GgxLobe<Number>& lobe, const LobeRange& range, const floa
     const V again =
         hn::Min(hn::Div(hn::Sub(u0, offset), hn::IfThenElse(hn::Gt(divisor, zero), divisor, one)),
                 below_one);
-    const Vec3V<V> single = SampleGgxVisible(d, normal, LoadSoa(D(), range.surface.to_view, i),
-                                             NumberAt(lobe.constants.alpha, i), again, u1);
+    const Vec3V<V> single = SampleGgxVisible(d, normal, LoadSoa(D(), at.surface.to_view, i),
+                                             NumberAt(lobe.alpha, i), again, u1);
     if (hn::AllFalse(d, multiple)) return single;
     return Select(multiple, SampleKullaConty(d, normal, shares.Spread(i), again, u1), single);
   });
 }
 
-void SampleGgxT(const GgxLobe<float>& lobe, const LobeRange& range, const float* u, const float* v,
-                Soa3<float>* to_light) {
-  SampleGgxOf(lobe, range, u, v, to_light);
-}
-
-void SampleGgxMapsT(const GgxLobe<float*>& lobe, const LobeRange& range, const float* u,
-                    const float* v, Soa3<float>* to_light) {
-  SampleGgxOf(lobe, range, u, v, to_light);
-}
+constexpr auto& SampleGgxT = SampleGgxOf<float>;
+constexpr auto& SampleGgxMapsT = SampleGgxOf<float*>;
 
 // Phong's lobe is about the mirrored view direction, Blinn's half vector about the normal.
-void SamplePhongT(PhongModel model, const PhongExponent& exponent, const LobeRange& range,
+void SamplePhongT(PhongModel model, const PhongExponent& exponent, const MaterialHits& at,
                   const float* u, const float* v, Soa3<float>* to_light) {
   const D d;
   const bool blinn = model == PhongModel::kBlinnPhong;
-  ForEachPacket(range.begin, range.end, to_light, [&](size_t i) HWY_ATTR {
-    const Vec3V<V> normal = LoadSoa(D(), range.surface.normal, i);
-    const Vec3V<V> to_view = LoadSoa(D(), range.surface.to_view, i);
+  ForEachPacket(at, to_light, [&](size_t i) HWY_ATTR {
+    const Vec3V<V> normal = LoadSoa(D(), at.surface.normal, i);
+    const Vec3V<V> to_view = LoadSoa(D(), at.surface.to_view, i);
     const V u0 = hn::LoadU(d, u + i), u1 = hn::LoadU(d, v + i);
     const V n = ExponentAt(exponent, i);
     return blinn ? SampleBlinnLobe(d, normal, to_view, n, u0, u1)
@@ -208,16 +172,16 @@ void SamplePhongT(PhongModel model, const PhongExponent& exponent, const LobeRan
 }
 
 template <class Number>
-void GgxPdfOf(const GgxLobe<Number>& lobe, const LobeRange& range, const LightBatch& light,
-              const float* sharp_distribution, float* pdf) {
+void GgxPdfOf(const MicrofacetNumbers<Number>& lobe, const MaterialHits& at,
+              const LightBatch& light, const float* sharp_distribution, float* pdf) {
   const D d;
   const bool kulla_conty = lobe.model.compensation == Compensation::kKullaConty;
-  const KullaContyShares<Number> shares(lobe, range.surface);
-  for (size_t i = range.begin; i < range.end; i += hn::Lanes(d)) {
-    const V alpha = NumberAt(lobe.constants.alpha, i);
+  const KullaContyShares<Number> shares(lobe, at.surface);
+  for (size_t i = at.begin; i < at.end; i += hn::Lanes(d)) {
+    const V alpha = NumberAt(lobe.alpha, i);
     const AnglesV<V> angles =
-        ComputeAngles(d, LoadSoa(D(), range.surface.normal, i), LoadSoa(D(), light.to_light, i),
-                      LoadSoa(D(), range.surface.to_view, i));
+        ComputeAngles(d, LoadSoa(D(), at.surface.normal, i), LoadSoa(D(), light.to_light, i),
+                      LoadSoa(D(), at.surface.to_view, i));
     V distribution = GgxDistribution(d, angles, alpha);
     if (sharp_distribution != nullptr) {
       const V exact = hn::LoadU(d, sharp_distribution + i);
@@ -230,28 +194,21 @@ void GgxPdfOf(const GgxLobe<Number>& lobe, const LobeRange& range, const LightBa
       const V multiple = hn::Mul(share, KullaContyPdf(d, angles.n_dot_l, shares.Spread(i)));
       value = hn::Add(single, hn::IfThenElseZero(hn::Gt(share, hn::Zero(d)), multiple));
     }
-    hn::BlendedStore(value, hn::FirstN(d, range.end - i), d, pdf + i);
+    hn::BlendedStore(value, hn::FirstN(d, at.end - i), d, pdf + i);
   }
 }
 
-void GgxPdfT(const GgxLobe<float>& lobe, const LobeRange& range, const LightBatch& light,
-             const float* sharp_distribution, float* pdf) {
-  GgxPdfOf(lobe, range, light, sharp_distribution, pdf);
-}
+constexpr auto& GgxPdfT = GgxPdfOf<float>;
+constexpr auto& GgxPdfMapsT = GgxPdfOf<float*>;
 
-void GgxPdfMapsT(const GgxLobe<float*>& lobe, const LobeRange& range, const LightBatch& light,
-                 const float* sharp_distribution, float* pdf) {
-  GgxPdfOf(lobe, range, light, sharp_distribution, pdf);
-}
-
-void PhongPdfT(PhongModel model, const PhongExponent& exponents, const LobeRange& range,
+void PhongPdfT(PhongModel model, const PhongExponent& exponents, const MaterialHits& at,
                const LightBatch& light, const SharpLobeTerms* sharp, float* pdf) {
   const D d;
   const bool blinn = model == PhongModel::kBlinnPhong;
-  for (size_t i = range.begin; i < range.end; i += hn::Lanes(d)) {
-    const Vec3V<V> normal = LoadSoa(D(), range.surface.normal, i),
+  for (size_t i = at.begin; i < at.end; i += hn::Lanes(d)) {
+    const Vec3V<V> normal = LoadSoa(D(), at.surface.normal, i),
                    to_light = LoadSoa(D(), light.to_light, i);
-    const Vec3V<V> to_view = LoadSoa(D(), range.surface.to_view, i);
+    const Vec3V<V> to_view = LoadSoa(D(), at.surface.to_view, i);
     const AnglesV<V> angles = ComputeAngles(d, normal, to_light, to_view);
     LobeCosineV<V> cosine = blinn
                                 ? BlinnSquaredCosine(d, angles)
@@ -266,13 +223,13 @@ void PhongPdfT(PhongModel model, const PhongExponent& exponents, const LobeRange
     const V lobe = blinn ? BlinnLobe(d, cosine, exponent) : PhongLobe(d, cosine, exponent);
     const V value =
         blinn ? BlinnLobePdf(d, lobe, angles, exponent) : PhongLobePdf(d, lobe, exponent);
-    hn::BlendedStore(value, hn::FirstN(d, range.end - i), d, pdf + i);
+    hn::BlendedStore(value, hn::FirstN(d, at.end - i), d, pdf + i);
   }
 }
 
-void MirrorDirectionsT(const LobeRange& range, Soa3<float>* to_light) {
-  ForEachPacket(range.begin, range.end, to_light, [&](size_t i) HWY_ATTR {
-    return Mirrored(LoadSoa(D(), range.surface.to_view, i), LoadSoa(D(), range.surface.normal, i));
+void MirrorDirectionsT(const MaterialHits& at, Soa3<float>* to_light) {
+  ForEachPacket(at, to_light, [&](size_t i) HWY_ATTR {
+    return Mirrored(LoadSoa(D(), at.surface.to_view, i), LoadSoa(D(), at.surface.normal, i));
   });
 }
 
@@ -303,25 +260,9 @@ bool HasLobe(const MicrofacetModel& microfacet) {
   return microfacet.f90 > 0 && (!microfacet.delta || multiple);
 }
 
-const ShadingLight& GivenLight() {
-  static const ShadingLight kGiven{.form = LightForm::kGiven};
-  return kGiven;
-}
-
-// The textures of the range if its hits have constants each; else null.
-const HitParameters* MapsOf(const ShadingMaterial& material, const LobeRange& range) {
-  return material.by_hit.model ? range.textures : nullptr;
-}
-
 PhongExponent ExponentOf(const PhongFamilyModel& phong, const HitParameters* maps) {
   return {static_cast<float>(phong.shininess),
           maps != nullptr ? ColumnsIn<PhongConstants<float*>>(maps->constants).shininess : nullptr};
-}
-
-GgxLobe<float> LobeOf(const MicrofacetModel& model) { return {model, model.constants, nullptr}; }
-GgxLobe<float*> LobeOf(const MicrofacetModel& model, const HitParameters& maps, bool widths) {
-  return {model, ColumnsIn<MicrofacetConstants<float*>>(maps.constants),
-          widths ? maps.fit.data() : nullptr};
 }
 
 // Sets the model's Fresnel curve and shadowing to those of hit i.
@@ -350,86 +291,81 @@ bool HasSampledLobe(const ShadingMaterial& material) {
                     material.model);
 }
 
-void SampleCosines(const Surface& surface, size_t begin, size_t end, const float* u, const float* v,
-                   Soa3<float>* to_light) {
-  HWY_DYNAMIC_DISPATCH(SampleCosinesT)(surface, begin, end, u, v, to_light);
+void SampleCosines(const MaterialHits& at, const float* u, const float* v, Soa3<float>* to_light) {
+  HWY_DYNAMIC_DISPATCH(SampleCosinesT)(at, u, v, to_light);
 }
 
-void CosinePdfs(const Surface& surface, size_t begin, size_t end, const Soa3<float>& to_light,
-                float* pdf) {
-  HWY_DYNAMIC_DISPATCH(CosinePdfsT)(surface, begin, end, to_light, pdf);
+void CosinePdfs(const MaterialHits& at, const Soa3<float>& to_light, float* pdf) {
+  HWY_DYNAMIC_DISPATCH(CosinePdfsT)(at, to_light, pdf);
 }
 
-void SampleLobe(const ShadingMaterial& material, const LobeRange& range, const float* u,
-                const float* v, ShadeScratch* scratch, Soa3<float>* to_light) {
-  if (!HasSampledLobe(material)) return;
-  if (const auto* user = std::get_if<UserModel>(&material.model)) {
-    return SampleUser(*user, range, u, v, scratch, to_light);
+void SampleLobe(const MaterialHits& at, const float* u, const float* v, ShadeScratch* scratch,
+                Soa3<float>* to_light) {
+  if (!HasSampledLobe(at.material)) return;
+  if (const auto* user = std::get_if<UserModel>(&at.material.model)) {
+    return SampleUser(*user, at, u, v, scratch, to_light);
   }
-  const HitParameters* const maps = MapsOf(material, range);
-  if (const auto* phong = std::get_if<PhongFamilyModel>(&material.model)) {
-    return HWY_DYNAMIC_DISPATCH(SamplePhongT)(phong->model, ExponentOf(*phong, maps), range, u, v,
+  const HitParameters* const maps = at.Maps();
+  if (const auto* phong = std::get_if<PhongFamilyModel>(&at.material.model)) {
+    return HWY_DYNAMIC_DISPATCH(SamplePhongT)(phong->model, ExponentOf(*phong, maps), at, u, v,
                                               to_light);
   }
-  const auto& model = std::get<MicrofacetModel>(material.model);
-  if (maps == nullptr) {
-    return HWY_DYNAMIC_DISPATCH(SampleGgxT)(LobeOf(model), range, u, v, to_light);
+  const auto& model = std::get<MicrofacetModel>(at.material.model);
+  if (maps != nullptr) {
+    return HWY_DYNAMIC_DISPATCH(SampleGgxMapsT)(NumbersOfHits(at.material, *maps), at, u, v,
+                                                to_light);
   }
-  HWY_DYNAMIC_DISPATCH(SampleGgxMapsT)
-  (LobeOf(model, *maps, material.by_hit.width), range, u, v, to_light);
+  HWY_DYNAMIC_DISPATCH(SampleGgxT)(NumbersOfModel(model), at, u, v, to_light);
 }
 
-void LobePdf(const ShadingMaterial& material, const LobeRange& hits, const LightBatch& light,
-             ShadeScratch* scratch, float* pdf) {
-  if (!HasSampledLobe(material)) {
-    std::fill(pdf + hits.begin, pdf + hits.end, 0.0f);
+void LobePdf(const MaterialHits& at, const LightBatch& light, ShadeScratch* scratch, float* pdf) {
+  if (!HasSampledLobe(at.material)) {
+    std::fill(pdf + at.begin, pdf + at.end, 0.0f);
     return;
   }
-  if (const auto* user = std::get_if<UserModel>(&material.model)) {
-    return UserPdf(*user, hits, light, scratch, pdf);
+  if (const auto* user = std::get_if<UserModel>(&at.material.model)) {
+    return UserPdf(*user, at, light, scratch, pdf);
   }
-  const ShadeRange range{hits.hits,  hits.surface, GivenLight(), &light,
-                         hits.begin, hits.end,     nullptr,      false};
-  const HitParameters* const maps = MapsOf(material, hits);
-  if (const auto* phong = std::get_if<PhongFamilyModel>(&material.model)) {
-    return HWY_DYNAMIC_DISPATCH(PhongPdfT)(phong->model, ExponentOf(*phong, maps), hits, light,
-                                           FormSharpTerms(*phong, range, maps, &scratch->sharp),
-                                           pdf);
+  static const ShadingLight kGiven{.form = LightForm::kGiven};
+  const LitHits lit{at, kGiven, &light, nullptr, false};
+  const HitParameters* const maps = at.Maps();
+  if (const auto* phong = std::get_if<PhongFamilyModel>(&at.material.model)) {
+    return HWY_DYNAMIC_DISPATCH(PhongPdfT)(phong->model, ExponentOf(*phong, maps), at, light,
+                                           FormSharpTerms(*phong, lit, &scratch->sharp), pdf);
   }
-  const auto& model = std::get<MicrofacetModel>(material.model);
-  const SharpLobeTerms* const sharp = FormSharpTerms(model, range, maps, &scratch->sharp);
+  const auto& model = std::get<MicrofacetModel>(at.material.model);
+  const SharpLobeTerms* const sharp = FormSharpTerms(model, lit, &scratch->sharp);
   const float* const distribution = sharp != nullptr ? sharp->distribution.data() : nullptr;
-  if (maps == nullptr) {
-    return HWY_DYNAMIC_DISPATCH(GgxPdfT)(LobeOf(model), hits, light, distribution, pdf);
+  if (maps != nullptr) {
+    return HWY_DYNAMIC_DISPATCH(GgxPdfMapsT)(NumbersOfHits(at.material, *maps), at, light,
+                                             distribution, pdf);
   }
-  HWY_DYNAMIC_DISPATCH(GgxPdfMapsT)
-  (LobeOf(model, *maps, material.by_hit.width), hits, light, distribution, pdf);
+  HWY_DYNAMIC_DISPATCH(GgxPdfT)(NumbersOfModel(model), at, light, distribution, pdf);
 }
 
-bool IsMirror(const ShadingMaterial& material, const LobeRange& range, size_t hit) {
-  const auto* model = std::get_if<MicrofacetModel>(&material.model);
-  if (model == nullptr || !material.by_hit.model) return HasDeltaLobe(material);
-  return IsDeltaLobe(AlphaFromRoughness(NumbersOf(*range.textures, MappedNumber::kWidth)[hit]));
+bool IsMirror(const MaterialHits& at, size_t hit) {
+  const auto* model = std::get_if<MicrofacetModel>(&at.material.model);
+  if (model == nullptr || !at.material.by_hit.model) return HasDeltaLobe(at.material);
+  return IsDeltaLobe(AlphaFromRoughness(NumbersOf(*at.textures, MappedNumber::kWidth)[hit]));
 }
 
-bool AnyMirror(const ShadingMaterial& material, const LobeRange& range) {
-  if (!material.by_hit.model) return HasDeltaLobe(material);
-  for (size_t i = range.begin; i < range.end; ++i) {
-    if (IsMirror(material, range, i)) return true;
+bool AnyMirror(const MaterialHits& at) {
+  if (!at.material.by_hit.model) return HasDeltaLobe(at.material);
+  for (size_t i = at.begin; i < at.end; ++i) {
+    if (IsMirror(at, i)) return true;
   }
   return false;
 }
 
-void MirrorDirections(const LobeRange& range, Soa3<float>* to_light) {
-  HWY_DYNAMIC_DISPATCH(MirrorDirectionsT)(range, to_light);
+void MirrorDirections(const MaterialHits& at, Soa3<float>* to_light) {
+  HWY_DYNAMIC_DISPATCH(MirrorDirectionsT)(at, to_light);
 }
 
-void MirrorReflectances(const ShadingMaterial& material, const LobeRange& range,
-                        Soa3<float>* reflectance) {
-  auto at_hit = std::get<MicrofacetModel>(material.model);
-  for (size_t i = range.begin; i < range.end; ++i) {
-    if (material.by_hit.model) TakeHit(material, *range.textures, i, &at_hit);
-    SetVector(MirrorReflectance(at_hit, NDotV(range.surface, i)), i, reflectance);
+void MirrorReflectances(const MaterialHits& at, Soa3<float>* reflectance) {
+  auto at_hit = std::get<MicrofacetModel>(at.material.model);
+  for (size_t i = at.begin; i < at.end; ++i) {
+    if (at.material.by_hit.model) TakeHit(at.material, *at.textures, i, &at_hit);
+    SetVector(MirrorReflectance(at_hit, NDotV(at.surface, i)), i, reflectance);
   }
 }
 

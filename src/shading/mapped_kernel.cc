@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "scene/material_parameters.h"
-#include "shading/mapped.h"
+#include "shading/kernels.h"
 #include "shading/models_at_hit.h"
 #include "shading/texture_kernels.h"
 
@@ -38,27 +38,27 @@ struct Hits {
   }
 };
 
-void StartNumbersT(const TexturedRun& run, HitParameters* t) {
+void StartNumbersT(const TexturedRun& run) {
   const Hits hits{run.begin, run.end};
   const Material& material = *run.material.scene_material;
   for (const MaterialMap& map : ModelOf(material)->maps) {
     for (const MapTarget& target : TargetsOf(map)) {
       const Rgb factor = target.factor(material);
       for (int c = 0; c < (target.is_color ? 3 : 1); ++c) {
-        hits.Fill(ChannelOf(t->numbers[static_cast<size_t>(target.number)], c).data(),
+        hits.Fill(ChannelOf(run.textures.numbers[static_cast<size_t>(target.number)], c).data(),
                   [&](size_t) { return factor[c]; });
       }
     }
   }
 }
 
-void MultiplyNumberT(const TexturedRun& run, const MapTarget& target, HitParameters* t) {
+void MultiplyNumberT(const TexturedRun& run, const MapTarget& target) {
   const double most = target.most;
   for (int c = 0; c < (target.is_color ? 3 : 1); ++c) {
     const float* HWY_RESTRICT const texels =
-        ChannelOf(t->texels, target.is_color ? c : target.channel).data();
+        ChannelOf(run.textures.texels, target.is_color ? c : target.channel).data();
     double* HWY_RESTRICT const values =
-        ChannelOf(t->numbers[static_cast<size_t>(target.number)], c).data();
+        ChannelOf(run.textures.numbers[static_cast<size_t>(target.number)], c).data();
     for (size_t i = run.begin; i < run.end; ++i) {
       values[i] = std::min(std::max(values[i] * double{texels[i]}, 0.0), most);
     }
@@ -68,11 +68,11 @@ void MultiplyNumberT(const TexturedRun& run, const MapTarget& target, HitParamet
 // Stores the albedo and ambient output layers of hits with parameters of their own. shown_of(c, i)
 // is channel c of hit i.
 template <class ShownOf>
-void PutShown(const TexturedRun& run, const ShownOf& shown_of, HitParameters* t) {
+void PutShown(const TexturedRun& run, const ShownOf& shown_of) {
   const Hits hits{run.begin, run.end};
   for (int c = 0; c < 3; ++c) {
-    float *const albedo = ChannelOf(t->albedo, c).data(), *const ambient =
-                                                              ChannelOf(t->ambient, c).data();
+    float *const albedo = ChannelOf(run.textures.albedo, c).data(),
+                 *const ambient = ChannelOf(run.textures.ambient, c).data();
     const double radiance = run.material.in_ambient ? run.scene.ambient[c] : 0;
     hits.Each([&](size_t i) {
       const ShownColors at = shown_of(c, i);
@@ -82,69 +82,67 @@ void PutShown(const TexturedRun& run, const ShownOf& shown_of, HitParameters* t)
   }
 }
 
-void PutShown(const TexturedRun& run, HitParameters* t) {
+void PutShown(const TexturedRun& run) {
   const Hits hits{run.begin, run.end};
   const double* color[3];
   for (int c = 0; c < 3; ++c) {
-    const double* const emission = NumbersOf(*t, MappedNumber::kEmission, c);
-    hits.Fill(ChannelOf(t->emission, c).data(), [&](size_t i) { return emission[i]; });
-    color[c] = NumbersOf(*t, MappedNumber::kColor, c);
+    const double* const emission = NumbersOf(run.textures, MappedNumber::kEmission, c);
+    hits.Fill(ChannelOf(run.textures.emission, c).data(), [&](size_t i) { return emission[i]; });
+    color[c] = NumbersOf(run.textures, MappedNumber::kColor, c);
   }
   const Material& material = *run.material.scene_material;
   if (const auto* phong = std::get_if<PhongMaterial>(&material.model)) {
     const Rgb kd = phong->kd, ka = phong->ka;
-    PutShown(
-        run, [&](int c, size_t i) { return DerivePhongShown(color[c][i], kd[c], ka[c]); }, t);
+    PutShown(run, [&](int c, size_t i) { return DerivePhongShown(color[c][i], kd[c], ka[c]); });
   } else if (const auto* dielectric = std::get_if<DielectricMaterial>(&material.model)) {
     const double gloss = AverageDielectric(dielectric->ior);
-    PutShown(
-        run, [&](int c, size_t i) { return DeriveDielectricShown(color[c][i], gloss); }, t);
+    PutShown(run, [&](int c, size_t i) { return DeriveDielectricShown(color[c][i], gloss); });
   } else if (std::holds_alternative<ConductorMaterial>(material.model)) {  // has no colour map
     for (int c = 0; c < 3; ++c) {
-      hits.Fill(ChannelOf(t->albedo, c).data(), [&](size_t) { return run.material.albedo[c]; });
+      hits.Fill(ChannelOf(run.textures.albedo, c).data(),
+                [&](size_t) { return run.material.albedo[c]; });
       const double ambient =
           run.material.in_ambient ? run.material.of_ambient[c] * run.scene.ambient[c] : 0;
-      hits.Fill(ChannelOf(t->ambient, c).data(), [&](size_t) { return ambient; });
+      hits.Fill(ChannelOf(run.textures.ambient, c).data(), [&](size_t) { return ambient; });
     }
   } else {
-    PutShown(
-        run, [&](int c, size_t i) { return DeriveShown(color[c][i]); }, t);
+    PutShown(run, [&](int c, size_t i) { return DeriveShown(color[c][i]); });
   }
 }
 
 // Stores the constants of a rough diffuse surface; roughness(i) is that of hit i.
 template <class Roughness>
 void PutMatte(const TexturedRun& run, DiffuseForm form, const Roughness& roughness,
-              const MatteConstants<float*>& to, HitParameters* t) {
+              const MatteConstants<float*>& to) {
   if (form == DiffuseForm::kLambert) return;
   const Hits hits{run.begin, run.end};
   hits.Fill(to.roughness, roughness);
   if (form != DiffuseForm::kOrenNayar) return;
   for (int c = 0; c < 3; ++c) {
-    const double* const color = NumbersOf(*t, MappedNumber::kColor, c);
+    const double* const color = NumbersOf(run.textures, MappedNumber::kColor, c);
     hits.Fill(to.ratio[c], [&](size_t i) { return EonMultipleRatio(color[i], roughness(i)); });
   }
 }
 
-void Finish(const TexturedRun& run, const MatteModel& model, HitParameters* t) {
-  const auto to = ColumnsIn<MatteConstants<float*>>(t->constants);
+void Finish(const TexturedRun& run, const MatteModel& model) {
+  const auto to = ColumnsIn<MatteConstants<float*>>(run.textures.constants);
   PutMatte(
-      run, model.form, [&](size_t) { return model.roughness; }, to, t);
+      run, model.form, [&](size_t) { return model.roughness; }, to);
 }
 
-void Finish(const TexturedRun& run, const PhongFamilyModel&, HitParameters* t) {
+void Finish(const TexturedRun& run, const PhongFamilyModel&) {
   const Hits hits{run.begin, run.end};
   const auto& phong = std::get<PhongMaterial>(run.material.scene_material->model);
-  const double* const exponents = NumbersOf(*t, MappedNumber::kWidth);
-  const auto to = ColumnsIn<PhongConstants<float*>>(t->constants);
+  const double* const exponents = NumbersOf(run.textures, MappedNumber::kWidth);
+  const auto to = ColumnsIn<PhongConstants<float*>>(run.textures.constants);
   hits.Fill(to.shininess, [&](size_t i) { return exponents[i]; });
   if (run.material.by_hit.width) {
-    hits.Fill(t->phong_scale.data(), [&](size_t i) {
+    hits.Fill(run.textures.phong_scale.data(), [&](size_t i) {
       return DerivePhongScale(phong.model, phong.convention, exponents[i]);
     });
   } else {
     const double scale = DerivePhongScale(phong.model, phong.convention, phong.shininess);
-    hits.Fill(t->phong_scale.data(), [&](size_t) { return scale; });
+    hits.Fill(run.textures.phong_scale.data(), [&](size_t) { return scale; });
   }
 }
 
@@ -165,10 +163,10 @@ void PutFit(const AlbedoFit& fit, const AlbedoPolynomial& second, size_t i, HitP
 // Stores the albedos of the hits' lobes: the fits of hits with a roughness each, whose second curve
 // is Schlick's or that of a dielectric's index; and, for Kulla and Conty's compensation, the
 // averages. Hits with the same roughness as the hit before reuse its fit.
-void PutAlbedos(const TexturedRun& run, const MicrofacetModel& model, HitParameters* t) {
+void PutAlbedos(const TexturedRun& run, const MicrofacetModel& model) {
   const bool kulla_conty = model.compensation == Compensation::kKullaConty;
   if (!run.material.by_hit.width && !kulla_conty) return;
-  const double* const roughness = NumbersOf(*t, MappedNumber::kWidth);
+  const double* const roughness = NumbersOf(run.textures, MappedNumber::kWidth);
   AlbedoFit fit = model.albedo.lobe;
   DielectricCurve curve{model.albedo.fresnel, model.albedo.average};
   double last = -1;
@@ -179,10 +177,12 @@ void PutAlbedos(const TexturedRun& run, const MicrofacetModel& model, HitParamet
                         : BlendAlbedoCurves(model.shadowing, last);
       if (model.curves) curve = BlendDielectricCurves(*model.curves, last);
     }
-    if (run.material.by_hit.width) PutFit(fit, model.curves ? curve.fresnel : fit.schlick, i, t);
-    t->one_average[i] = fit.e_average;
-    t->schlick_average[i] = fit.schlick_average;
-    t->dielectric_average[i] = curve.average;
+    if (run.material.by_hit.width) {
+      PutFit(fit, model.curves ? curve.fresnel : fit.schlick, i, &run.textures);
+    }
+    run.textures.one_average[i] = fit.e_average;
+    run.textures.schlick_average[i] = fit.schlick_average;
+    run.textures.dielectric_average[i] = curve.average;
   }
 }
 
@@ -205,10 +205,9 @@ struct KullaContyAt {
   const double *one, *schlick, *dielectric;
 };
 
-void PutWidths(const TexturedRun& run, Shadowing shadowing, const MicrofacetConstants<float*>& to,
-               HitParameters* t) {
-  const double* const roughness = NumbersOf(*t, MappedNumber::kWidth);
-  double* const sharp = t->sharp_alpha.data();
+void PutWidths(const TexturedRun& run, Shadowing shadowing, const MicrofacetConstants<float*>& to) {
+  const double* const roughness = NumbersOf(run.textures, MappedNumber::kWidth);
+  double* const sharp = run.textures.sharp_alpha.data();
   Hits{run.begin, run.end}.Each([&](size_t i) {
     const LobeWidth width = DeriveWidth(shadowing, roughness[i]);
     PutWidth(width, AtHit{i}, &to);
@@ -217,7 +216,7 @@ void PutWidths(const TexturedRun& run, Shadowing shadowing, const MicrofacetCons
 }
 
 void PutBase(const TexturedRun& run, const MicrofacetModel& model,
-             const MicrofacetConstants<float*>& to, HitParameters* t) {
+             const MicrofacetConstants<float*>& to) {
   if (model.base_form == DiffuseForm::kLambert) return;
   const Material& material = *run.material.scene_material;
   std::optional<double> own;  // empty: the base has the lobe's roughness
@@ -226,66 +225,67 @@ void PutBase(const TexturedRun& run, const MicrofacetModel& model,
   } else if (const auto* dielectric = std::get_if<DielectricMaterial>(&material.model)) {
     own = dielectric->diffuse_roughness;
   }
-  const double* const roughness = NumbersOf(*t, MappedNumber::kWidth);
+  const double* const roughness = NumbersOf(run.textures, MappedNumber::kWidth);
   if (own) {
     PutMatte(
-        run, model.base_form, [&](size_t) { return *own; }, to.base, t);
+        run, model.base_form, [&](size_t) { return *own; }, to.base);
   } else {
     PutMatte(
-        run, model.base_form, [&](size_t i) { return roughness[i]; }, to.base, t);
+        run, model.base_form, [&](size_t i) { return roughness[i]; }, to.base);
   }
 }
 
-void Finish(const TexturedRun& run, const MicrofacetModel& model, HitParameters* t) {
+void Finish(const TexturedRun& run, const MicrofacetModel& model) {
   const Hits hits{run.begin, run.end};
-  const auto to = ColumnsIn<MicrofacetConstants<float*>>(t->constants);
+  const auto to = ColumnsIn<MicrofacetConstants<float*>>(run.textures.constants);
   const bool kulla_conty = model.compensation == Compensation::kKullaConty;
-  PutWidths(run, model.shadowing, to, t);
-  if (model.prepared) PutAlbedos(run, model, t);
+  PutWidths(run, model.shadowing, to);
+  if (model.prepared) PutAlbedos(run, model);
   for (int c = 0; c < 3; ++c) {
-    VisitChannel(run.material, *t, c, [&](const auto& channel) {
+    VisitChannel(run.material, run.textures, c, [&](const auto& channel) {
       hits.Each([&](size_t i) { PutCurve(channel.Colors(i), c, AtHit{i}, &to); });
       if (model.fresnel == FresnelForm::kF82) {
         hits.Each([&](size_t i) { PutF82(channel.Colors(i), c, AtHit{i}, &to); });
       }
       if (kulla_conty) {
-        const KullaContyAt kulla_conty_at(model, channel, *t);
+        const KullaContyAt kulla_conty_at(model, channel, run.textures);
         hits.Each([&](size_t i) { PutKullaConty(kulla_conty_at(i), c, AtHit{i}, &to); });
       }
     });
   }
   if (kulla_conty) {
-    hits.Fill(to.multiple, [&](size_t i) { return KullaContyScale(t->one_average[i]); });
+    const double* const one = run.textures.one_average.data();
+    hits.Fill(to.multiple, [&](size_t i) { return KullaContyScale(one[i]); });
   }
-  PutBase(run, model, to, t);
+  PutBase(run, model, to);
 }
 
-void Finish(const TexturedRun&, const std::monostate&, HitParameters*) {}
-void Finish(const TexturedRun&, const UserModel&, HitParameters*) {}
+void Finish(const TexturedRun&, const std::monostate&) {}
+void Finish(const TexturedRun&, const UserModel&) {}
 
-void FinishNumbersT(const TexturedRun& run, HitParameters* t) {
-  PutShown(run, t);
+void FinishNumbersT(const TexturedRun& run) {
+  PutShown(run);
   if (!run.material.by_hit.model) return;
-  std::visit([&](const auto& model) { Finish(run, model, t); }, run.material.model);
+  std::visit([&](const auto& model) { Finish(run, model); }, run.material.model);
 }
 
-void Multiply(const MappedProducts& products, const MatteModel&, int c, HitParameters* t) {
-  const double light = products.color[c];
-  const double* const color = NumbersOf(*t, MappedNumber::kColor, c);
-  const auto to = ColumnsIn<MatteLight<float*>>(t->products);
-  Hits{products.begin, products.end}.Fill(
-      to.diffuse[c], [&](size_t i) { return DeriveDiffuse(color[i]) * light; });
+void Multiply(const LitHits& lit, const MatteModel&, int c) {
+  const double light = lit.light.color[c];
+  const double* const color = NumbersOf(*lit.textures, MappedNumber::kColor, c);
+  const auto to = ColumnsIn<MatteLight<float*>>(lit.textures->products);
+  Hits{lit.begin, lit.end}.Fill(to.diffuse[c],
+                                [&](size_t i) { return DeriveDiffuse(color[i]) * light; });
 }
 
-void Multiply(const MappedProducts& products, const PhongFamilyModel&, int c, HitParameters* t) {
-  const auto& phong = std::get<PhongMaterial>(products.material.scene_material->model);
+void Multiply(const LitHits& lit, const PhongFamilyModel&, int c) {
+  const auto& phong = std::get<PhongMaterial>(lit.material.scene_material->model);
   const PhongConvention convention = phong.convention;
-  const double light = products.color[c], kd = phong.kd[c];
-  const double* const color = NumbersOf(*t, MappedNumber::kColor, c);
-  const double* const ks = NumbersOf(*t, MappedNumber::kSpecularColor, c);
-  const double* const scale = t->phong_scale.data();
-  const auto to = ColumnsIn<PhongLight<float*>>(t->products);
-  Hits{products.begin, products.end}.Each([&](size_t i) {
+  const double light = lit.light.color[c], kd = phong.kd[c];
+  const double* const color = NumbersOf(*lit.textures, MappedNumber::kColor, c);
+  const double* const ks = NumbersOf(*lit.textures, MappedNumber::kSpecularColor, c);
+  const double* const scale = lit.textures->phong_scale.data();
+  const auto to = ColumnsIn<PhongLight<float*>>(lit.textures->products);
+  Hits{lit.begin, lit.end}.Each([&](size_t i) {
     const PhongChannel at = DerivePhong(convention, kd, color[i], ks[i], scale[i]);
     to.diffuse[c][i] = static_cast<float>(at.diffuse * light);
     to.specular[c][i] = static_cast<float>(at.specular * light);
@@ -293,13 +293,14 @@ void Multiply(const MappedProducts& products, const PhongFamilyModel&, int c, Hi
 }
 
 template <class Channel, class Diffuse>
-void Multiply(const MappedProducts& products, const MicrofacetModel& model, int c,
-              const Channel& channel, const Diffuse& diffuse, HitParameters* t) {
-  const Hits hits{products.begin, products.end};
+void Multiply(const LitHits& lit, const MicrofacetModel& model, int c, const Channel& channel,
+              const Diffuse& diffuse) {
+  const Hits hits{lit.begin, lit.end};
   const MicrofacetForm form = model;
-  const double light = products.color[c];
-  const float* const not_delta = ColumnsIn<MicrofacetConstants<float*>>(t->constants).not_delta;
-  const auto to = ColumnsIn<MicrofacetLight<float*>>(t->products);
+  const double light = lit.light.color[c];
+  const float* const not_delta =
+      ColumnsIn<MicrofacetConstants<float*>>(lit.textures->constants).not_delta;
+  const auto to = ColumnsIn<MicrofacetLight<float*>>(lit.textures->products);
   if (form.fresnel != FresnelForm::kSchlick) {
     hits.Each([&](size_t i) {
       to.diffuse[c][i] = static_cast<float>(diffuse(i) * light);
@@ -317,30 +318,26 @@ void Multiply(const MappedProducts& products, const MicrofacetModel& model, int 
   });
 }
 
-void Multiply(const MappedProducts& products, const MicrofacetModel& model, int c,
-              HitParameters* t) {
-  VisitChannel(products.material, *t, c, [&](const auto& channel) {
+void Multiply(const LitHits& lit, const MicrofacetModel& model, int c) {
+  VisitChannel(lit.material, *lit.textures, c, [&](const auto& channel) {
     if (model.compensation != Compensation::kKullaConty) {
-      return Multiply(
-          products, model, c, channel, [&](size_t i) { return channel.Colors(i).diffuse; }, t);
+      return Multiply(lit, model, c, channel, [&](size_t i) { return channel.Colors(i).diffuse; });
     }
-    const KullaContyAt at(model, channel, *t);
-    Multiply(
-        products, model, c, channel, [&](size_t i) { return at(i).diffuse; }, t);
-    const double light = products.color[c];
-    const auto to = ColumnsIn<MicrofacetLight<float*>>(t->products);
-    Hits{products.begin, products.end}.Fill(to.multiple[c],
-                                            [&](size_t i) { return at(i).f_multiple * light; });
+    const KullaContyAt at(model, channel, *lit.textures);
+    Multiply(lit, model, c, channel, [&](size_t i) { return at(i).diffuse; });
+    const double light = lit.light.color[c];
+    const auto to = ColumnsIn<MicrofacetLight<float*>>(lit.textures->products);
+    Hits{lit.begin, lit.end}.Fill(to.multiple[c],
+                                  [&](size_t i) { return at(i).f_multiple * light; });
   });
 }
 
-void Multiply(const MappedProducts&, const std::monostate&, int, HitParameters*) {}
-void Multiply(const MappedProducts&, const UserModel&, int, HitParameters*) {}
+void Multiply(const LitHits&, const std::monostate&, int) {}
+void Multiply(const LitHits&, const UserModel&, int) {}
 
-void MakeProductsT(const MappedProducts& products, HitParameters* t) {
+void MakeProductsT(const LitHits& lit) {
   for (int c = 0; c < 3; ++c) {
-    std::visit([&](const auto& model) { Multiply(products, model, c, t); },
-               products.material.model);
+    std::visit([&](const auto& model) { Multiply(lit, model, c); }, lit.material.model);
   }
 }
 
@@ -356,28 +353,26 @@ HWY_EXPORT(MultiplyNumberT);
 HWY_EXPORT(FinishNumbersT);
 HWY_EXPORT(MakeProductsT);
 
-void StartNumbers(const TexturedRun& run, HitParameters* textures) {
-  HWY_DYNAMIC_DISPATCH(StartNumbersT)(run, textures);
+void StartNumbers(const TexturedRun& run) { HWY_DYNAMIC_DISPATCH(StartNumbersT)(run); }
+
+void MultiplyNumber(const TexturedRun& run, const MapTarget& target) {
+  HWY_DYNAMIC_DISPATCH(MultiplyNumberT)(run, target);
 }
 
-void MultiplyNumber(const TexturedRun& run, const MapTarget& target, HitParameters* textures) {
-  HWY_DYNAMIC_DISPATCH(MultiplyNumberT)(run, target, textures);
+void FinishNumbers(const TexturedRun& run) {
+  run.textures.products_end = 0;  // the products were made of other parameters
+  HWY_DYNAMIC_DISPATCH(FinishNumbersT)(run);
 }
 
-void FinishNumbers(const TexturedRun& run, HitParameters* textures) {
-  textures->products_end = 0;  // the products were made of other parameters
-  HWY_DYNAMIC_DISPATCH(FinishNumbersT)(run, textures);
-}
-
-void MakeProducts(const MappedProducts& products, HitParameters* textures) {
-  HitParameters& t = *textures;
-  const bool are_there = t.products_begin == products.begin && t.products_end == products.end &&
-                         t.products_color == products.color;
+void MakeProducts(const LitHits& lit) {
+  HitParameters& t = *lit.textures;
+  const bool are_there = t.products_begin == lit.begin && t.products_end == lit.end &&
+                         t.products_color == lit.light.color;
   if (are_there) return;
-  t.products_begin = products.begin;
-  t.products_end = products.end;
-  t.products_color = products.color;
-  HWY_DYNAMIC_DISPATCH(MakeProductsT)(products, textures);
+  t.products_begin = lit.begin;
+  t.products_end = lit.end;
+  t.products_color = lit.light.color;
+  HWY_DYNAMIC_DISPATCH(MakeProductsT)(lit);
 }
 }  // namespace nacre
 #endif

@@ -365,4 +365,10 @@ bool HasDeltaLobe(const ShadingMaterial& material) {
   return microfacet != nullptr && microfacet->delta && microfacet->f90 > 0;
 }
 
+bool HasMirror(const ShadingMaterial& material) {
+  return HasDeltaLobe(material) ||
+         std::any_of(material.coats.begin(), material.coats.end(),
+                     [](const auto& coat) { return HasDeltaLobe(*coat); });
+}
+
 }  // namespace nacre

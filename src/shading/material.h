@@ -61,4 +61,7 @@ bool HasDoubleTerms(const ShadingMaterial& material);
 // True if the material has a perfect mirror's lobe.
 bool HasDeltaLobe(const ShadingMaterial& material);
 
+// True if a perfect mirror's lobe is among those of the material and its coats.
+bool HasMirror(const ShadingMaterial& material);
+
 }  // namespace nacre

@@ -168,10 +168,7 @@ class PdfSum {
   void Add(size_t hit, uint32_t triangle) {
     if (count_ == kBatchCapacity) Flush();
     SetTriangle(light_, hits_, triangle, hit, count_, &scratch_.seen);
-    const Soa3<float>& l = directions_.to_light;
-    scratch_.to_light.x[count_] = l.x[hit];
-    scratch_.to_light.y[count_] = l.y[hit];
-    scratch_.to_light.z[count_] = l.z[hit];
+    SetVector(VectorAt(directions_.to_light, hit), count_, &scratch_.to_light);
     scratch_.hit[count_] = static_cast<uint32_t>(hit);
     scratch_.probability[count_] = static_cast<float>(light_.mesh->probabilities[triangle]);
     ++count_;

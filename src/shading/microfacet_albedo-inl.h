@@ -22,36 +22,30 @@ struct AlbedoV {
   FloatV scale, bias;
 };
 
-HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model, FloatV f90,
-                                  const AlbedoVariablesV<FloatV>& x) {
-  const AlbedoFit& fit = model.albedo.lobe;
+// The albedo for a dielectric's exact Fresnel curve, of which `fit` is the model's fit, or the fit
+// of each hit.
+HWY_INLINE FloatV DielectricAlbedo(FloatTag d, const MicrofacetModel& model, const AlbedoFit&,
+                                   FloatV one, const AlbedoVariablesV<FloatV>& x) {
+  return AlbedoFresnel(d, model.albedo, one, x);
+}
+HWY_INLINE FloatV DielectricAlbedo(FloatTag d, const MicrofacetModel& model,
+                                   const AlbedoFitLanes& fit, FloatV one,
+                                   const AlbedoVariablesV<FloatV>& x) {
+  const FloatV eta = hn::Set(d, static_cast<float>(model.eta.x));
+  const FloatV one_minus_mu = hn::Sub(hn::Set(d, 1.0f), x.n_dot_v);
+  const FloatV mirror = FresnelDielectric(d, x.n_dot_v, one_minus_mu, eta);
+  return AlbedoNearMirror(d, fit, fit.schlick, mirror, one, x);
+}
+
+template <class Fit>
+HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model, const Fit& fit,
+                                  FloatV f90, const AlbedoVariablesV<FloatV>& x) {
   const FloatV one = AlbedoOne(d, fit, x);
-  const FloatV loss = AlbedoLoss(d, fit, x);
   // The branch selects vectors, not structs, because GCC would pass a struct through memory.
   FloatV scale, bias;
   if (model.fresnel == FresnelForm::kDielectric) {
     scale = hn::Zero(d);
-    bias = AlbedoFresnel(d, model.albedo, one, x);
-  } else {
-    const FloatV schlick = AlbedoSchlick(d, fit, one, x);
-    scale = hn::Sub(one, schlick);
-    bias = hn::Mul(f90, schlick);
-  }
-  return {one, loss, scale, bias};
-}
-
-// EvaluateAlbedo with the fit of each hit, whose second curve is Schlick's or the dielectric's.
-HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model,
-                                  const AlbedoFitLanes& fit, FloatV f90,
-                                  const AlbedoVariablesV<FloatV>& x) {
-  const FloatV unit = hn::Set(d, 1.0f);
-  const FloatV one = AlbedoOne(d, fit, x);
-  FloatV scale, bias;
-  if (model.fresnel == FresnelForm::kDielectric) {
-    const FloatV eta = hn::Set(d, static_cast<float>(model.eta.x));
-    const FloatV mirror = FresnelDielectric(d, x.n_dot_v, hn::Sub(unit, x.n_dot_v), eta);
-    scale = hn::Zero(d);
-    bias = AlbedoNearMirror(d, fit, fit.schlick, mirror, one, x);
+    bias = DielectricAlbedo(d, model, fit, one, x);
   } else {
     const FloatV schlick = AlbedoSchlick(d, fit, one, x);
     scale = hn::Sub(one, schlick);
@@ -61,19 +55,17 @@ HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model,
 }
 
 // EvaluateAlbedo from n.v, or n.l, alone.
-HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model, FloatV f90,
-                                  FloatV cosine) {
-  const AlbedoFit& fit = model.albedo.lobe;
-  return EvaluateAlbedo(d, model, f90, ComputeAlbedoVariables(d, fit.shape, cosine));
-}
-
-HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model,
-                                  const AlbedoFitLanes& fit, FloatV f90, FloatV cosine) {
+template <class Fit>
+HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model, const Fit& fit,
+                                  FloatV f90, FloatV cosine) {
   return EvaluateAlbedo(d, model, fit, f90, ComputeAlbedoVariables(d, fit.shape, cosine));
 }
 
-// The fits of the hits at `fit`, whose entries are `stride` apart.
-HWY_INLINE AlbedoFitLanes FitAt(const float* fit, size_t stride, Shadowing shadowing) {
+// The fits of hits i..., where HitParameters::fit begins at `fits`. Their second curve is Schlick's
+// or the dielectric's.
+HWY_INLINE AlbedoFitLanes FitAt(const float* fits, size_t i, Shadowing shadowing) {
+  constexpr size_t stride = HitParameters::kStride;
+  const float* const fit = fits + i;
   AlbedoFitLanes lanes;
   lanes.shape = {fit, fit + stride, fit + 2 * stride, fit + 3 * stride, AlbedoFormOf(shadowing)};
   lanes.one = {fit + 4 * stride, stride};

@@ -29,9 +29,7 @@ struct MixedCurveV {
   RgbV dielectric, metal;
 };
 HWY_INLINE RgbV FresnelOf(const FresnelCurveV& curve) { return curve.fresnel; }
-HWY_INLINE RgbV FresnelOf(const MixedCurveV& curve) {
-  return AddRgb(curve.dielectric, curve.metal);
-}
+HWY_INLINE RgbV FresnelOf(const MixedCurveV& curve) { return Add(curve.dielectric, curve.metal); }
 
 template <FresnelForm kFresnel, class Number>
 HWY_INLINE auto EvaluateCurve(FloatTag d, const HalfIncidentV& in, size_t i,
@@ -44,23 +42,23 @@ HWY_INLINE auto EvaluateCurve(FloatTag d, const HalfIncidentV& in, size_t i,
     if constexpr (kFresnel == FresnelForm::kF82) {
       const RgbV f0 = RgbAt(d, uniforms.metal_f0, i), slope = RgbAt(d, uniforms.f82_slope, i);
       const FloatV one = hn::Set(d, 1.0f), metallic = NumberAt(d, uniforms.metallic, i);
-      const RgbV metal{FresnelF82(d, v_dot_h, one_minus_vh, f0.r, slope.r),
-                       FresnelF82(d, v_dot_h, one_minus_vh, f0.g, slope.g),
-                       FresnelF82(d, v_dot_h, one_minus_vh, f0.b, slope.b)};
+      const RgbV metal{FresnelF82(d, v_dot_h, one_minus_vh, f0.x, slope.x),
+                       FresnelF82(d, v_dot_h, one_minus_vh, f0.y, slope.y),
+                       FresnelF82(d, v_dot_h, one_minus_vh, f0.z, slope.z)};
       const RgbV other = RgbAt(d, uniforms.dielectric_f0, i);
       const FloatV f90 = NumberAt(d, uniforms.dielectric_f90, i), weight = Power5(one_minus_vh);
-      const RgbV dielectric{FresnelSchlick(d, other.r, f90, weight),
-                            FresnelSchlick(d, other.g, f90, weight),
-                            FresnelSchlick(d, other.b, f90, weight)};
-      return MixedCurveV{ScaleRgb(dielectric, hn::Sub(one, metallic)), ScaleRgb(metal, metallic)};
+      const RgbV dielectric{FresnelSchlick(d, other.x, f90, weight),
+                            FresnelSchlick(d, other.y, f90, weight),
+                            FresnelSchlick(d, other.z, f90, weight)};
+      return MixedCurveV{Scale(dielectric, hn::Sub(one, metallic)), Scale(metal, metallic)};
     } else if constexpr (kFresnel == FresnelForm::kDielectric) {
       const FloatV grey = FresnelDielectric(d, v_dot_h, one_minus_vh, hn::Set(d, uniforms.eta[0]));
       return FresnelCurveV{{grey, grey, grey}};
     } else {
       const RgbV eta = SetRgb(d, uniforms.eta), k = SetRgb(d, uniforms.k);
-      return FresnelCurveV{{FresnelConductor(d, v_dot_h, one_minus_vh, eta.r, k.r),
-                            FresnelConductor(d, v_dot_h, one_minus_vh, eta.g, k.g),
-                            FresnelConductor(d, v_dot_h, one_minus_vh, eta.b, k.b)}};
+      return FresnelCurveV{{FresnelConductor(d, v_dot_h, one_minus_vh, eta.x, k.x),
+                            FresnelConductor(d, v_dot_h, one_minus_vh, eta.y, k.y),
+                            FresnelConductor(d, v_dot_h, one_minus_vh, eta.z, k.z)}};
     }
   }
 }
@@ -69,12 +67,12 @@ HWY_INLINE auto EvaluateCurve(FloatTag d, const HalfIncidentV& in, size_t i,
 template <class Number>
 HWY_INLINE RgbV ReflectedBy(FloatTag d, const SchlickCurveV& curve, size_t i,
                             const MicrofacetLight<Number>& light) {
-  return MulAddRgb(RgbAt(d, light.specular_rise, i), curve.weight, RgbAt(d, light.specular_f0, i));
+  return MulAdd3(RgbAt(d, light.specular_rise, i), curve.weight, RgbAt(d, light.specular_f0, i));
 }
 template <class Curve, class Number>
 HWY_INLINE RgbV ReflectedBy(FloatTag d, const Curve& curve, size_t i,
                             const MicrofacetLight<Number>& light) {
-  return MulRgb(FresnelOf(curve), RgbAt(d, light.specular, i));
+  return Mul3(FresnelOf(curve), RgbAt(d, light.specular, i));
 }
 
 // F0 F times the light, where dielectric and metal of a mix each have their own F0: Turquin's
@@ -83,15 +81,15 @@ template <class Number>
 HWY_INLINE RgbV TurquinTerm(FloatTag d, const SchlickCurveV& curve, size_t i,
                             const MicrofacetUniforms<Number>&,
                             const MicrofacetLight<Number>& light) {
-  return MulAddRgb(RgbAt(d, light.turquin_rise, i), curve.weight, RgbAt(d, light.turquin_f0, i));
+  return MulAdd3(RgbAt(d, light.turquin_rise, i), curve.weight, RgbAt(d, light.turquin_f0, i));
 }
 template <class Number>
 HWY_INLINE RgbV TurquinTerm(FloatTag d, const MixedCurveV& curve, size_t i,
                             const MicrofacetUniforms<Number>& uniforms,
                             const MicrofacetLight<Number>& light) {
-  const RgbV of_dielectric = MulRgb(RgbAt(d, uniforms.dielectric_f0, i), curve.dielectric);
-  const RgbV of_metal = MulRgb(RgbAt(d, uniforms.metal_f0, i), curve.metal);
-  return MulRgb(AddRgb(of_dielectric, of_metal), RgbAt(d, light.specular, i));
+  const RgbV of_dielectric = Mul3(RgbAt(d, uniforms.dielectric_f0, i), curve.dielectric);
+  const RgbV of_metal = Mul3(RgbAt(d, uniforms.metal_f0, i), curve.metal);
+  return Mul3(Add(of_dielectric, of_metal), RgbAt(d, light.specular, i));
 }
 
 // The light that the base gets, times its colour and `weight`: all of it, or the fraction 1 - F
@@ -127,7 +125,7 @@ HWY_INLINE PartV LeftForBase(FloatTag d, const Curve& curve, size_t i, const Mic
     return all;
   };
   const RgbV fresnel = FresnelOf(curve);
-  return ScaledPart({left(fresnel.r, 0), left(fresnel.g, 1), left(fresnel.b, 2)}, weight);
+  return ScaledPart({left(fresnel.x, 0), left(fresnel.y, 1), left(fresnel.z, 2)}, weight);
 }
 
 }  // namespace HWY_NAMESPACE

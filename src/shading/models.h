@@ -24,6 +24,10 @@ inline constexpr double kDoubleTermsShininess = 300;
 
 // A diffuse surface: Lambert's, Oren-Nayar (EON) or Burley's.
 struct MatteModel {
+  template <class Number>
+  using Constants = MatteConstants<Number>;
+  template <class Number>
+  using Light = MatteLight<Number>;
   DiffuseForm form = DiffuseForm::kLambert;
   Rgb diffuse;           // albedo / pi
   Rgb ratio{0, 0, 0};    // kOrenNayar: EonMultipleRatio of the albedo
@@ -31,6 +35,10 @@ struct MatteModel {
 };
 
 struct PhongFamilyModel {
+  template <class Number>
+  using Constants = PhongConstants<Number>;
+  template <class Number>
+  using Light = PhongLight<Number>;
   PhongModel model;
   Rgb diffuse;   // kd color, over pi if radiometric
   Rgb specular;  // ks, times the lobe's normalisation if radiometric
@@ -58,6 +66,8 @@ struct MicrofacetForm {
 // compensation, and the base's share of the light, which only the dielectric above it reduces.
 // Conductors are all metal, dielectrics all dielectric.
 struct MicrofacetModel : MicrofacetForm {
+  template <class Number>
+  using Light = MicrofacetLight<Number>;
   // The base's albedo over pi, times 1 - metallic; with kAlbedoScaled and kKullaConty also over the
   // mean of 1 - the albedo of what covers the base.
   Rgb diffuse{0, 0, 0};

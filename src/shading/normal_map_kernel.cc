@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // shading/normal_map_kernel.cc: applies normal maps and the slopes of bump maps to shading normals.
+#include "shading/bsdf.h"
+#include "shading/lobe_sample.h"
 #include "shading/texture_kernels.h"
-#include "shading/textures.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/normal_map_kernel.cc"
@@ -35,16 +36,19 @@ HWY_INLINE hn::Mask<D> IsSound(const Vec3V<V>& v) {
   return hn::And(hn::IsFinite(v.x), hn::And(hn::IsFinite(v.y), hn::IsFinite(v.z)));
 }
 
-// Stores a normal-mapped normal in the lanes of `mask`. A normal that points below the surface is
+// Stores a normal-mapped normal. The normal is left bit for bit where the map is level, where its
+// vector has length 0, and where there are no tangents. A normal that points below the surface is
 // first mirrored at it, because the viewer sees the upper side only; then BendNormal bends it to
 // where reflection models can use it.
-HWY_INLINE void StoreNormal(const Vec3V<V>& mapped, const Vec3V<V>& interpolated, hn::Mask<D> mask,
-                            size_t i, HitBatch* hits, Surface* surface) {
+HWY_INLINE void StoreNormal(const Vec3V<V>& mapped, hn::Mask<D> level, size_t i,
+                            const TexturedRun& run) {
   const D d;
   const F f;
+  const Vec3V<V> interpolated = LoadSoa(d, run.textures.interpolated_normal, i);
+  const auto mask = hn::And(hn::AndNot(level, IsSound(mapped)), hn::FirstN(d, run.end - i));
   const V below = hn::Min(FusedDot(mapped, interpolated), hn::Zero(d));
   const Vec3V<V> upper = Sub(mapped, Scale(interpolated, hn::Add(below, below)));
-  const Vec3V<V> normal = BendNormal(d, upper, interpolated, LoadSoa(d, hits->to_view, i));
+  const Vec3V<V> normal = BendNormal(d, upper, interpolated, LoadSoa(d, run.hits.to_view, i));
   const auto store = [&](V value, AlignedArray<double>* exact, AlignedArray<float>* rounded)
                          HWY_ATTR {
                            double* const to = exact->data() + i;
@@ -52,9 +56,9 @@ HWY_INLINE void StoreNormal(const Vec3V<V>& mapped, const Vec3V<V>& interpolated
                            hn::StoreU(kept, d, to);
                            hn::StoreU(hn::DemoteTo(f, kept), f, rounded->data() + i);
                          };
-  store(normal.x, &hits->normal.x, &surface->normal.x);
-  store(normal.y, &hits->normal.y, &surface->normal.y);
-  store(normal.z, &hits->normal.z, &surface->normal.z);
+  store(normal.x, &run.hits.normal.x, &run.surface.normal.x);
+  store(normal.y, &run.hits.normal.y, &run.surface.normal.y);
+  store(normal.z, &run.hits.normal.z, &run.surface.normal.z);
 }
 
 // The vectors by which the components of a normal map are multiplied.
@@ -87,15 +91,14 @@ HWY_INLINE Frame FrameOfCorners(const HitParameters& t, size_t i, const Frame& o
           Select(own, Scale(otherwise.normal, length), otherwise.normal)};
 }
 
-void MapNormalsT(const TexturedRun& run, float middle, float scale, bool frames,
-                 const HitParameters& t, HitBatch* hits, Surface* surface) {
+void MapNormalsT(const TexturedRun& run, float middle, float scale, bool frames) {
   const D d;
+  const HitParameters& t = run.textures;
   const V zero = hn::Zero(d);
   const V middle_v = hn::Set(d, double{middle});
   const V stretch = hn::Set(d, 1 / (1 - double{middle}));
   for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
-    const Vec3V<V> n = LoadSoa(d, hits->normal, i),
-                   interpolated = LoadSoa(d, t.interpolated_normal, i);
+    const Vec3V<V> n = LoadSoa(d, run.hits.normal, i);
     Frame frame = FrameOfGradients(t, i, n);
     if (frames) frame = FrameOfCorners(t, i, frame);
     const auto component = [&](const AlignedArray<float>& from) HWY_ATTR {
@@ -106,23 +109,18 @@ void MapNormalsT(const TexturedRun& run, float middle, float scale, bool frames,
     const V z = component(t.texels.z);
     const Vec3V<V> mapped = Normalized(
         Add(Add(Scale(frame.tangent, x), Scale(frame.bitangent, y)), Scale(frame.normal, z)));
-    // The normal is left bit for bit where the map is level, where its vector has length 0, and
-    // where there are no tangents.
-    const auto level = hn::And(hn::And(hn::Eq(x, zero), hn::Eq(y, zero)), hn::Gt(z, zero));
-    const auto sound = IsSound(mapped);
-    const auto mask = hn::And(hn::AndNot(level, sound), hn::FirstN(d, run.end - i));
-    StoreNormal(mapped, interpolated, mask, i, hits, surface);
+    StoreNormal(mapped, hn::And(hn::And(hn::Eq(x, zero), hn::Eq(y, zero)), hn::Gt(z, zero)), i,
+                run);
   }
 }
 
 // Blinn 1978: the surface P + h n has the normal n - grad h, up to h times the curvature.
-void MapNormalsBySlopesT(const TexturedRun& run, double distance, const HitParameters& t,
-                         HitBatch* hits, Surface* surface) {
+void MapNormalsBySlopesT(const TexturedRun& run, double distance) {
   const D d;
+  const HitParameters& t = run.textures;
   const V zero = hn::Zero(d);
   for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
-    const Vec3V<V> n = LoadSoa(d, hits->normal, i),
-                   interpolated = LoadSoa(d, t.interpolated_normal, i);
+    const Vec3V<V> n = LoadSoa(d, run.hits.normal, i);
     // Heights point outwards, from whichever side the surface is seen.
     const V scale = hn::Mul(hn::LoadU(d, t.side.data() + i), hn::Set(d, distance));
     const V slope_u = hn::Mul(PromoteAt(d, t.texels.x, i), scale);
@@ -130,40 +128,38 @@ void MapNormalsBySlopesT(const TexturedRun& run, double distance, const HitParam
     const Vec3V<V> gradient = Add(Scale(LoadSoa(d, t.gradient_u, i), slope_u),
                                   Scale(LoadSoa(d, t.gradient_v, i), slope_v));
     const Vec3V<V> mapped = Normalized(Sub(n, Across(gradient, n)));
-    const auto level = hn::And(hn::Eq(slope_u, zero), hn::Eq(slope_v, zero));
-    const auto sound = IsSound(mapped);
-    const auto mask = hn::And(hn::AndNot(level, sound), hn::FirstN(d, run.end - i));
-    StoreNormal(mapped, interpolated, mask, i, hits, surface);
+    StoreNormal(mapped, hn::And(hn::Eq(slope_u, zero), hn::Eq(slope_v, zero)), i, run);
   }
 }
 
 using FF = hn::ScalableTag<float>;
 
-void RaiseAboveHorizonT(const Surface& surface, size_t begin, size_t end, Soa3<float>* to_light) {
+void RaiseAboveHorizonT(const MaterialHits& at, Soa3<float>* to_light) {
   const FF d;
+  const Surface& surface = at.surface;
   const auto zero = hn::Zero(d);
-  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
+  for (size_t i = at.begin; i < at.end; i += hn::Lanes(d)) {
     const auto n = LoadSoa(d, surface.interpolated_normal, i), l = LoadSoa(d, *to_light, i);
     const auto height = FusedDot(n, l);
     const auto faces = hn::Gt(FusedDot(LoadSoa(d, surface.normal, i), l), zero);
-    const auto mask = hn::And(hn::And(faces, hn::Lt(height, zero)), hn::FirstN(d, end - i));
+    const auto mask = hn::And(hn::And(faces, hn::Lt(height, zero)), hn::FirstN(d, at.end - i));
     BlendedStoreSoa(d, Sub(l, Scale(n, hn::Add(height, height))), mask, i, to_light);
   }
 }
 
-bool MirrorAtHorizonT(const Surface& surface, size_t begin, size_t end, const LightBatch& light,
-                      LightBatch* mirrored) {
+bool MirrorAtHorizonT(const MaterialHits& at, const LightBatch& light, LightBatch* mirrored) {
   const FF d;
+  const Surface& surface = at.surface;
   const auto zero = hn::Zero(d);
   bool any = false;
-  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
+  for (size_t i = at.begin; i < at.end; i += hn::Lanes(d)) {
     const auto n = LoadSoa(d, surface.interpolated_normal, i), l = LoadSoa(d, light.to_light, i);
     const auto height = FusedDot(n, l);
     const auto below = Sub(l, Scale(n, hn::Add(height, height)));
     const auto unit = Scale(below, hn::Div(hn::Set(d, 1.0f), hn::Sqrt(FusedDot(below, below))));
     const auto normal = LoadSoa(d, surface.normal, i);
     const auto irradiance = hn::LoadU(d, light.irradiance.data() + i);
-    const auto in_range = hn::FirstN(d, end - i);
+    const auto in_range = hn::FirstN(d, at.end - i);
     const auto lit =
         hn::And(hn::And(hn::Gt(FusedDot(normal, unit), zero), hn::Gt(irradiance, zero)), in_range);
     any = any || !hn::AllFalse(d, lit);
@@ -174,18 +170,18 @@ bool MirrorAtHorizonT(const Surface& surface, size_t begin, size_t end, const Li
   return any;
 }
 
-void HideFacingAwayT(std::span<const Surface* const> surfaces, size_t begin, size_t end,
-                     LightBatch* light) {
+void HideUnreflectedLightT(const MaterialHits& at, LightBatch* light) {
   const FF d;
   const auto zero = hn::Zero(d);
-  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
+  for (size_t i = at.begin; i < at.end; i += hn::Lanes(d)) {
     const auto l = LoadSoa(d, light->to_light, i);
-    auto faces = hn::FirstN(d, 0);
-    for (const Surface* const surface : surfaces) {
-      faces = hn::Or(faces, hn::Gt(FusedDot(LoadSoa(d, surface->normal, i), l), zero));
+    auto faces = hn::Gt(FusedDot(LoadSoa(d, at.surface.normal, i), l), zero);
+    for (size_t k = 0; k < at.material.coats.size(); ++k) {
+      const Soa3<float>& normal = at.coats[k].surface.normal;
+      faces = hn::Or(faces, hn::Gt(FusedDot(LoadSoa(d, normal, i), l), zero));
     }
     float* const irradiance = light->irradiance.data() + i;
-    const auto keep = hn::Or(faces, hn::Not(hn::FirstN(d, end - i)));
+    const auto keep = hn::Or(faces, hn::Not(hn::FirstN(d, at.end - i)));
     hn::StoreU(hn::IfThenElseZero(keep, hn::LoadU(d, irradiance)), d, irradiance);
   }
 }
@@ -199,32 +195,28 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(MapNormalsT);
 HWY_EXPORT(MapNormalsBySlopesT);
-HWY_EXPORT(HideFacingAwayT);
+HWY_EXPORT(HideUnreflectedLightT);
 HWY_EXPORT(RaiseAboveHorizonT);
 HWY_EXPORT(MirrorAtHorizonT);
 
-void MapNormals(const TexturedRun& run, float middle, float scale, bool frames,
-                const HitParameters& textures, HitBatch* hits, Surface* surface) {
-  HWY_DYNAMIC_DISPATCH(MapNormalsT)(run, middle, scale, frames, textures, hits, surface);
+void MapNormals(const TexturedRun& run, float middle, float scale, bool frames) {
+  HWY_DYNAMIC_DISPATCH(MapNormalsT)(run, middle, scale, frames);
 }
 
-void MapNormalsBySlopes(const TexturedRun& run, double distance, const HitParameters& textures,
-                        HitBatch* hits, Surface* surface) {
-  HWY_DYNAMIC_DISPATCH(MapNormalsBySlopesT)(run, distance, textures, hits, surface);
+void MapNormalsBySlopes(const TexturedRun& run, double distance) {
+  HWY_DYNAMIC_DISPATCH(MapNormalsBySlopesT)(run, distance);
 }
 
-void HideFacingAway(std::span<const Surface* const> surfaces, size_t begin, size_t end,
-                    LightBatch* light) {
-  HWY_DYNAMIC_DISPATCH(HideFacingAwayT)(surfaces, begin, end, light);
+void HideUnreflectedLight(const MaterialHits& at, LightBatch* light) {
+  HWY_DYNAMIC_DISPATCH(HideUnreflectedLightT)(at, light);
 }
 
-void RaiseAboveHorizon(const Surface& surface, size_t begin, size_t end, Soa3<float>* to_light) {
-  HWY_DYNAMIC_DISPATCH(RaiseAboveHorizonT)(surface, begin, end, to_light);
+void RaiseAboveHorizon(const MaterialHits& at, Soa3<float>* to_light) {
+  HWY_DYNAMIC_DISPATCH(RaiseAboveHorizonT)(at, to_light);
 }
 
-bool MirrorAtHorizon(const Surface& surface, size_t begin, size_t end, const LightBatch& light,
-                     LightBatch* mirrored) {
-  return HWY_DYNAMIC_DISPATCH(MirrorAtHorizonT)(surface, begin, end, light, mirrored);
+bool MirrorAtHorizon(const MaterialHits& at, const LightBatch& light, LightBatch* mirrored) {
+  return HWY_DYNAMIC_DISPATCH(MirrorAtHorizonT)(at, light, mirrored);
 }
 }  // namespace nacre
 #endif

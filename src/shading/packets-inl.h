@@ -79,10 +79,10 @@ class HalfBlock : public IncidentBlock {
 
   void SetAnyShort(bool any_short) { any_short_ = any_short; }
 
-  HWY_INLINE HalfIncidentV LoadHalf(FloatTag d, size_t at) const {
+  HWY_INLINE HalfIncidentV Load(FloatTag d, size_t at) const {
     const FloatV n_dot_u = hn::Load(d, n_dot_u_ + at);
     const FloatV nxu_squared = hn::Load(d, nxu_squared_ + at);
-    return {Load(d, at),
+    return {IncidentBlock::Load(d, at),
             {n_dot_u, USquared(n_dot_u, nxu_squared), nxu_squared, hn::Load(d, lv_squared_ + at)},
             hn::Load(d, n_dot_v_ + at),
             hn::Load(d, twice_u_length_ + at),
@@ -115,8 +115,8 @@ class LobeBlock : public IncidentBlock {
     }
   }
 
-  HWY_INLINE LobeIncidentV LoadLobe(FloatTag d, size_t at) const {
-    return {Load(d, at), hn::Load(d, log2_cosine_ + at)};
+  HWY_INLINE LobeIncidentV Load(FloatTag d, size_t at) const {
+    return {IncidentBlock::Load(d, at), hn::Load(d, log2_cosine_ + at)};
   }
 
  private:
@@ -124,10 +124,10 @@ class LobeBlock : public IncidentBlock {
 };
 
 // Stores the light on hits [begin, end). Not inlined, because it is the same for all models.
-inline HWY_NOINLINE void FillLight(const ShadeRange& range, size_t begin, size_t end,
+inline HWY_NOINLINE void FillLight(const LitHits& lit, size_t begin, size_t end,
                                    IncidentBlock* block) {
   const FloatTag d;
-  ForEachLit(d, range, begin, end, [&](const PacketV& p, const LightV& light) HWY_ATTR {
+  ForEachLit(d, lit, begin, end, [&](const PacketV& p, const LightV& light) HWY_ATTR {
     block->Store(d, p.i - begin, light, light.toward.Dot(p.normal));
   });
 }
@@ -136,10 +136,10 @@ inline HWY_NOINLINE void FillLight(const ShadeRange& range, size_t begin, size_t
 // |u|^2 decides between UprightHalfAngles and ComputeHalfAngles, whatever else is in the block.
 // Usually no hit of a block needs the latter; returns whether one does.
 template <class Use>
-HWY_INLINE bool ForHalfAngles(const ShadeRange& range, size_t begin, size_t end,
+HWY_INLINE bool ForHalfAngles(const LitHits& lit, size_t begin, size_t end,
                               const IncidentBlock& block, const Use& use) {
   const FloatTag d;
-  const RangeArrays arrays(range);
+  const RangeArrays arrays(lit);
   const FloatV enough = hn::Set(d, kUprightUSquared);
   FloatV least = enough;
   for (size_t at = 0; at < end - begin; at += hn::Lanes(d)) {
@@ -164,62 +164,44 @@ HWY_INLINE bool ForHalfAngles(const ShadeRange& range, size_t begin, size_t end,
   return true;
 }
 
-inline HWY_NOINLINE void FillHalf(const ShadeRange& range, size_t begin, size_t end,
-                                  HalfBlock* block) {
+inline HWY_NOINLINE void FillHalf(const LitHits& lit, size_t begin, size_t end, HalfBlock* block) {
   const FloatTag d;
   const auto store = [&](size_t at, const HalfAnglesV<FloatV>& half, FloatV n_dot_v) HWY_ATTR {
     // Interpolated mesh normals may lean away from the viewer; n.v then counts as 0.
     block->StoreHalf(d, at, half, hn::Max(n_dot_v, hn::Zero(d)));
   };
-  block->SetAnyShort(ForHalfAngles(range, begin, end, *block, store));
+  block->SetAnyShort(ForHalfAngles(lit, begin, end, *block, store));
   block->TakeLengths(d, end - begin);
 }
 
-// Stores what the model reflects of incident_of(packet) at hits [begin, end).
-template <class Model, class IncidentOf>
-HWY_INLINE void ReflectLight(FloatTag d, const Model& model, const ShadeRange& range, size_t begin,
-                             size_t end, const IncidentOf& incident_of) {
-  const RangeArrays arrays(range);
-  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-    const PacketV packet = arrays.Packet(d, i);
-    const auto view = model.SeenBy(d, packet, range.surface);
-    arrays.Store(d, model.Reflect(d, view, packet, incident_of(packet)), i);
-  }
-}
-
 // Stores, for each packet of the range, what `model` reflects of the light.
-//   view = model.SeenBy(packet, surface)        terms that do not depend on the light
-//   model.Reflect(view, packet, incident)       the reflected light
+//   model.Reflect(packet, incident)       the reflected light
 // Model::Incident is IncidentV, HalfIncidentV or LobeIncidentV. The logarithm in the latter is
-// valid only if model.ReadsLobe(); then model.FillLobe(range, begin, end, block) must store both
+// valid only if model.ReadsLobe(); then model.FillLobe(lit, begin, end, block) must store both
 // the light and the lobes' cosines.
 template <class Model>
-HWY_INLINE void ShadePackets(FloatTag d, const Model& model, const ShadeRange& range) {
+HWY_INLINE void ShadePackets(FloatTag d, const Model& model, const LitHits& lit) {
   constexpr bool kHalf = std::is_same_v<typename Model::Incident, HalfIncidentV>;
   constexpr bool kLobe = std::is_same_v<typename Model::Incident, LobeIncidentV>;
   std::conditional_t<kHalf, HalfBlock, std::conditional_t<kLobe, LobeBlock, IncidentBlock>> block;
-  for (size_t begin = range.begin; begin < range.end; begin += kBlockHits) {
-    const size_t end = std::min(begin + kBlockHits, range.end);
+  for (size_t begin = lit.begin; begin < lit.end; begin += kBlockHits) {
+    const size_t end = std::min(begin + kBlockHits, lit.end);
     if constexpr (kLobe) {
       if (model.ReadsLobe()) {
-        model.FillLobe(range, begin, end, &block);
+        model.FillLobe(lit, begin, end, &block);
         block.TakeLogs(d, end - begin);
       } else {
-        FillLight(range, begin, end, &block);
+        FillLight(lit, begin, end, &block);
       }
     } else {
-      FillLight(range, begin, end, &block);
-      if constexpr (kHalf) FillHalf(range, begin, end, &block);
+      FillLight(lit, begin, end, &block);
+      if constexpr (kHalf) FillHalf(lit, begin, end, &block);
     }
-    ReflectLight(d, model, range, begin, end, [&](const PacketV& p) HWY_ATTR {
-      if constexpr (kHalf) {
-        return block.LoadHalf(d, p.i - begin);
-      } else if constexpr (kLobe) {
-        return block.LoadLobe(d, p.i - begin);
-      } else {
-        return block.Load(d, p.i - begin);
-      }
-    });
+    const RangeArrays arrays(lit);
+    for (size_t i = begin; i < end; i += hn::Lanes(d)) {
+      const PacketV packet = arrays.Packet(d, i);
+      arrays.Store(d, model.Reflect(d, packet, block.Load(d, i - begin)), i);
+    }
   }
 }
 

@@ -17,9 +17,9 @@ namespace HWY_NAMESPACE {
 
 // Stores the light on a block's hits and the cosines of their lobes, in one loop, so that the
 // direction to the light need not be loaded again.
-HWY_NOINLINE void FillPhong(const ShadeRange& range, size_t begin, size_t end, LobeBlock* block) {
+HWY_NOINLINE void FillPhong(const LitHits& lit, size_t begin, size_t end, LobeBlock* block) {
   const FloatTag d;
-  ForEachLit(d, range, begin, end, [&](const PacketV& p, const LightV& light) HWY_ATTR {
+  ForEachLit(d, lit, begin, end, [&](const PacketV& p, const LightV& light) HWY_ATTR {
     const auto& [offset, inverse_length] = light.toward;
     block->Store(d, p.i - begin, light, light.toward.Dot(p.normal));
     block->StoreLobe(
@@ -28,10 +28,10 @@ HWY_NOINLINE void FillPhong(const ShadeRange& range, size_t begin, size_t end, L
   });
 }
 
-HWY_NOINLINE void FillBlinn(const ShadeRange& range, size_t begin, size_t end, LobeBlock* block) {
+HWY_NOINLINE void FillBlinn(const LitHits& lit, size_t begin, size_t end, LobeBlock* block) {
   const FloatTag d;
-  FillLight(range, begin, end, block);
-  ForHalfAngles(range, begin, end, *block,
+  FillLight(lit, begin, end, block);
+  ForHalfAngles(lit, begin, end, *block,
                 [&](size_t at, const HalfAnglesV<FloatV>& half, FloatV)
                     HWY_ATTR { block->StoreLobe(d, at, BlinnSquaredCosine(d, half)); });
 }
@@ -39,7 +39,6 @@ HWY_NOINLINE void FillBlinn(const ShadeRange& range, size_t begin, size_t end, L
 template <PhongModel kModel, class Number>
 struct PhongFamily {
   using Incident = LobeIncidentV;
-  struct View {};
   const PhongUniforms<Number>& uniforms;
 
   // Whether cosines of wide lobes are needed. If all lobes have the same exponent, either all are
@@ -47,7 +46,6 @@ struct PhongFamily {
   HWY_INLINE bool ReadsLobe() const {
     return !std::is_same_v<Number, float> || uniforms.sharp == nullptr;
   }
-  HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
 
   HWY_INLINE FloatV Log2Cosine(FloatTag d, const PacketV& p, const Incident& in) const {
     const SharpLobeTerms* const sharp = uniforms.sharp;
@@ -60,14 +58,12 @@ struct PhongFamily {
     return hn::IfThenElse(is_sharp, log2, in.log2_cosine);
   }
 
-  HWY_INLINE void FillLobe(const ShadeRange& range, size_t begin, size_t end,
-                           LobeBlock* block) const {
+  HWY_INLINE void FillLobe(const LitHits& lit, size_t begin, size_t end, LobeBlock* block) const {
     const auto fill = kModel == PhongModel::kBlinnPhong ? FillBlinn : FillPhong;
-    fill(range, begin, end, block);
+    fill(lit, begin, end, block);
   }
 
-  HWY_INLINE ReflectedV Reflect(FloatTag d, const View&, const PacketV& p,
-                                const Incident& in) const {
+  HWY_INLINE ReflectedV Reflect(FloatTag d, const PacketV& p, const Incident& in) const {
     const FloatV log2 = Log2Cosine(d, p, in);
     const FloatV shininess = NumberAt(d, uniforms.constants.shininess, p.i);
     const FloatV lobe = kModel == PhongModel::kBlinnPhong ? LobePowerOfSquare(d, log2, shininess)
@@ -80,26 +76,20 @@ struct PhongFamily {
 };
 
 template <class Number>
-void ShadePhongOf(const PhongUniforms<Number>& uniforms, const ShadeRange& range) {
+void ShadePhongOf(const PhongUniforms<Number>& uniforms, const LitHits& lit) {
   switch (uniforms.model) {
     case PhongModel::kPhong:
-      return ShadePackets(FloatTag(), PhongFamily<PhongModel::kPhong, Number>{uniforms}, range);
+      return ShadePackets(FloatTag(), PhongFamily<PhongModel::kPhong, Number>{uniforms}, lit);
     case PhongModel::kModifiedPhong:
       return ShadePackets(FloatTag(), PhongFamily<PhongModel::kModifiedPhong, Number>{uniforms},
-                          range);
+                          lit);
     case PhongModel::kBlinnPhong:
-      return ShadePackets(FloatTag(), PhongFamily<PhongModel::kBlinnPhong, Number>{uniforms},
-                          range);
+      return ShadePackets(FloatTag(), PhongFamily<PhongModel::kBlinnPhong, Number>{uniforms}, lit);
   }
 }
 
-void ShadePhongT(const PhongUniforms<float>& uniforms, const ShadeRange& range) {
-  ShadePhongOf(uniforms, range);
-}
-
-void ShadePhongMapsT(const PhongUniforms<float*>& uniforms, const ShadeRange& range) {
-  ShadePhongOf(uniforms, range);
-}
+constexpr auto& ShadePhongT = ShadePhongOf<float>;
+constexpr auto& ShadePhongMapsT = ShadePhongOf<float*>;
 
 }  // namespace HWY_NAMESPACE
 }  // namespace nacre
@@ -109,11 +99,11 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(ShadePhongT);
 HWY_EXPORT(ShadePhongMapsT);
-void ShadePhong(const PhongUniforms<float>& uniforms, const ShadeRange& range) {
-  HWY_DYNAMIC_DISPATCH(ShadePhongT)(uniforms, range);
+void ShadePhong(const PhongUniforms<float>& uniforms, const LitHits& lit) {
+  HWY_DYNAMIC_DISPATCH(ShadePhongT)(uniforms, lit);
 }
-void ShadePhong(const PhongUniforms<float*>& uniforms, const ShadeRange& range) {
-  HWY_DYNAMIC_DISPATCH(ShadePhongMapsT)(uniforms, range);
+void ShadePhong(const PhongUniforms<float*>& uniforms, const LitHits& lit) {
+  HWY_DYNAMIC_DISPATCH(ShadePhongMapsT)(uniforms, lit);
 }
 }  // namespace nacre
 #endif

@@ -40,37 +40,23 @@ HWY_INLINE FloatV Multiple(FloatTag d, Compensation compensation, const AlbedoV&
   return hn::Zero(d);
 }
 
-// The constants of hits, which are one model's for all hits, or each hit's own. F0, albedo and
-// F_ms are those of the dielectric, which covers the base.
+// The variables and the albedo of hits i..., by the model's fit or by that of each hit.
 template <class Number>
-struct Numbers {
-  const PrepareUniforms<Number>& uniforms;
-
-  HWY_INLINE AlbedoVariablesV<FloatV> Variables(FloatTag d, size_t i, FloatV n_dot_v) const {
-    const MicrofacetModel& model = uniforms.model;
-    if (uniforms.fit == nullptr) {
-      return ComputeAlbedoVariables(d, model.albedo.lobe.shape, n_dot_v);
-    }
-    return ComputeAlbedoVariables(
-        d, FitAt(uniforms.fit + i, uniforms.fit_stride, model.shadowing).shape, n_dot_v);
-  }
-  HWY_INLINE AlbedoV Albedo(FloatTag d, size_t i, const AlbedoVariablesV<FloatV>& x) const {
-    const MicrofacetModel& model = uniforms.model;
-    const FloatV f90 = NumberAt(d, uniforms.dielectric_f90, i);
-    if (uniforms.fit == nullptr) return EvaluateAlbedo(d, model, f90, x);
-    return EvaluateAlbedo(d, model, FitAt(uniforms.fit + i, uniforms.fit_stride, model.shadowing),
-                          f90, x);
-  }
-  HWY_INLINE FloatV MultipleScale(FloatTag d, size_t i) const {
-    return NumberAt(d, uniforms.multiple, i);
-  }
-  HWY_INLINE FloatV F0(FloatTag d, size_t i, int c) const {
-    return NumberAt(d, uniforms.dielectric_f0[c], i);
-  }
-  HWY_INLINE FloatV FMultiple(FloatTag d, size_t i, int c) const {
-    return NumberAt(d, uniforms.dielectric_f_multiple[c], i);
-  }
-};
+HWY_INLINE AlbedoVariablesV<FloatV> VariablesAt(FloatTag d,
+                                                const MicrofacetNumbers<Number>& numbers, size_t i,
+                                                FloatV n_dot_v) {
+  const MicrofacetModel& model = numbers.model;
+  if (numbers.fit == nullptr) return ComputeAlbedoVariables(d, model.albedo.lobe.shape, n_dot_v);
+  return ComputeAlbedoVariables(d, FitAt(numbers.fit, i, model.shadowing).shape, n_dot_v);
+}
+template <class Number>
+HWY_INLINE AlbedoV AlbedoAt(FloatTag d, const MicrofacetNumbers<Number>& numbers, size_t i,
+                            const AlbedoVariablesV<FloatV>& x) {
+  const MicrofacetModel& model = numbers.model;
+  const FloatV f90 = NumberAt(d, numbers.dielectric_f90, i);
+  if (numbers.fit == nullptr) return EvaluateAlbedo(d, model, model.albedo.lobe, f90, x);
+  return EvaluateAlbedo(d, model, FitAt(numbers.fit, i, model.shadowing), f90, x);
+}
 
 // The intermediate results of a block of hits: the albedo is a long chain of dependent operations,
 // which is cut into several loops as shading is (packets-inl.h).
@@ -99,76 +85,70 @@ struct AlbedoBlock {
   }
 };
 
-template <class Numbers>
-HWY_INLINE void FillVariables(const Numbers& numbers, size_t begin, size_t end,
+template <class Number>
+HWY_INLINE void FillVariables(const MicrofacetNumbers<Number>& numbers, size_t begin, size_t end,
                               const Surface& surface, AlbedoBlock* block) {
   const FloatTag d;
   const auto normal = PointersTo(surface.normal), to_view = PointersTo(surface.to_view);
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
     const FloatV n_dot_v = FusedDot(LoadAt(d, normal, i), LoadAt(d, to_view, i));
-    block->Store(d, i - begin, numbers.Variables(d, i, n_dot_v));
+    block->Store(d, i - begin, VariablesAt(d, numbers, i, n_dot_v));
   }
 }
 
-template <class Numbers>
-HWY_INLINE void FillAlbedos(const Numbers& numbers, size_t begin, size_t end, AlbedoBlock* block) {
+template <class Number>
+HWY_INLINE void FillAlbedos(const MicrofacetNumbers<Number>& numbers, size_t begin, size_t end,
+                            AlbedoBlock* block) {
   const FloatTag d;
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-    block->Store(d, i - begin, numbers.Albedo(d, i, block->Variables(d, i - begin)));
+    block->Store(d, i - begin, AlbedoAt(d, numbers, i, block->Variables(d, i - begin)));
   }
 }
 
 // kScaled is true for DiffuseCoupling::kAlbedoScaled; other couplings do not read
-// Surface::transmittance.
-template <bool kScaled, class Numbers>
-HWY_INLINE void PrepareBlock(const MicrofacetModel& model, const Numbers& numbers, size_t begin,
-                             size_t end, const AlbedoBlock& block, Surface* surface) {
+// Surface::transmittance. F0 and F_ms are those of the dielectric, which covers the base.
+template <bool kScaled, class Number>
+HWY_INLINE void PrepareBlock(const MicrofacetNumbers<Number>& numbers, size_t begin, size_t end,
+                             const AlbedoBlock& block, Surface* surface) {
   const FloatTag d;
   float* const HWY_RESTRICT multiples = surface->multiple.data();
   float* const base[3] = {surface->transmittance.x.data(), surface->transmittance.y.data(),
                           surface->transmittance.z.data()};
-  const Compensation compensation = model.compensation;
+  const Compensation compensation = numbers.model.compensation;
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
     const AlbedoV albedo = block.Albedo(d, i - begin);
-    const FloatV multiple = Multiple(d, compensation, albedo, numbers.MultipleScale(d, i));
+    const FloatV multiple = Multiple(d, compensation, albedo, NumberAt(d, numbers.multiple, i));
     StoreLanes(d, end - i, multiple, multiples + i);
     if constexpr (!kScaled) continue;
     for (int c = 0; c < 3; ++c) {
-      const FloatV f0 = numbers.F0(d, i, c);
-      const FloatV left = compensation == Compensation::kKullaConty
-                              ? KullaContyBase(d, albedo, f0, numbers.FMultiple(d, i, c))
-                              : TurquinBase(d, albedo, f0, multiple);
+      const FloatV f0 = NumberAt(d, numbers.dielectric_f0[c], i);
+      const FloatV left =
+          compensation == Compensation::kKullaConty
+              ? KullaContyBase(d, albedo, f0, NumberAt(d, numbers.dielectric_f_multiple[c], i))
+              : TurquinBase(d, albedo, f0, multiple);
       StoreLanes(d, end - i, left, base[c] + i);
     }
   }
 }
 
-template <class Numbers>
-HWY_INLINE void PrepareRange(const MicrofacetModel& model, const Numbers& numbers, size_t begin,
-                             size_t end, Surface* surface) {
-  const bool scaled = model.coupling == DiffuseCoupling::kAlbedoScaled;
+template <class Number>
+void PrepareRange(const MicrofacetNumbers<Number>& numbers, size_t begin, size_t end,
+                  Surface* surface) {
+  const bool scaled = numbers.model.coupling == DiffuseCoupling::kAlbedoScaled;
   AlbedoBlock block;
   for (; begin < end; begin += AlbedoBlock::kHits) {
     const size_t block_end = std::min(begin + AlbedoBlock::kHits, end);
     FillVariables(numbers, begin, block_end, *surface, &block);
     FillAlbedos(numbers, begin, block_end, &block);
     if (scaled) {
-      PrepareBlock<true>(model, numbers, begin, block_end, block, surface);
+      PrepareBlock<true>(numbers, begin, block_end, block, surface);
     } else {
-      PrepareBlock<false>(model, numbers, begin, block_end, block, surface);
+      PrepareBlock<false>(numbers, begin, block_end, block, surface);
     }
   }
 }
-
-void PrepareMicrofacetT(const PrepareUniforms<float>& uniforms, size_t begin, size_t end,
-                        Surface* surface) {
-  PrepareRange(uniforms.model, Numbers<float>{uniforms}, begin, end, surface);
-}
-
-void PrepareMicrofacetMapsT(const PrepareUniforms<float*>& uniforms, size_t begin, size_t end,
-                            Surface* surface) {
-  PrepareRange(uniforms.model, Numbers<float*>{uniforms}, begin, end, surface);
-}
+constexpr auto& PrepareMicrofacetT = PrepareRange<float>;
+constexpr auto& PrepareMicrofacetMapsT = PrepareRange<float*>;
 
 }  // namespace HWY_NAMESPACE
 }  // namespace nacre
@@ -178,13 +158,13 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(PrepareMicrofacetT);
 HWY_EXPORT(PrepareMicrofacetMapsT);
-void PrepareMicrofacet(const PrepareUniforms<float>& uniforms, size_t begin, size_t end,
+void PrepareMicrofacet(const MicrofacetNumbers<float>& numbers, size_t begin, size_t end,
                        Surface* surface) {
-  HWY_DYNAMIC_DISPATCH(PrepareMicrofacetT)(uniforms, begin, end, surface);
+  HWY_DYNAMIC_DISPATCH(PrepareMicrofacetT)(numbers, begin, end, surface);
 }
-void PrepareMicrofacet(const PrepareUniforms<float*>& uniforms, size_t begin, size_t end,
+void PrepareMicrofacet(const MicrofacetNumbers<float*>& numbers, size_t begin, size_t end,
                        Surface* surface) {
-  HWY_DYNAMIC_DISPATCH(PrepareMicrofacetMapsT)(uniforms, begin, end, surface);
+  HWY_DYNAMIC_DISPATCH(PrepareMicrofacetMapsT)(numbers, begin, end, surface);
 }
 }  // namespace nacre
 #endif

@@ -14,15 +14,14 @@
 #include "brdf/phong-inl.h"
 #include "shading/kernels.h"
 #include "shading/light_at-inl.h"
+#include "shading/soa-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-struct RgbV {
-  FloatV r, g, b;
-};
+using RgbV = Vec3V<FloatV>;
 
 HWY_INLINE RgbV SetRgb(FloatTag d, const float (&rgb)[3]) {
   return {hn::Set(d, rgb[0]), hn::Set(d, rgb[1]), hn::Set(d, rgb[2])};
@@ -37,28 +36,6 @@ HWY_INLINE FloatV NumberAt(FloatTag d, const float* numbers, size_t i) {
 template <class Number>
 HWY_INLINE RgbV RgbAt(FloatTag d, const Number (&rgb)[3], size_t i) {
   return {NumberAt(d, rgb[0], i), NumberAt(d, rgb[1], i), NumberAt(d, rgb[2], i)};
-}
-
-HWY_INLINE RgbV LoadRgb(FloatTag d, const Soa3<float>& soa, size_t i) {
-  return {hn::LoadU(d, soa.x.data() + i), hn::LoadU(d, soa.y.data() + i),
-          hn::LoadU(d, soa.z.data() + i)};
-}
-
-HWY_INLINE RgbV ScaleRgb(const RgbV& color, FloatV s) {
-  return {hn::Mul(color.r, s), hn::Mul(color.g, s), hn::Mul(color.b, s)};
-}
-
-HWY_INLINE RgbV MulRgb(const RgbV& a, const RgbV& b) {
-  return {hn::Mul(a.r, b.r), hn::Mul(a.g, b.g), hn::Mul(a.b, b.b)};
-}
-
-// a b + c.
-HWY_INLINE RgbV MulAddRgb(const RgbV& a, FloatV b, const RgbV& c) {
-  return {hn::MulAdd(a.r, b, c.r), hn::MulAdd(a.g, b, c.g), hn::MulAdd(a.b, b, c.b)};
-}
-
-HWY_INLINE RgbV AddRgb(const RgbV& a, const RgbV& b) {
-  return {hn::Add(a.r, b.r), hn::Add(a.g, b.g), hn::Add(a.b, b.b)};
 }
 
 // Hits i... of a batch.
@@ -113,22 +90,18 @@ HWY_INLINE Vec3V<FloatV> LoadAt(FloatTag d, const Pointers3<const float>& from, 
   return LoadU3(d, from.x() + i, from.y() + i, from.z() + i);
 }
 
-HWY_INLINE void StoreWhole(FloatTag d, const RgbV& value, const Pointers3<float>& to, size_t i) {
-  hn::StoreU(value.r, d, to.x() + i);
-  hn::StoreU(value.g, d, to.y() + i);
-  hn::StoreU(value.b, d, to.z() + i);
-}
-
 // Stores at most `count` lanes.
 HWY_INLINE void StoreRgb(FloatTag d, size_t count, const RgbV& value, const Pointers3<float>& to,
                          size_t i) {
   if (count >= hn::Lanes(d)) {
-    StoreWhole(d, value, to, i);
+    hn::StoreU(value.x, d, to.x() + i);
+    hn::StoreU(value.y, d, to.y() + i);
+    hn::StoreU(value.z, d, to.z() + i);
   } else {
     const auto mask = hn::FirstN(d, count);
-    hn::BlendedStore(value.r, mask, d, to.x() + i);
-    hn::BlendedStore(value.g, mask, d, to.y() + i);
-    hn::BlendedStore(value.b, mask, d, to.z() + i);
+    hn::BlendedStore(value.x, mask, d, to.x() + i);
+    hn::BlendedStore(value.y, mask, d, to.y() + i);
+    hn::BlendedStore(value.z, mask, d, to.z() + i);
   }
 }
 
@@ -150,7 +123,7 @@ HWY_INLINE PartV ScaledPart(const RgbV& color, FloatV scale) {
 HWY_INLINE PartV WholePart(FloatTag d, const RgbV& value) {
   return ScaledPart(value, hn::Set(d, 1.0f));
 }
-HWY_INLINE RgbV RgbOf(const PartV& part) { return MulRgb(part.color, part.scale); }
+HWY_INLINE RgbV RgbOf(const PartV& part) { return Mul3(part.color, part.scale); }
 
 // The arrays of a range. Arrays are padded to whole vectors, and ranges of a batch follow one
 // another, so a packet may extend past its range; lanes past the end are not stored.
@@ -160,14 +133,14 @@ struct RangeArrays {
   bool components;
   size_t end;
 
-  explicit RangeArrays(const ShadeRange& range)
-      : normal(PointersTo(range.surface.normal)),
-        to_view(PointersTo(range.surface.to_view)),
-        sum(PointersTo(&range.radiance->sum)),
-        diffuse(PointersTo(&range.radiance->diffuse)),
-        specular(PointersTo(&range.radiance->specular)),
-        components(range.components),
-        end(range.end) {}
+  explicit RangeArrays(const LitHits& lit)
+      : normal(PointersTo(lit.surface.normal)),
+        to_view(PointersTo(lit.surface.to_view)),
+        sum(PointersTo(&lit.radiance->sum)),
+        diffuse(PointersTo(&lit.radiance->diffuse)),
+        specular(PointersTo(&lit.radiance->specular)),
+        components(lit.components),
+        end(lit.end) {}
 
   HWY_INLINE PacketV Packet(FloatTag d, size_t i) const {
     return {i, LoadAt(d, normal, i), LoadAt(d, to_view, i)};
@@ -178,8 +151,8 @@ struct RangeArrays {
     const auto& [color, scale] = reflected.specular;
     StoreRgb(
         d, end - i,
-        {hn::MulAdd(color.r, scale.r, of_diffuse.r), hn::MulAdd(color.g, scale.g, of_diffuse.g),
-         hn::MulAdd(color.b, scale.b, of_diffuse.b)},
+        {hn::MulAdd(color.x, scale.x, of_diffuse.x), hn::MulAdd(color.y, scale.y, of_diffuse.y),
+         hn::MulAdd(color.z, scale.z, of_diffuse.z)},
         sum, i);
     if (!components) return;
     StoreRgb(d, end - i, of_diffuse, diffuse, i);
@@ -196,14 +169,14 @@ struct RangeArrays {
 };
 
 // Calls use(at), where at(d, i, normal) is the light at hits i..., which was evaluated before
-// (ShadeRange::on_hits) or is evaluated here.
+// (LitHits::on_hits) or is evaluated here.
 template <class Use>
-HWY_INLINE void VisitLight(FloatTag d, const ShadeRange& range, const Use& use) {
-  const ShadingLight& light = range.light;
-  if (range.on_hits != nullptr) {
-    const Pointers3<const float> toward = PointersTo(range.on_hits->to_light);
-    const float* const irradiance = range.on_hits->irradiance.data();
-    const float* const inverse_length = range.on_hits->inverse_length.data();
+HWY_INLINE void VisitLight(FloatTag d, const LitHits& lit, const Use& use) {
+  const ShadingLight& light = lit.light;
+  if (lit.on_hits != nullptr) {
+    const Pointers3<const float> toward = PointersTo(lit.on_hits->to_light);
+    const float* const irradiance = lit.on_hits->irradiance.data();
+    const float* const inverse_length = lit.on_hits->inverse_length.data();
     const bool is_unit = light.form == LightForm::kGiven;
     use([=](FloatTag tag, size_t i, const Vec3V<FloatV>&) HWY_ATTR {
       const FloatV inverse = is_unit ? hn::Set(tag, 1.0f) : hn::LoadU(tag, inverse_length + i);
@@ -213,7 +186,7 @@ HWY_INLINE void VisitLight(FloatTag d, const ShadeRange& range, const Use& use) 
     const LightV same = DirectionalAt(d, light);
     use([same](FloatTag, size_t, const Vec3V<FloatV>&) HWY_ATTR { return same; });
   } else {
-    VisitOffsets(d, light, range.hits, [&](const auto& offset) HWY_ATTR {
+    VisitOffsets(d, light, lit.hits, [&](const auto& offset) HWY_ATTR {
       use([&, offset](FloatTag tag, size_t i, const Vec3V<FloatV>& normal) HWY_ATTR {
         return PositionalAt<LightForm::kInverseSquare>(tag, light, offset(tag, i, normal));
       });
@@ -223,10 +196,10 @@ HWY_INLINE void VisitLight(FloatTag d, const ShadeRange& range, const Use& use) 
 
 // Calls use(p, light) for each packet p of hits [begin, end) and the light on it.
 template <class Use>
-HWY_INLINE void ForEachLit(FloatTag d, const ShadeRange& range, size_t begin, size_t end,
+HWY_INLINE void ForEachLit(FloatTag d, const LitHits& lit, size_t begin, size_t end,
                            const Use& use) {
-  const RangeArrays arrays(range);  // a local copy stays in registers: no store can alias it
-  VisitLight(d, range, [&](const auto& light_at) HWY_ATTR {
+  const RangeArrays arrays(lit);  // a local copy stays in registers: no store can alias it
+  VisitLight(d, lit, [&](const auto& light_at) HWY_ATTR {
     for (size_t i = begin; i < end; i += hn::Lanes(d)) {
       const PacketV p = arrays.Packet(d, i);
       use(p, light_at(d, i, p.normal));

@@ -16,34 +16,24 @@ namespace HWY_NAMESPACE {
 namespace {
 
 template <DiffuseForm kForm, class Number>
-void SpreadOf(Number roughness, const ShadeRange& range, BaseSpread* to) {
+void SpreadByForm(Number roughness, const LitHits& lit, BaseSpread* to) {
   const FloatTag d;
-  ForEachLit(d, range, range.begin, range.end, [&](const PacketV& p, const LightV& light) HWY_ATTR {
-    const auto view = RoughDiffuse<kForm>::SeenBy(d, p);
+  ForEachLit(d, lit, lit.begin, lit.end, [&](const PacketV& p, const LightV& light) HWY_ATTR {
     const IncidentV in = MakeIncident(d, light, p.normal);
-    const SpreadV spread = RoughDiffuse<kForm>::Spread(d, view, p, in, NumberAt(d, roughness, p.i));
+    const SpreadV spread = RoughSpread<kForm>(d, p, in, NumberAt(d, roughness, p.i));
     hn::StoreU(spread.single, d, to->single.data() + p.i);
     hn::StoreU(spread.multiple, d, to->multiple.data() + p.i);
   });
 }
 
 template <class Number>
-void SpreadOf(DiffuseForm form, Number roughness, const ShadeRange& range, BaseSpread* to) {
-  if (form == DiffuseForm::kBurley) {
-    SpreadOf<DiffuseForm::kBurley>(roughness, range, to);
-  } else {
-    SpreadOf<DiffuseForm::kOrenNayar>(roughness, range, to);
-  }
+void SpreadOf(DiffuseForm form, Number roughness, const LitHits& lit, BaseSpread* to) {
+  const auto spread = form == DiffuseForm::kBurley ? SpreadByForm<DiffuseForm::kBurley, Number>
+                                                   : SpreadByForm<DiffuseForm::kOrenNayar, Number>;
+  spread(roughness, lit, to);
 }
-
-void SpreadBaseT(DiffuseForm form, float roughness, const ShadeRange& range, BaseSpread* to) {
-  SpreadOf(form, roughness, range, to);
-}
-
-void SpreadBaseMapsT(DiffuseForm form, const float* roughness, const ShadeRange& range,
-                     BaseSpread* to) {
-  SpreadOf(form, roughness, range, to);
-}
+constexpr auto& SpreadBaseT = SpreadOf<float>;
+constexpr auto& SpreadBaseMapsT = SpreadOf<const float*>;
 
 }  // namespace
 }  // namespace HWY_NAMESPACE
@@ -54,11 +44,11 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(SpreadBaseT);
 HWY_EXPORT(SpreadBaseMapsT);
-void SpreadBase(DiffuseForm form, float roughness, const ShadeRange& range, BaseSpread* to) {
-  HWY_DYNAMIC_DISPATCH(SpreadBaseT)(form, roughness, range, to);
+void SpreadBase(DiffuseForm form, float roughness, const LitHits& lit, BaseSpread* to) {
+  HWY_DYNAMIC_DISPATCH(SpreadBaseT)(form, roughness, lit, to);
 }
-void SpreadBase(DiffuseForm form, const float* roughness, const ShadeRange& range, BaseSpread* to) {
-  HWY_DYNAMIC_DISPATCH(SpreadBaseMapsT)(form, roughness, range, to);
+void SpreadBase(DiffuseForm form, const float* roughness, const LitHits& lit, BaseSpread* to) {
+  HWY_DYNAMIC_DISPATCH(SpreadBaseMapsT)(form, roughness, lit, to);
 }
 }  // namespace nacre
 #endif

@@ -23,53 +23,30 @@ struct SpreadV {
 };
 
 HWY_INLINE RgbV SpreadRgb(const SpreadV& spread, const RgbV& ratio) {
-  return MulAddRgb(ratio, spread.multiple, {spread.single, spread.single, spread.single});
+  return MulAdd3(ratio, spread.multiple, {spread.single, spread.single, spread.single});
 }
 
+// kForm is kOrenNayar or kBurley.
 template <DiffuseForm kForm>
-struct RoughDiffuse;
-
-template <>
-struct RoughDiffuse<DiffuseForm::kOrenNayar> {
-  struct View {
-    FloatV n_dot_v, loss;
-  };
-
-  static HWY_INLINE View SeenBy(FloatTag d, const PacketV& p) {
-    const FloatV n_dot_v = CosineToView(d, p);
-    return {n_dot_v, EonLoss(d, n_dot_v)};
-  }
-
-  static HWY_INLINE SpreadV Spread(FloatTag d, const View& view, const PacketV& p,
-                                   const IncidentV& in, FloatV roughness) {
+HWY_INLINE SpreadV RoughSpread(FloatTag d, const PacketV& p, const IncidentV& in,
+                               FloatV roughness) {
+  const FloatV n_dot_v = CosineToView(d, p);
+  if constexpr (kForm == DiffuseForm::kOrenNayar) {
     const FloatV one = hn::Set(d, 1.0f);
     const FloatV scale = EonScale(d, roughness);
     const FloatV n_dot_l = hn::IfThenElse(IsLit(d, in.n_dot_l), in.n_dot_l, one);
     const Vec3V<FloatV> l_minus_v = in.toward.Minus(p.to_view);
     const FloatV l_dot_v = hn::NegMulAdd(hn::Set(d, 0.5f), FusedDot(l_minus_v, l_minus_v), one);
-    return {EonSingleSpread(d, n_dot_l, view.n_dot_v, l_dot_v, roughness, scale),
-            EonMultipleSpread(d, EonLoss(d, n_dot_l), view.loss, roughness, scale)};
-  }
-};
-
-template <>
-struct RoughDiffuse<DiffuseForm::kBurley> {
-  struct View {
-    FloatV grazing;
-  };
-
-  static HWY_INLINE View SeenBy(FloatTag d, const PacketV& p) {
-    return {BurleyGrazing(d, CosineToView(d, p))};
-  }
-
-  static HWY_INLINE SpreadV Spread(FloatTag d, const View& view, const PacketV& p,
-                                   const IncidentV& in, FloatV roughness) {
+    return {EonSingleSpread(d, n_dot_l, n_dot_v, l_dot_v, roughness, scale),
+            EonMultipleSpread(d, EonLoss(d, n_dot_l), EonLoss(d, n_dot_v), roughness, scale)};
+  } else {
     const FloatV n_dot_l = hn::Max(in.n_dot_l, hn::Zero(d));
     const Vec3V<FloatV> u = in.toward.Plus(p.to_view);
-    return {BurleySpread(d, FusedDot(u, u), BurleyGrazing(d, n_dot_l), view.grazing, roughness),
+    return {BurleySpread(d, FusedDot(u, u), BurleyGrazing(d, n_dot_l), BurleyGrazing(d, n_dot_v),
+                         roughness),
             hn::Zero(d)};
   }
-};
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace nacre

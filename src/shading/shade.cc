@@ -8,7 +8,6 @@
 #include "base/overloaded.h"
 #include "shading/derive.h"
 #include "shading/kernels.h"
-#include "shading/mapped.h"
 #include "shading/models_at_hit.h"
 #include "shading/user_model.h"
 
@@ -55,117 +54,83 @@ MicrofacetLight<float> MakeLight(const MicrofacetModel& model, const Rgb& color)
   return light;
 }
 
-// The maps of a run of hits.
-struct RunMaps {
-  const HitParameters* textures = nullptr;  // null unless hits have constants of their own
-  bool widths = false;                      // ShadingMaterial::by_hit.width
-};
-
-// ShadeByModel runs the kernel of a model. `constants`, and `light`, their products with the light,
-// are shared by all hits or belong to each hit.
-template <class Number>
-void ShadeByModel(const MatteModel& model, const MatteConstants<Number>& constants,
-                  const MatteLight<Number>& light, const ShadeRange& range, const RunMaps&,
-                  ShadeScratch*) {
-  ShadeMatte(MatteUniforms<Number>{model.form, constants, light}, range);
-}
-
-template <class Number>
-void ShadeByModel(const PhongFamilyModel& model, const PhongConstants<Number>& constants,
-                  const PhongLight<Number>& light, const ShadeRange& range, const RunMaps& maps,
-                  ShadeScratch* scratch) {
-  const SharpLobeTerms* const sharp = FormSharpTerms(model, range, maps.textures, &scratch->sharp);
-  ShadePhong(PhongUniforms<Number>{model.model, constants, light, sharp}, range);
-}
-
-template <class Number>
-void ShadeByCurve(const MicrofacetUniforms<Number>& uniforms, const ShadeRange& range) {
-  switch (uniforms.model->fresnel) {
-    case FresnelForm::kSchlick:
-      return ShadeSchlick(uniforms, range);
-    case FresnelForm::kF82:
-      return ShadeF82(uniforms, range);
-    case FresnelForm::kDielectric:
-      return ShadeDielectric(uniforms, range);
-    case FresnelForm::kConductor:
-      return ShadeConductor(uniforms, range);
-  }
-}
-
-template <class Number>
-void ShadeByModel(const MicrofacetModel& model, const MicrofacetConstants<Number>& constants,
-                  const MicrofacetLight<Number>& light, const ShadeRange& range,
-                  const RunMaps& maps, ShadeScratch* scratch) {
-  MicrofacetUniforms<Number> uniforms{constants, &model, light};
-  Assign(model.eta, uniforms.eta);
-  Assign(model.k, uniforms.k);
-  const SharpLobeTerms* const sharp = FormSharpTerms(model, range, maps.textures, &scratch->sharp);
-  if (sharp != nullptr) uniforms.sharp_distribution = sharp->distribution.data();
-  if (maps.widths) uniforms.fit = maps.textures->fit.data();
-  uniforms.fit_stride = HitParameters::kStride;
-  if (model.base_form != DiffuseForm::kLambert) {
-    SpreadBase(model.base_form, constants.base.roughness, range, &scratch->base);
-    uniforms.spread = &scratch->base;
-  }
-  ShadeByCurve(uniforms, range);
-}
-
-MatteConstants<float> ConstantsOf(const MatteModel& model) {
+MatteConstants<float> NumbersOfModel(const MatteModel& model) {
   MatteConstants<float> constants;
   Assign(model.ratio, constants.ratio);
   constants.roughness = static_cast<float>(model.roughness);
   return constants;
 }
-PhongConstants<float> ConstantsOf(const PhongFamilyModel& model) {
+PhongConstants<float> NumbersOfModel(const PhongFamilyModel& model) {
   return {static_cast<float>(model.shininess)};
 }
-const MicrofacetConstants<float>& ConstantsOf(const MicrofacetModel& model) {
-  return model.constants;
-}
 
-// Shades hits that share the constants of their material.
 template <class Model>
-void Shade(const Model& model, const ShadeRange& range, ShadeScratch* scratch) {
-  ShadeByModel(model, ConstantsOf(model), MakeLight(model, range.light.color), range, {}, scratch);
+auto NumbersOfHits(const Model&, const LitHits& lit) {
+  return ColumnsIn<typename Model::template Constants<float*>>(lit.textures->constants);
+}
+MicrofacetNumbers<float*> NumbersOfHits(const MicrofacetModel&, const LitHits& lit) {
+  return nacre::NumbersOfHits(lit.material, *lit.textures);
 }
 
-// Shades hits with constants of their own.
-template <template <class> class Constants, template <class> class Light, class Model>
-void ShadeMapped(const ShadingMaterial& material, const Model& model, const ShadeRange& range,
-                 ShadeScratch* scratch, HitParameters* maps) {
-  MakeProducts({material, range.light.color, range.begin, range.end}, maps);
-  ShadeByModel(model, ColumnsIn<Constants<float*>>(maps->constants),
-               ColumnsIn<Light<float*>>(maps->products), range, {maps, material.by_hit.width},
-               scratch);
+// Shade runs the kernel of a model. The constants, and `light`, their products with the light, are
+// shared by all hits or belong to each hit.
+template <class Number>
+void Shade(const MatteModel& model, const MatteConstants<Number>& constants,
+           const MatteLight<Number>& light, const LitHits& lit, ShadeScratch*) {
+  ShadeMatte(MatteUniforms<Number>{model.form, constants, light}, lit);
+}
+
+template <class Number>
+void Shade(const PhongFamilyModel& model, const PhongConstants<Number>& constants,
+           const PhongLight<Number>& light, const LitHits& lit, ShadeScratch* scratch) {
+  const SharpLobeTerms* const sharp = FormSharpTerms(model, lit, &scratch->sharp);
+  ShadePhong(PhongUniforms<Number>{model.model, constants, light, sharp}, lit);
+}
+
+template <class Number>
+void Shade(const MicrofacetModel& model, const MicrofacetNumbers<Number>& numbers,
+           const MicrofacetLight<Number>& light, const LitHits& lit, ShadeScratch* scratch) {
+  MicrofacetUniforms<Number> uniforms{numbers, light};
+  Assign(model.eta, uniforms.eta);
+  Assign(model.k, uniforms.k);
+  const SharpLobeTerms* const sharp = FormSharpTerms(model, lit, &scratch->sharp);
+  if (sharp != nullptr) uniforms.sharp_distribution = sharp->distribution.data();
+  if (model.base_form != DiffuseForm::kLambert) {
+    SpreadBase(model.base_form, numbers.base.roughness, lit, &scratch->base);
+    uniforms.spread = &scratch->base;
+  }
+  ShadeMicrofacet(uniforms, lit);
 }
 
 }  // namespace
 
-const SharpLobeTerms* FormSharpTerms(const PhongFamilyModel& model, const ShadeRange& range,
-                                     const HitParameters* maps, SharpLobeTerms* terms) {
+const SharpLobeTerms* FormSharpTerms(const PhongFamilyModel& model, const LitHits& lit,
+                                     SharpLobeTerms* terms) {
+  const HitParameters* const maps = lit.Maps();
   if (maps == nullptr) {
     if (!model.double_terms) return nullptr;
-    FormSharpPhong(model.model, range, terms);
+    FormSharpPhong(model.model, model.shininess, lit, terms);
     return terms;
   }
   const double* const exponents = NumbersOf(*maps, MappedNumber::kWidth);
   const auto is_sharp = [](double n) { return n > kDoubleTermsShininess; };
-  if (std::none_of(exponents + range.begin, exponents + range.end, is_sharp)) return nullptr;
-  FormSharpPhong(model.model, exponents, range, terms);
+  if (std::none_of(exponents + lit.begin, exponents + lit.end, is_sharp)) return nullptr;
+  FormSharpPhong(model.model, exponents, lit, terms);
   return terms;
 }
 
-const SharpLobeTerms* FormSharpTerms(const MicrofacetModel& model, const ShadeRange& range,
-                                     const HitParameters* maps, SharpLobeTerms* terms) {
+const SharpLobeTerms* FormSharpTerms(const MicrofacetModel& model, const LitHits& lit,
+                                     SharpLobeTerms* terms) {
+  const HitParameters* const maps = lit.Maps();
   if (maps == nullptr) {
     if (!model.double_terms) return nullptr;
-    FormSharpGgx(model.alpha, range, terms);
+    FormSharpGgx(model.alpha, lit, terms);
     return terms;
   }
   const double* const alpha = maps->sharp_alpha.data();
   const auto is_sharp = [](double a) { return a >= 0; };
-  if (std::none_of(alpha + range.begin, alpha + range.end, is_sharp)) return nullptr;
-  FormSharpGgx(alpha, range, terms);
+  if (std::none_of(alpha + lit.begin, alpha + lit.end, is_sharp)) return nullptr;
+  FormSharpGgx(alpha, lit, terms);
   return terms;
 }
 
@@ -174,55 +139,24 @@ void PrepareRun(const ShadingMaterial& material, size_t begin, size_t end, Surfa
   const auto* microfacet = std::get_if<MicrofacetModel>(&material.model);
   if (microfacet == nullptr || !microfacet->prepared) return;
   if (!material.by_hit.model) {
-    PrepareMicrofacet(PrepareUniforms<float>{microfacet->constants, *microfacet, nullptr, 0}, begin,
-                      end, surface);
-    return;
+    return PrepareMicrofacet(NumbersOfModel(*microfacet), begin, end, surface);
   }
-  const float* const fit = material.by_hit.width ? textures->fit.data() : nullptr;
-  PrepareMicrofacet(
-      PrepareUniforms<float*>{ColumnsIn<MicrofacetConstants<float*>>(textures->constants),
-                              *microfacet, fit, HitParameters::kStride},
-      begin, end, surface);
+  PrepareMicrofacet(NumbersOfHits(material, *textures), begin, end, surface);
 }
 
-namespace {
-
-// Shades a material without its layers.
-void ShadeModel(const ShadingMaterial& material, const ShadeRange& range, ShadeScratch* scratch,
-                HitParameters* maps) {
-  if (!material.by_hit.model) {
-    std::visit(Overloaded{[](std::monostate) {},
-                          [&](const UserModel& model) { ShadeUser(model, range, scratch); },
-                          [&](const auto& model) { Shade(model, range, scratch); }},
-               material.model);
-    return;
-  }
-  std::visit(
-      Overloaded{[](std::monostate) {},
-                 [&](const UserModel& model) { ShadeUser(model, range, scratch); },
-                 [&](const MatteModel& model) {
-                   ShadeMapped<MatteConstants, MatteLight>(material, model, range, scratch, maps);
-                 },
-                 [&](const PhongFamilyModel& model) {
-                   ShadeMapped<PhongConstants, PhongLight>(material, model, range, scratch, maps);
-                 },
-                 [&](const MicrofacetModel& model) {
-                   ShadeMapped<MicrofacetConstants, MicrofacetLight>(material, model, range,
-                                                                     scratch, maps);
-                 }},
-      material.model);
-}
-
-}  // namespace
-
-void ShadeRun(const ShadingMaterial& material, const LitHits& lit, size_t begin, size_t end,
-              ShadeScratch* scratch, ReflectedRadiance* radiance) {
-  const ShadeRange range{lit.hits, lit.surface, lit.light, lit.on_hits,
-                         begin,    end,         radiance,  lit.components};
-  ShadeModel(material, range, scratch, lit.textures);
-  for (const LayerModel& layer : material.layers) {
-    CoverByLayer(layer, material.by_hit.model ? lit.textures : nullptr, range);
-  }
+void ShadeRun(const LitHits& lit, ShadeScratch* scratch) {
+  const auto shade = [&]<class Model>(const Model& model) {
+    if (lit.Maps() == nullptr) {
+      return Shade(model, NumbersOfModel(model), MakeLight(model, lit.light.color), lit, scratch);
+    }
+    MakeProducts(lit);
+    const auto light = ColumnsIn<typename Model::template Light<float*>>(lit.textures->products);
+    Shade(model, NumbersOfHits(model, lit), light, lit, scratch);
+  };
+  std::visit(Overloaded{[](std::monostate) {},
+                        [&](const UserModel& model) { ShadeUser(model, lit, scratch); }, shade},
+             lit.material.model);
+  for (const LayerModel& layer : lit.material.layers) CoverByLayer(layer, lit);
 }
 
 }  // namespace nacre

@@ -12,33 +12,17 @@
 // batches, never packets.
 #pragma once
 
-#include "hit/batch.h"
-#include "shading/light.h"
-#include "shading/material.h"
-#include "shading/surface.h"
+#include "shading/material_hits.h"
 
 namespace nacre {
-
-struct HitParameters;
-
-// The hits of a batch under one light.
-struct LitHits {
-  const HitBatch& hits;
-  const Surface& surface;
-  const ShadingLight& light;
-  const LightBatch* on_hits;          // the light at the hits; may be null if EvaluatedInPlace
-  bool components = true;             // whether diffuse and specular radiance are stored, too
-  HitParameters* textures = nullptr;  // for materials with maps
-};
 
 // Computes terms that do not depend on the light. Hits [begin, end) must all be of `material`,
 // whose maps must have been looked up (textures.h).
 void PrepareRun(const ShadingMaterial& material, size_t begin, size_t end, Surface* surface,
                 const HitParameters* textures = nullptr);
 
-// Stores in `radiance` what hits [begin, end), all of `material`, reflect of the light. If the
-// material has layers, lit.on_hits must not be null.
-void ShadeRun(const ShadingMaterial& material, const LitHits& lit, size_t begin, size_t end,
-              ShadeScratch* scratch, ReflectedRadiance* radiance);
+// Stores what the hits reflect of the light, without coats. If the material has layers, lit.on_hits
+// must not be null.
+void ShadeRun(const LitHits& lit, ShadeScratch* scratch);
 
 }  // namespace nacre

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shading/share.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/overloaded.h"
@@ -47,15 +46,24 @@ Vec3d InPlane(double cosine, double sign) {
   return {sign * std::sqrt((1 - cosine) * (1 + cosine)), 0, cosine};
 }
 
-// ReflectedShare of channel c of the diffuse component, which has no narrow lobe.
-double DiffuseShare(const ShadingMaterial& material, ShareOf what, double cosine, int c) {
-  const Vec3d normal(0, 0, 1);
-  const Vec3d fixed = InPlane(cosine, -1);
+// int part(reflection) over all directions of light to the view direction for kFurnace, or of view
+// from the light's direction, weighted as ReflectedShare is. part(reflection, cosine) is a number;
+// `cosine` is that of the direction that varies.
+template <class Part>
+double IntegrateReflected(const ShadingMaterial& material, ShareOf what, double cosine,
+                          const Part& part) {
+  const Vec3d normal(0, 0, 1), fixed = InPlane(cosine, -1);
   return IntegrateAround(InPlane(cosine, 1), [&](const Vec3d& other) {
     return what == ShareOf::kFurnace
-               ? Reflect(material, normal, other, fixed).diffuse[c]
-               : Reflect(material, normal, fixed, other).diffuse[c] * other.z / fixed.z;
+               ? part(Reflect(material, normal, other, fixed), other.z)
+               : part(Reflect(material, normal, fixed, other), other.z) * other.z / fixed.z;
   });
+}
+
+// ReflectedShare of channel c of the diffuse component, which has no narrow lobe.
+double DiffuseShare(const ShadingMaterial& material, ShareOf what, double cosine, int c) {
+  return IntegrateReflected(material, what, cosine,
+                            [&](const Reflection& r, double) { return r.diffuse[c]; });
 }
 
 Rgb ShareOfModel(const MatteModel& model, ShareOf what, double cosine) {
@@ -190,30 +198,18 @@ Rgb ShareWithLayers(const ShadingMaterial& material, const Rgb& share, ShareOf w
   below.layers.clear();
   below.coats.clear();
   whole.coats.clear();
-  const Vec3d normal(0, 0, 1), fixed = InPlane(cosine, -1);
-  const auto integrate = [&](int c, const ShadingMaterial& of, const auto& part) {
-    return IntegrateAround(InPlane(cosine, 1), [&](const Vec3d& other) {
-      return what == ShareOf::kFurnace
-                 ? part(Reflect(of, normal, other, fixed))[c]
-                 : part(Reflect(of, normal, fixed, other))[c] * other.z / fixed.z;
-    });
+  const auto integrate = [&](int c, const ShadingMaterial& of) {
+    return IntegrateReflected(of, what, cosine,
+                              [&](const Reflection& r, double) { return r.Sum()[c]; });
   };
   double left = 1;  // the factor for a mirror below the layers
   for (const LayerModel& layer : material.layers) left *= LayerAlbedo(layer, cosine).below;
   Rgb all;
   for (int c = 0; c < 3; ++c) {
-    all[c] = integrate(c, whole, [](const Reflection& r) { return r.Sum(); });
-    if (!HasDeltaLobe(below)) continue;
-    all[c] += (share[c] - integrate(c, below, [](const Reflection& r) { return r.Sum(); })) * left;
+    all[c] = integrate(c, whole);
+    if (HasDeltaLobe(below)) all[c] += (share[c] - integrate(c, below)) * left;
   }
   return all;
-}
-
-// Whether a perfect mirror is among the lobes.
-bool HasMirror(const ShadingMaterial& material) {
-  return HasDeltaLobe(material) ||
-         std::any_of(material.coats.begin(), material.coats.end(),
-                     [](const auto& coat) { return HasDeltaLobe(*coat); });
 }
 
 // For kOneLight: the light that the material below its topmost coat reflects, whose share is
@@ -222,11 +218,9 @@ Rgb ShareThroughCoat(const ShadingMaterial& material, const Rgb& share, double c
   ShadingMaterial below = material;
   below.coats.pop_back();
   const ShadingMaterial& coat = *material.coats.back();
-  const Vec3d normal(0, 0, 1), fixed = InPlane(cosine, -1);
   const auto integrate = [&](int c, const auto& seen) {
-    return IntegrateAround(InPlane(cosine, 1), [&](const Vec3d& other) {
-      return seen(Reflect(below, normal, fixed, other), other.z)[c] * other.z / fixed.z;
-    });
+    return IntegrateReflected(below, ShareOf::kOneLight, cosine,
+                              [&](const Reflection& r, double mu) { return seen(r, mu)[c]; });
   };
   const auto left = [&](double mu) { return TransmittedByCoat(coat, mu); };
   Rgb through;

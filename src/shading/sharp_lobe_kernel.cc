@@ -33,9 +33,9 @@ HWY_INLINE void StoreRounded(DoubleTag, DoubleV value, float* to) {
 // Calls form(directions, i) for each packet of the range. Arrays are padded, and entries that a
 // packet writes past the end of its run are not used.
 template <class Form>
-HWY_INLINE void ForEachHit(const ShadeRange& range, const Form& form) {
+HWY_INLINE void ForEachHit(const LitHits& lit, const Form& form) {
   const DoubleTag d;
-  const ShadingLight& light = range.light;
+  const ShadingLight& light = lit.light;
   const bool far = light.form == LightForm::kDirectional;
   const Vec3d& from = far ? light.to_light : light.position;
   const Vec3V<DoubleV> origin{hn::Set(d, from.x), hn::Set(d, from.y), hn::Set(d, from.z)};
@@ -43,43 +43,43 @@ HWY_INLINE void ForEachHit(const ShadeRange& range, const Form& form) {
   const auto offset_at = [&](size_t i) HWY_ATTR {
     // A direction that was sampled in float is exact as it is.
     if (light.form == LightForm::kGiven) {
-      return PromoteSoa(d, range.on_hits->to_light, i);
+      return PromoteSoa(d, lit.on_hits->to_light, i);
     }
-    return far ? origin : Sub(origin, LoadSoa(d, range.hits.position, i));
+    return far ? origin : Sub(origin, LoadSoa(d, lit.hits.position, i));
   };
-  for (size_t i = range.begin; i < range.end; i += hn::Lanes(d)) {
+  for (size_t i = lit.begin; i < lit.end; i += hn::Lanes(d)) {
     const Vec3V<DoubleV> offset = offset_at(i);
     const DoubleV squared = FusedDot(offset, offset);
     const DoubleV distance = hn::Sqrt(squared);
     // A light exactly at the hit has no direction, and no irradiance.
     const auto apart = hn::Gt(squared, hn::Zero(d));
     const DoubleV scale = hn::Div(one, hn::IfThenElse(apart, distance, one));
-    form(Directions{LoadSoa(d, range.hits.normal, i), Scale(offset, scale),
-                    LoadSoa(d, range.hits.to_view, i)},
+    form(Directions{LoadSoa(d, lit.hits.normal, i), Scale(offset, scale),
+                    LoadSoa(d, lit.hits.to_view, i)},
          i);
   }
 }
 
-void FormSharpGgxT(double alpha, const ShadeRange& range, SharpLobeTerms* terms) {
-  const DoubleTag d;
-  const DoubleV alpha_v = hn::Set(d, alpha);
-  ForEachHit(range, [&](const Directions& at, size_t i) HWY_ATTR {
-    const AnglesV<DoubleV> angles = ComputeAngles(d, at.normal, at.to_light, at.to_view);
-    StoreRounded(d, GgxDistribution(d, angles, alpha_v), terms->distribution.data() + i);
-  });
+// A number that all hits share, or the numbers of hits i...
+HWY_INLINE DoubleV NumberAt(double number, size_t) { return hn::Set(DoubleTag(), number); }
+HWY_INLINE DoubleV NumberAt(const double* numbers, size_t i) {
+  return hn::LoadU(DoubleTag(), numbers + i);
 }
 
-void FormSharpGgxMapsT(const double* alphas, const ShadeRange& range, SharpLobeTerms* terms) {
+template <class Number>
+void FormSharpGgxOf(Number alphas, const LitHits& lit, SharpLobeTerms* terms) {
   const DoubleTag d;
   const DoubleV zero = hn::Zero(d);
-  ForEachHit(range, [&](const Directions& at, size_t i) HWY_ATTR {
-    const DoubleV alpha = hn::LoadU(d, alphas + i);
+  ForEachHit(lit, [&](const Directions& at, size_t i) HWY_ATTR {
+    const DoubleV alpha = NumberAt(alphas, i);
     const AnglesV<DoubleV> angles = ComputeAngles(d, at.normal, at.to_light, at.to_view);
     const DoubleV distribution = GgxDistribution(d, angles, hn::Max(alpha, zero));
     StoreRounded(d, hn::IfThenElse(hn::Ge(alpha, zero), distribution, hn::Set(d, -1.0)),
                  terms->distribution.data() + i);
   });
 }
+constexpr auto& FormSharpGgxT = FormSharpGgxOf<double>;
+constexpr auto& FormSharpGgxMapsT = FormSharpGgxOf<const double*>;
 
 HWY_INLINE LobeCosineV<DoubleV> CosineAt(PhongModel model, const Directions& at) {
   const DoubleTag d;
@@ -89,27 +89,20 @@ HWY_INLINE LobeCosineV<DoubleV> CosineAt(PhongModel model, const Directions& at)
   return PhongCosine(d, SquaredFromReflection(at.normal, at.to_light, at.to_view));
 }
 
-void FormSharpPhongMapsT(PhongModel model, const double* exponents, const ShadeRange& range,
-                         SharpLobeTerms* terms) {
+template <class Number>
+void FormSharpPhongOf(PhongModel model, Number exponents, const LitHits& lit,
+                      SharpLobeTerms* terms) {
   const DoubleTag d;
-  ForEachHit(range, [&](const Directions& at, size_t i) HWY_ATTR {
+  ForEachHit(lit, [&](const Directions& at, size_t i) HWY_ATTR {
     const LobeCosineV<DoubleV> cosine = CosineAt(model, at);
-    const auto sharp =
-        hn::Gt(hn::LoadU(d, exponents + i), hn::Set(d, double{kDoubleTermsShininess}));
+    const auto sharp = hn::Gt(NumberAt(exponents, i), hn::Set(d, double{kDoubleTermsShininess}));
     StoreRounded(d, hn::IfThenElse(sharp, cosine.one_minus_c, hn::Set(d, -1.0)),
                  terms->one_minus_cos.data() + i);
     StoreRounded(d, cosine.c, terms->cos.data() + i);
   });
 }
-
-void FormSharpPhongT(PhongModel model, const ShadeRange& range, SharpLobeTerms* terms) {
-  const DoubleTag d;
-  ForEachHit(range, [&](const Directions& at, size_t i) HWY_ATTR {
-    const LobeCosineV<DoubleV> cosine = CosineAt(model, at);
-    StoreRounded(d, cosine.one_minus_c, terms->one_minus_cos.data() + i);
-    StoreRounded(d, cosine.c, terms->cos.data() + i);
-  });
-}
+constexpr auto& FormSharpPhongT = FormSharpPhongOf<double>;
+constexpr auto& FormSharpPhongMapsT = FormSharpPhongOf<const double*>;
 
 }  // namespace HWY_NAMESPACE
 }  // namespace nacre
@@ -118,25 +111,25 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace nacre {
 HWY_EXPORT(FormSharpGgxT);
-HWY_EXPORT(FormSharpPhongT);
 HWY_EXPORT(FormSharpGgxMapsT);
+HWY_EXPORT(FormSharpPhongT);
 HWY_EXPORT(FormSharpPhongMapsT);
 
-void FormSharpGgx(double alpha, const ShadeRange& range, SharpLobeTerms* terms) {
-  HWY_DYNAMIC_DISPATCH(FormSharpGgxT)(alpha, range, terms);
+void FormSharpGgx(double alpha, const LitHits& lit, SharpLobeTerms* terms) {
+  HWY_DYNAMIC_DISPATCH(FormSharpGgxT)(alpha, lit, terms);
 }
 
-void FormSharpPhong(PhongModel model, const ShadeRange& range, SharpLobeTerms* terms) {
-  HWY_DYNAMIC_DISPATCH(FormSharpPhongT)(model, range, terms);
+void FormSharpGgx(const double* alphas, const LitHits& lit, SharpLobeTerms* terms) {
+  HWY_DYNAMIC_DISPATCH(FormSharpGgxMapsT)(alphas, lit, terms);
 }
 
-void FormSharpGgx(const double* alphas, const ShadeRange& range, SharpLobeTerms* terms) {
-  HWY_DYNAMIC_DISPATCH(FormSharpGgxMapsT)(alphas, range, terms);
+void FormSharpPhong(PhongModel model, double exponent, const LitHits& lit, SharpLobeTerms* terms) {
+  HWY_DYNAMIC_DISPATCH(FormSharpPhongT)(model, exponent, lit, terms);
 }
 
-void FormSharpPhong(PhongModel model, const double* exponents, const ShadeRange& range,
+void FormSharpPhong(PhongModel model, const double* exponents, const LitHits& lit,
                     SharpLobeTerms* terms) {
-  HWY_DYNAMIC_DISPATCH(FormSharpPhongMapsT)(model, exponents, range, terms);
+  HWY_DYNAMIC_DISPATCH(FormSharpPhongMapsT)(model, exponents, lit, terms);
 }
 }  // namespace nacre
 #endif

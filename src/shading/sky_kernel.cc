@@ -31,32 +31,10 @@ void NormalizeDirectionsT(const Soa3<double>& directions, size_t count, Soa3<flo
   const hn::ScalableTag<double> dd;
   const hn::Rebind<float, decltype(dd)> d;
   for (size_t i = 0; i < count; i += hn::Lanes(dd)) {
-    const auto from =
-        LoadU3(dd, directions.x.data() + i, directions.y.data() + i, directions.z.data() + i);
-    const Vec3V<hn::Vec<decltype(d)>> v{hn::DemoteTo(d, from.x), hn::DemoteTo(d, from.y),
-                                        hn::DemoteTo(d, from.z)};
+    const auto v = Demote3(dd, LoadSoa(dd, directions, i));
     const auto inverse = hn::Div(hn::Set(d, 1.0f), hn::Sqrt(FusedDot(v, v)));
     StoreSoa(d, Scale(v, inverse), i, unit);
   }
-}
-
-void EvaluateGradientT(const ShadingSky& sky, const Soa3<float>& directions, size_t count,
-                       Soa3<float>* radiance) {
-  const D d;
-  const GradientSkyTerms<float>&r = sky.gradient[0], &g = sky.gradient[1], &b = sky.gradient[2];
-  ForEach(directions, count, radiance, [&](const Vec3V<V>& l) HWY_ATTR {
-    return Vec3V<V>{Radiance(d, r, l), Radiance(d, g, l), Radiance(d, b, l)};
-  });
-}
-
-void EvaluateQuadraticT(const ShadingSky& sky, const Soa3<float>& directions, size_t count,
-                        Soa3<float>* radiance) {
-  const D d;
-  ForEach(directions, count, radiance, [&](const Vec3V<V>& l) HWY_ATTR {
-    // Rounding may make the value slightly negative where the quadratic has its root.
-    const V value = hn::Max(Radiance(d, sky.quadratic, l), hn::Zero(d));
-    return Vec3V<V>{value, value, value};
-  });
 }
 
 // v rotated about +y by the angle with this cosine and sine.
@@ -66,9 +44,8 @@ HWY_INLINE Vec3V<V> Turn(const Vec3V<V>& v, double cosine, double sine) {
   return {hn::MulAdd(v.x, c, hn::Mul(v.z, s)), v.y, hn::MulSub(v.z, c, hn::Mul(v.x, s))};
 }
 
-// Stores the radiance and, unless `pdf` is null, the pdf of SampleSky.
-void EvaluatePictureT(const ShadingSky& sky, const Soa3<float>& directions, size_t count,
-                      Soa3<float>* radiance, float* pdf) {
+void EvaluatePicture(const ShadingSky& sky, const Soa3<float>& directions, size_t count,
+                     Soa3<float>* radiance, float* pdf) {
   const D d;
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
     const Vec3V<V> turned = Turn(LoadSoa(D(), directions, i), sky.cos_rotation, -sky.sin_rotation);
@@ -78,8 +55,28 @@ void EvaluatePictureT(const ShadingSky& sky, const Soa3<float>& directions, size
   }
 }
 
-void SamplePictureT(const ShadingSky& sky, const UnitPoints& points, size_t count,
-                    LightDirections* directions) {
+void EvaluateSkyT(const SampledLight& light, const Soa3<float>& directions, size_t count,
+                  Soa3<float>* radiance, float* pdf) {
+  const D d;
+  const ShadingSky& sky = light.sky;
+  if (light.form == SampledForm::kPictureSky) {
+    return EvaluatePicture(sky, directions, count, radiance, pdf);
+  }
+  if (light.form == SampledForm::kGradientSky) {
+    const GradientSkyTerms<float>&r = sky.gradient[0], &g = sky.gradient[1], &b = sky.gradient[2];
+    return ForEach(directions, count, radiance, [&](const Vec3V<V>& l) HWY_ATTR {
+      return Vec3V<V>{Radiance(d, r, l), Radiance(d, g, l), Radiance(d, b, l)};
+    });
+  }
+  ForEach(directions, count, radiance, [&](const Vec3V<V>& l) HWY_ATTR {
+    // Rounding may make the value slightly negative where the quadratic has its root.
+    const V value = hn::Max(Radiance(d, sky.quadratic, l), hn::Zero(d));
+    return Vec3V<V>{value, value, value};
+  });
+}
+
+void SampleSkyT(const ShadingSky& sky, const UnitPoints& points, size_t count,
+                LightDirections* directions) {
   const D d;
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
     const EnvironmentSampleV<V> sample =
@@ -92,18 +89,16 @@ void SamplePictureT(const ShadingSky& sky, const UnitPoints& points, size_t coun
   }
 }
 
-void GradientIrradianceT(const ShadingSky& sky, const Surface& surface, size_t count,
-                         Soa3<float>* irradiance) {
+void SkyIrradianceT(const SampledLight& light, const Surface& surface, size_t count,
+                    Soa3<float>* irradiance) {
   const D d;
-  const GradientSkyTerms<float>&r = sky.gradient[0], &g = sky.gradient[1], &b = sky.gradient[2];
-  ForEach(surface.normal, count, irradiance, [&](const Vec3V<V>& n) HWY_ATTR {
-    return Vec3V<V>{Irradiance(d, r, n), Irradiance(d, g, n), Irradiance(d, b, n)};
-  });
-}
-
-void QuadraticIrradianceT(const ShadingSky& sky, const Surface& surface, size_t count,
-                          Soa3<float>* irradiance) {
-  const D d;
+  const ShadingSky& sky = light.sky;
+  if (light.form == SampledForm::kGradientSky) {
+    const GradientSkyTerms<float>&r = sky.gradient[0], &g = sky.gradient[1], &b = sky.gradient[2];
+    return ForEach(surface.normal, count, irradiance, [&](const Vec3V<V>& n) HWY_ATTR {
+      return Vec3V<V>{Irradiance(d, r, n), Irradiance(d, g, n), Irradiance(d, b, n)};
+    });
+  }
   ForEach(surface.normal, count, irradiance, [&](const Vec3V<V>& n) HWY_ATTR {
     const V value = Irradiance(d, sky.quadratic, n);
     return Vec3V<V>{value, value, value};
@@ -118,12 +113,9 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace nacre {
 HWY_EXPORT(NormalizeDirectionsT);
-HWY_EXPORT(EvaluateGradientT);
-HWY_EXPORT(EvaluateQuadraticT);
-HWY_EXPORT(EvaluatePictureT);
-HWY_EXPORT(SamplePictureT);
-HWY_EXPORT(GradientIrradianceT);
-HWY_EXPORT(QuadraticIrradianceT);
+HWY_EXPORT(EvaluateSkyT);
+HWY_EXPORT(SampleSkyT);
+HWY_EXPORT(SkyIrradianceT);
 
 void NormalizeDirections(const Soa3<double>& directions, size_t count, Soa3<float>* unit) {
   HWY_DYNAMIC_DISPATCH(NormalizeDirectionsT)(directions, count, unit);
@@ -131,26 +123,17 @@ void NormalizeDirections(const Soa3<double>& directions, size_t count, Soa3<floa
 
 void SampleSky(const SampledLight& light, const UnitPoints& points, size_t count,
                LightDirections* directions) {
-  HWY_DYNAMIC_DISPATCH(SamplePictureT)(light.sky, points, count, directions);
+  HWY_DYNAMIC_DISPATCH(SampleSkyT)(light.sky, points, count, directions);
 }
 
 void EvaluateSky(const SampledLight& light, const Soa3<float>& directions, size_t count,
                  Soa3<float>* radiance, float* pdf) {
-  if (light.form == SampledForm::kPictureSky) {
-    return HWY_DYNAMIC_DISPATCH(EvaluatePictureT)(light.sky, directions, count, radiance, pdf);
-  }
-  if (light.form == SampledForm::kGradientSky) {
-    return HWY_DYNAMIC_DISPATCH(EvaluateGradientT)(light.sky, directions, count, radiance);
-  }
-  HWY_DYNAMIC_DISPATCH(EvaluateQuadraticT)(light.sky, directions, count, radiance);
+  HWY_DYNAMIC_DISPATCH(EvaluateSkyT)(light, directions, count, radiance, pdf);
 }
 
 void SkyIrradiance(const SampledLight& light, const Surface& surface, size_t count,
                    Soa3<float>* irradiance) {
-  if (light.form == SampledForm::kGradientSky) {
-    return HWY_DYNAMIC_DISPATCH(GradientIrradianceT)(light.sky, surface, count, irradiance);
-  }
-  HWY_DYNAMIC_DISPATCH(QuadraticIrradianceT)(light.sky, surface, count, irradiance);
+  HWY_DYNAMIC_DISPATCH(SkyIrradianceT)(light, surface, count, irradiance);
 }
 }  // namespace nacre
 #endif

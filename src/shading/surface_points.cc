@@ -45,8 +45,9 @@ Gradients GradientsOf(const Corners& corners) {
 
 }  // namespace
 
-void FindPoints(const TexturedRun& run, const HitBatch& hits, HitParameters* textures) {
-  HitParameters& t = *textures;
+void FindPoints(const TexturedRun& run) {
+  const HitBatch& hits = run.hits;
+  HitParameters& t = run.textures;
   const Scene& scene = *run.scene.scene;
   const auto sphere_count = static_cast<uint32_t>(scene.spheres.size());
   t.any_mesh = false;
@@ -79,9 +80,9 @@ void FindPoints(const TexturedRun& run, const HitBatch& hits, HitParameters* tex
   }
 }
 
-void FindMeshCoordinates(const TexturedRun& run, const PreparedTexture& texture,
-                         const HitBatch& hits, HitParameters* textures) {
-  HitParameters& t = *textures;
+void FindMeshCoordinates(const TexturedRun& run, const PreparedTexture& texture) {
+  const HitBatch& hits = run.hits;
+  HitParameters& t = run.textures;
   const Scene& scene = *run.scene.scene;
   const auto sphere_count = static_cast<uint32_t>(scene.spheres.size());
   for (size_t i = run.begin; i < run.end; ++i) {
@@ -100,11 +101,11 @@ void FindMeshCoordinates(const TexturedRun& run, const PreparedTexture& texture,
   }
 }
 
-bool FindTangents(const TexturedRun& run, const PreparedTexture& texture, const HitBatch& hits,
-                  HitParameters* textures) {
+bool FindTangents(const TexturedRun& run, const PreparedTexture& texture) {
   if (run.scene.mesh_tangents.empty()) return false;
   const auto number = static_cast<uint32_t>(&texture - run.scene.textures.data());
-  HitParameters& t = *textures;
+  const HitBatch& hits = run.hits;
+  HitParameters& t = run.textures;
   const Scene& scene = *run.scene.scene;
   const auto sphere_count = static_cast<uint32_t>(scene.spheres.size());
   bool any = false;
@@ -141,8 +142,9 @@ bool FindTangents(const TexturedRun& run, const PreparedTexture& texture, const 
   return any;
 }
 
-void FindVertexColors(const TexturedRun& run, const HitBatch& hits, HitParameters* textures) {
-  Soa3<float>& to = textures->texels;
+void FindVertexColors(const TexturedRun& run) {
+  const HitBatch& hits = run.hits;
+  Soa3<float>& to = run.textures.texels;
   const Scene& scene = *run.scene.scene;
   const auto sphere_count = static_cast<uint32_t>(scene.spheres.size());
   for (size_t i = run.begin; i < run.end; ++i) {

@@ -13,40 +13,35 @@ namespace nacre {
 // Fills point, inverse_size, geometric, side and, if the material is normal-mapped or bump-mapped,
 // interpolated_normal (surface_points.cc). On meshes, point and inverse_size are left to
 // MakeCoordinates.
-void FindPoints(const TexturedRun& run, const HitBatch& hits, HitParameters* textures);
+void FindPoints(const TexturedRun& run);
 
 // For meshes with their own (u, v): fills u, v and gradients at hits on triangles, before the
 // texture's transform (surface_points.cc).
-void FindMeshCoordinates(const TexturedRun& run, const PreparedTexture& texture,
-                         const HitBatch& hits, HitParameters* textures);
+void FindMeshCoordinates(const TexturedRun& run, const PreparedTexture& texture);
 
 // Fills the interpolated frames of a normal map on meshes (surface_points.cc). Returns false if no
 // hit has one.
-bool FindTangents(const TexturedRun& run, const PreparedTexture& texture, const HitBatch& hits,
-                  HitParameters* textures);
+bool FindTangents(const TexturedRun& run, const PreparedTexture& texture);
 
 // Stores interpolated vertex colours in `texels`, white on shapes without them (surface_points.cc).
-void FindVertexColors(const TexturedRun& run, const HitBatch& hits, HitParameters* textures);
+void FindVertexColors(const TexturedRun& run);
 
 // Fills u, v, gradients and footprints for a texture (coordinates_kernel.cc).
-void MakeCoordinates(const TexturedRun& run, const PreparedTexture& texture, const HitBatch& hits,
-                     HitParameters* textures);
+void MakeCoordinates(const TexturedRun& run, const PreparedTexture& texture);
 
 // Replace shading normals by normal-mapped ones (normal_map_kernel.cc). MapNormals reads the normal
 // map from textures.texels, where the value `middle` stands for 0, and scales its x and y by
 // `scale`; `frames` is the result of FindTangents. MapNormalsBySlopes reads the slopes of a bump
 // map from x and y of textures.texels, and multiplies them by `distance`.
-void MapNormals(const TexturedRun& run, float middle, float scale, bool frames,
-                const HitParameters& textures, HitBatch* hits, Surface* surface);
-void MapNormalsBySlopes(const TexturedRun& run, double distance, const HitParameters& textures,
-                        HitBatch* hits, Surface* surface);
+void MapNormals(const TexturedRun& run, float middle, float scale, bool frames);
+void MapNormalsBySlopes(const TexturedRun& run, double distance);
 
 // Compute HitParameters::numbers (mapped_kernel.cc). StartNumbers sets the material's own
 // parameters at every hit, MultiplyNumber multiplies one of them by the last texels that were
 // looked up, and FinishNumbers derives the constants of shading and the values of output layers
 // from all of them.
-void StartNumbers(const TexturedRun& run, HitParameters* textures);
-void MultiplyNumber(const TexturedRun& run, const MapTarget& target, HitParameters* textures);
-void FinishNumbers(const TexturedRun& run, HitParameters* textures);
+void StartNumbers(const TexturedRun& run);
+void MultiplyNumber(const TexturedRun& run, const MapTarget& target);
+void FinishNumbers(const TexturedRun& run);
 
 }  // namespace nacre

@@ -8,11 +8,14 @@
 #include <memory>
 #include <vector>
 
+#include "hit/batch.h"
 #include "hit/camera_frame.h"
 #include "scene/primitives.h"
 #include "scene/scene.h"
 #include "scene/tangents.h"
+#include "shading/hit_parameters.h"
 #include "shading/material.h"
+#include "shading/surface.h"
 
 namespace nacre {
 
@@ -52,11 +55,14 @@ struct TextureScene {
   std::vector<std::vector<MapTangents>> mesh_tangents;  // by mesh; empty if no mesh has any
 };
 
-// Hits [begin, end) of a batch, all of one material with maps.
+// Hits [begin, end) of a batch, all of one material with maps, and where the results are stored.
 struct TexturedRun {
   const TextureScene& scene;
   const ShadingMaterial& material;
   size_t begin, end;
+  HitBatch& hits;
+  Surface& surface;
+  HitParameters& textures;
 };
 
 }  // namespace nacre

@@ -87,53 +87,50 @@ constexpr size_t kNone = static_cast<size_t>(-1);
 
 class RunTexturer {
  public:
-  RunTexturer(const TexturedRun& run, HitBatch* hits, Surface* surface, HitParameters* textures)
-      : run_(run), hits_(hits), surface_(surface), t_(textures) {}
+  explicit RunTexturer(const TexturedRun& run) : run_(run), t_(run.textures) {}
 
   void Texture() {
-    FindPoints(run_, *hits_, t_);
+    FindPoints(run_);
     const Material& material = *run_.material.scene_material;
     if (material.normal_map.texture.valid()) ApplyNormalMap(material.normal_map);
     if (material.bump_map.texture.valid()) ApplyBumpMap(material.bump_map);
     const MaterialModel& model = *ModelOf(material);
-    StartNumbers(run_, t_);
+    StartNumbers(run_);
     if (material.vertex_colors == VertexColors::kBase) {
       MultiplyByVertexColors(model, MappedNumber::kColor);
     }
     for (const MaterialMap& map : model.maps) {
       if (map.target_count == 0 || !map.get(material).valid()) continue;
       LookUp(map.get(material));
-      for (const MapTarget& target : TargetsOf(map)) MultiplyNumber(run_, target, t_);
+      for (const MapTarget& target : TargetsOf(map)) MultiplyNumber(run_, target);
     }
     if (material.vertex_colors == VertexColors::kEmission) {
       MultiplyByVertexColors(model, MappedNumber::kEmission);
     }
-    FinishNumbers(run_, t_);
+    FinishNumbers(run_);
     if (run_.material.in_ambient) CoverAmbient();
   }
 
  private:
   const PreparedTexture& FindCoordinates(TextureId id) {
     const PreparedTexture& texture = run_.scene.textures[id.index];
-    if (texture.coordinates != made_) MakeCoordinates(run_, texture, *hits_, t_);
+    if (texture.coordinates != made_) MakeCoordinates(run_, texture);
     made_ = texture.coordinates;
     return texture;
   }
 
   SamplePoints Points() const {
     const size_t i = run_.begin;
-    return {
-        t_->u.data() + i,
-        t_->v.data() + i,
-        {t_->du_dx.data() + i, t_->dv_dx.data() + i, t_->du_dy.data() + i, t_->dv_dy.data() + i},
-        run_.end - run_.begin};
+    return {t_.u.data() + i,
+            t_.v.data() + i,
+            {t_.du_dx.data() + i, t_.dv_dx.data() + i, t_.du_dy.data() + i, t_.dv_dy.data() + i},
+            run_.end - run_.begin};
   }
 
   void LookUp(TextureId id) {
     const PreparedTexture& texture = FindCoordinates(id);
     const size_t i = run_.begin;
-    float* const to[3] = {t_->texels.x.data() + i, t_->texels.y.data() + i,
-                          t_->texels.z.data() + i};
+    float* const to[3] = {t_.texels.x.data() + i, t_.texels.y.data() + i, t_.texels.z.data() + i};
     SampleTexture(*texture.image, texture.sampling, Points(), 3, to);
   }
 
@@ -141,8 +138,8 @@ class RunTexturer {
     for (const MaterialMap& map : model.maps) {
       for (const MapTarget& target : TargetsOf(map)) {
         if (target.number != number) continue;
-        FindVertexColors(run_, *hits_, t_);
-        return MultiplyNumber(run_, target, t_);
+        FindVertexColors(run_);
+        return MultiplyNumber(run_, target);
       }
     }
   }
@@ -151,27 +148,28 @@ class RunTexturer {
     LookUp(map.texture);
     const bool literal = map.convention == NormalMap::Convention::kLiteral;
     const float middle = literal ? 0.5f : run_.scene.textures[map.texture.index].middle;
-    const bool frames = FindTangents(run_, run_.scene.textures[map.texture.index], *hits_, t_);
-    MapNormals(run_, middle, static_cast<float>(map.scale), frames, *t_, hits_, surface_);
+    const bool frames = FindTangents(run_, run_.scene.textures[map.texture.index]);
+    MapNormals(run_, middle, static_cast<float>(map.scale), frames);
   }
 
   void ApplyBumpMap(const BumpMap& map) {
     const PreparedTexture& texture = FindCoordinates(map.texture);
     const size_t i = run_.begin;
-    SampleSlopes(*texture.image, texture.sampling, Points(), t_->texels.x.data() + i,
-                 t_->texels.y.data() + i);
-    MapNormalsBySlopes(run_, map.distance, *t_, hits_, surface_);
+    SampleSlopes(*texture.image, texture.sampling, Points(), t_.texels.x.data() + i,
+                 t_.texels.y.data() + i);
+    MapNormalsBySlopes(run_, map.distance);
   }
 
   // Each layer reflects its albedo of ambient light, and attenuates what is reflected below it.
   void CoverAmbient() {
     const ShadingMaterial& material = run_.material;
-    const HitParameters* const maps = material.by_hit.model ? t_ : nullptr;
+    const HitParameters* const maps = material.by_hit.model ? &t_ : nullptr;
     for (const LayerModel& layer : material.layers) {
       for (size_t i = run_.begin; i < run_.end; ++i) {
-        const LayerReflection albedo = LayerAlbedo(LayerAtHit(layer, maps, i), NDotV(*surface_, i));
+        const LayerReflection albedo =
+            LayerAlbedo(LayerAtHit(layer, maps, i), NDotV(run_.surface, i));
         for (int c = 0; c < 3; ++c) {
-          float& ambient = ChannelOf(t_->ambient, c)[i];
+          float& ambient = ChannelOf(t_.ambient, c)[i];
           ambient =
               static_cast<float>(albedo.below * ambient + albedo.lobe[c] * run_.scene.ambient[c]);
         }
@@ -180,9 +178,7 @@ class RunTexturer {
   }
 
   const TexturedRun& run_;
-  HitBatch* hits_;
-  Surface* surface_;
-  HitParameters* t_;
+  HitParameters& t_;
   size_t made_ = kNone;
 };
 
@@ -226,9 +222,6 @@ TextureScene PrepareTextures(const Scene& scene, const CameraFrame& camera, doub
   return prepared;
 }
 
-void TextureHits(const TexturedRun& run, HitBatch* hits, Surface* surface,
-                 HitParameters* textures) {
-  RunTexturer(run, hits, surface, textures).Texture();
-}
+void TextureHits(const TexturedRun& run) { RunTexturer(run).Texture(); }
 
 }  // namespace nacre

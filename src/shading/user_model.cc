@@ -127,12 +127,12 @@ class Gathered {
 };
 
 // The exact direction to the light from hit i, computed as in sharp_lobe_kernel.cc.
-Vec3d ToLight(const ShadeRange& range, size_t i) {
-  const ShadingLight& from = range.light;
+Vec3d ToLight(const LitHits& lit, size_t i) {
+  const ShadingLight& from = lit.light;
   if (from.form == LightForm::kDirectional) return from.to_light;
   const Vec3d offset = from.form == LightForm::kGiven
-                           ? VectorAt(range.on_hits->to_light, i)
-                           : from.position - VectorAt(range.hits.position, i);
+                           ? VectorAt(lit.on_hits->to_light, i)
+                           : from.position - VectorAt(lit.hits.position, i);
   const double length = offset.length();
   return length > 0 ? offset / length : offset;
 }
@@ -145,44 +145,43 @@ void ClearRange(size_t begin, size_t end, Soa3<float>* soa) {
 
 }  // namespace
 
-void ShadeUser(const UserModel& model, const ShadeRange& range, ShadeScratch* scratch) {
-  ReflectedRadiance& radiance = *range.radiance;
-  ClearRange(range.begin, range.end, &radiance.sum);
+void ShadeUser(const UserModel& model, const LitHits& lit, ShadeScratch* scratch) {
+  ReflectedRadiance& radiance = *lit.radiance;
+  ClearRange(lit.begin, lit.end, &radiance.sum);
   Soa3<float>* component = nullptr;
-  if (range.components) {
-    ClearRange(range.begin, range.end, &radiance.diffuse);
-    ClearRange(range.begin, range.end, &radiance.specular);
+  if (lit.components) {
+    ClearRange(lit.begin, lit.end, &radiance.diffuse);
+    ClearRange(lit.begin, lit.end, &radiance.specular);
     component = model.brdf->sample ? &radiance.specular : &radiance.diffuse;
   }
   Gathered gathered(&scratch->user);
-  const LightBatch* on_hits = range.on_hits;
+  const LightBatch* on_hits = lit.on_hits;
   if (on_hits == nullptr) {
-    EvaluateLight(range.light, range.hits, range.surface, &scratch->user->light);
+    EvaluateLight(lit.light, lit.hits, lit.surface, &scratch->user->light);
     on_hits = &scratch->user->light;
   }
   const AlignedArray<float>& irradiance = on_hits->irradiance;
-  for (size_t i = range.begin; i < range.end; ++i) {
+  for (size_t i = lit.begin; i < lit.end; ++i) {
     if (!(irradiance[i] > 0)) continue;
-    gathered.Add(i, VectorAt(range.hits.normal, i), VectorAt(range.hits.to_view, i),
-                 ToLight(range, i));
+    gathered.Add(i, VectorAt(lit.hits.normal, i), VectorAt(lit.hits.to_view, i), ToLight(lit, i));
   }
   if (gathered.count() == 0) return;
   Evaluate(*model.brdf, gathered.batch(), gathered.values());
   for (size_t k = 0; k < gathered.count(); ++k) {
     const size_t i = gathered.hit(k);
-    const Vec3d reflected = Vec3d(range.light.color) * gathered.value(k) *
-                            (gathered.n_dot_l(k) * double{irradiance[i]});
+    const Vec3d reflected =
+        Vec3d(lit.light.color) * gathered.value(k) * (gathered.n_dot_l(k) * double{irradiance[i]});
     SetVector(reflected, i, &radiance.sum);
     if (component != nullptr) SetVector(reflected, i, component);
   }
 }
 
-void SampleUser(const UserModel& model, const LobeRange& range, const float* u, const float* v,
+void SampleUser(const UserModel& model, const MaterialHits& at, const float* u, const float* v,
                 ShadeScratch* scratch, Soa3<float>* to_light) {
   Gathered gathered(&scratch->user);
   UserRoom* const room = scratch->user.get();
-  for (size_t i = range.begin; i < range.end; ++i) {
-    const Vec3d normal = VectorAt(range.hits.normal, i), to_view = VectorAt(range.hits.to_view, i);
+  for (size_t i = at.begin; i < at.end; ++i) {
+    const Vec3d normal = VectorAt(at.hits.normal, i), to_view = VectorAt(at.hits.to_view, i);
     if (!(normal.dot(to_view) > 0)) continue;
     room->u[gathered.count()] = u[i];
     room->v[gathered.count()] = v[i];
@@ -196,14 +195,14 @@ void SampleUser(const UserModel& model, const LobeRange& range, const float* u, 
   }
 }
 
-void UserPdf(const UserModel& model, const LobeRange& range, const LightBatch& light,
+void UserPdf(const UserModel& model, const MaterialHits& at, const LightBatch& light,
              ShadeScratch* scratch, float* pdf) {
   Gathered gathered(&scratch->user);
-  for (size_t i = range.begin; i < range.end; ++i) {
+  for (size_t i = at.begin; i < at.end; ++i) {
     pdf[i] = 0;
     if (!(light.irradiance[i] > 0)) continue;
     const Vec3d to_light = VectorAt(light.to_light, i);
-    gathered.Add(i, VectorAt(range.hits.normal, i), VectorAt(range.hits.to_view, i),
+    gathered.Add(i, VectorAt(at.hits.normal, i), VectorAt(at.hits.to_view, i),
                  to_light / to_light.length());
   }
   if (gathered.count() == 0) return;

@@ -13,12 +13,12 @@ namespace nacre {
 // Stores what the hits of the range reflect of its light. A model with a sampler counts as a
 // specular component, whose directions SampleUser samples; one without counts as a diffuse
 // component, for which cosine-weighted directions are sampled.
-void ShadeUser(const UserModel& model, const ShadeRange& range, ShadeScratch* scratch);
+void ShadeUser(const UserModel& model, const LitHits& lit, ShadeScratch* scratch);
 
 // SampleLobe and LobePdf for a model with a sampler.
-void SampleUser(const UserModel& model, const LobeRange& range, const float* u, const float* v,
+void SampleUser(const UserModel& model, const MaterialHits& at, const float* u, const float* v,
                 ShadeScratch* scratch, Soa3<float>* to_light);
-void UserPdf(const UserModel& model, const LobeRange& range, const LightBatch& light,
+void UserPdf(const UserModel& model, const MaterialHits& at, const LightBatch& light,
              ShadeScratch* scratch, float* pdf);
 
 // f n.l for one pair of directions, which must be above the surface.

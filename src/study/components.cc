@@ -109,7 +109,7 @@ StudyResult StudyComponents(const StudyProgress& progress) {
     images.push_back(RenderExponent(n));
     const Image& image = images.back();
     for (const char* layer : {"ambient", "diffuse", "specular", ""}) {
-      sheet.panes.push_back(ShowLayer(image, layer));
+      sheet.panes.push_back(ShowImage(image, kClipped, layer));
     }
     sheet.rows.push_back(fmt::format("n = {}", n));
     for (const char* layer : {"ambient", "diffuse"}) {

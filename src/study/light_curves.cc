@@ -13,7 +13,6 @@
 #include "light/polygon_irradiance.h"
 #include "light/punctual.h"
 #include "light/sphere_light.h"
-#include "scene/light_shapes.h"
 
 namespace nacre {
 namespace {
@@ -24,20 +23,6 @@ double FalloffOf(const Attenuation& a, double distance) {
 
 // The light's centre is at distance times kUp from the shaded point, and the light faces down.
 const Vec3d kUp(0, 0, 1);
-
-double IrradianceOf(const SphereAreaLight& light, double distance) {
-  return Irradiance(SphereLight<double>{kUp * distance, light.radius}, kUp);
-}
-
-double IrradianceOf(const RectangleAreaLight& light, double distance) {
-  const Vec3d corner(-light.width / 2, -light.height / 2, distance);
-  return Irradiance(
-      RectangleLight<double>{corner, Vec3d(light.width, 0, 0), Vec3d(0, light.height, 0)}, kUp);
-}
-
-double IrradianceOf(const DiskAreaLight& light, double distance) {
-  return Irradiance(DiskLight<double>{kUp * distance, -kUp, light.radius}, kUp);
-}
 
 }  // namespace
 
@@ -54,18 +39,21 @@ std::optional<double> IrradianceAt(const Light& light, double distance) {
                  },
                  [&](const SphereAreaLight& sphere) -> Result {
                    if (distance <= sphere.radius) return std::nullopt;
-                   return Luminance(sphere.radiance) * IrradianceOf(sphere, distance);
+                   return Luminance(sphere.radiance) *
+                          Irradiance(SphereLight<double>{kUp * distance, sphere.radius}, kUp);
                  },
-                 [&](const RectangleAreaLight& rectangle) -> Result {
-                   return Luminance(rectangle.radiance) * IrradianceOf(rectangle, distance);
+                 [&](const RectangleAreaLight& area) -> Result {
+                   const RectangleLight<double> rectangle{
+                       Vec3d(-area.width / 2, -area.height / 2, distance), Vec3d(area.width, 0, 0),
+                       Vec3d(0, area.height, 0)};
+                   return Luminance(area.radiance) * Irradiance(rectangle, kUp);
                  },
                  [&](const DiskAreaLight& disk) -> Result {
-                   return Luminance(disk.radiance) * IrradianceOf(disk, distance);
+                   return Luminance(disk.radiance) *
+                          Irradiance(DiskLight<double>{kUp * distance, -kUp, disk.radius}, kUp);
                  },
-                 [](const AmbientLight&) -> Result { return std::nullopt; },
-                 // Triangle meshes have no axis along which to measure distance.
-                 [](const MeshAreaLight&) -> Result { return std::nullopt; },
-                 [](const EnvironmentLight&) -> Result { return std::nullopt; }},
+                 // Lights all around, and triangle meshes, which have no axis to measure along.
+                 [](const auto&) -> Result { return std::nullopt; }},
       light.kind);
 }
 

@@ -64,17 +64,8 @@ Curve LobeCurve(const NamedLobe& lobe, double view_deg, double from, double to) 
 }  // namespace
 
 double ValueOf(const Rgb& rgb, ColorChannel channel) {
-  switch (channel) {
-    case ColorChannel::kRed:
-      return rgb.x;
-    case ColorChannel::kGreen:
-      return rgb.y;
-    case ColorChannel::kBlue:
-      return rgb.z;
-    case ColorChannel::kLuminance:
-      break;
-  }
-  return Luminance(rgb);
+  if (channel == ColorChannel::kLuminance) return Luminance(rgb);
+  return rgb[static_cast<int>(channel) - static_cast<int>(ColorChannel::kRed)];
 }
 
 Plot BrdfPlot(const std::vector<NamedMaterial>& materials, const CurveOptions& options) {
@@ -155,14 +146,14 @@ Plot DistributionPlot(const std::vector<NamedMaterial>& materials) {
   return plot;
 }
 
-bool HasMasking(const ShadingMaterial& material) { return MicrofacetOf(material) != nullptr; }
+bool HasMicrofacets(const ShadingMaterial& material) { return MicrofacetOf(material) != nullptr; }
 
 Plot MaskingPlot(const std::vector<NamedMaterial>& materials) {
   Plot plot;
   plot.x = {.label = "angle of light and viewer (degrees)", .low = 0, .high = 90, .step = 15};
   plot.y = {.label = "G: share of microfacets lit and seen (1: all)", .low = 0, .high = 1};
   for (const NamedMaterial& named : materials) {
-    if (!HasMasking(named.material)) continue;
+    if (!HasMicrofacets(named.material)) continue;
     const MicrofacetModel& model = *MicrofacetOf(named.material);
     plot.curves.push_back(MakeCurve(named.label, Steps(0, kGrazing, 899), [&](double degrees) {
       const double cosine = DirectionAt(degrees).z;
@@ -172,14 +163,12 @@ Plot MaskingPlot(const std::vector<NamedMaterial>& materials) {
   return plot;
 }
 
-bool HasFresnel(const ShadingMaterial& material) { return MicrofacetOf(material) != nullptr; }
-
 Plot FresnelPlot(const std::vector<NamedMaterial>& materials, ColorChannel channel) {
   Plot plot;
   plot.x = {.label = "angle of incidence (degrees)", .low = 0, .high = 90, .step = 15};
   plot.y = {.label = "reflectance (1: all)", .low = 0, .high = 1};
   for (const NamedMaterial& named : materials) {
-    if (!HasFresnel(named.material)) continue;
+    if (!HasMicrofacets(named.material)) continue;
     const MicrofacetModel& model = *MicrofacetOf(named.material);
     plot.curves.push_back(MakeCurve(named.label, Steps(0, 90, 720), [&](double degrees) {
       const double half_sine = std::sin(degrees * M_PI / 360);

@@ -41,11 +41,12 @@ bool HasDistribution(const ShadingMaterial& material);
 
 // G, the fraction of microfacets visible from both light and viewer, in the mirror configuration.
 Plot MaskingPlot(const std::vector<NamedMaterial>& materials);
-bool HasMasking(const ShadingMaterial& material);
 
 // The Fresnel term over the angle of incidence.
 Plot FresnelPlot(const std::vector<NamedMaterial>& materials, ColorChannel channel);
-bool HasFresnel(const ShadingMaterial& material);
+
+// Whether a material has what these two plots show; others are skipped.
+bool HasMicrofacets(const ShadingMaterial& material);
 
 // The reflected fraction of light.
 Plot AlbedoPlot(const std::vector<NamedMaterial>& materials, ShareOf what, ColorChannel channel);

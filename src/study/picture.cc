@@ -60,11 +60,6 @@ Image RenderLayers(const Scene& scene, const std::vector<std::string>& layers) {
   return RenderImage(scene, settings);
 }
 
-Rgb8Picture ShowLayer(const Image& image, const std::string& layer,
-                      const DisplaySettings& display) {
-  return ShowImage(image, display, layer);
-}
-
 StudyPicture MakeStudyPicture(const std::string& name, const std::string& caption,
                               const PaneSheet& sheet) {
   const Rgb8Picture& first = sheet.panes.front();

@@ -26,9 +26,8 @@ Light SunTowards(const Vec3d& to_light, const Rgb& irradiance);
 // Renders the whole picture with these layers.
 Image RenderLayers(const Scene& scene, const std::vector<std::string>& layers = {});
 
-// Shows the beauty ("") or another layer as on a display. kNone clips at 1.
-Rgb8Picture ShowLayer(const Image& image, const std::string& layer,
-                      const DisplaySettings& display = {.tone = ToneOperator::kNone});
+// For ShowImage: clips at 1.
+inline constexpr DisplaySettings kClipped{.tone = ToneOperator::kNone};
 
 // Panes of equal size in rows, with labels above the columns and left of the rows (either may be
 // empty).

@@ -2,9 +2,8 @@
 // study/rounding.h: measures errors of hits and highlights, by formula and precision.
 #pragma once
 
+#include <cstdint>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "base/vec.h"
 

@@ -5,7 +5,6 @@
 // A study returns its results; it neither writes nor prints.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <span>
 #include <string>

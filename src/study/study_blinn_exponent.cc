@@ -22,7 +22,7 @@ Rgb8Picture RenderLobe(PhongModel model, double shininess) {
                             .color = Rgb(0.8, 0.2, 0.2),
                             .ks = Rgb(0.5),
                             .shininess = shininess};
-  return ShowLayer(RenderLayers(SphereScene(phong, 260, {SunTowards(kToSun, Rgb(1))})), "");
+  return ShowImage(RenderLayers(SphereScene(phong, 260, {SunTowards(kToSun, Rgb(1))})), kClipped);
 }
 
 Plot LobePlot(double in_plane) {

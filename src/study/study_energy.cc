@@ -90,7 +90,7 @@ Rgb8Picture FurnacePane(const MaterialKind& material) {
   Scene scene = SphereScene(
       material, 150, {{.name = "furnace", .kind = EnvironmentLight{.sky = ConstantSky{Rgb(0.5)}}}});
   scene.image.spp = 64;
-  return ShowLayer(RenderLayers(scene), "");
+  return ShowImage(RenderLayers(scene), kClipped);
 }
 
 StudyPicture Furnace(const StudyProgress& progress) {

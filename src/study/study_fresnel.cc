@@ -89,7 +89,7 @@ Plot CurvePlot(bool degrees) {
 Rgb8Picture MirrorPane(const MaterialKind& material) {
   const Light white{.name = "white",
                     .kind = EnvironmentLight{.sky = ConstantSky{Rgb(1)}, .background = false}};
-  return ShowLayer(RenderLayers(SphereScene(material, 240, {white})), "");
+  return ShowImage(RenderLayers(SphereScene(material, 240, {white})), kClipped);
 }
 
 StudyPicture Mirrors() {

@@ -48,7 +48,7 @@ Scene GridScene() {
 Rgb8Picture RenderGrid(const Light& light) {
   Scene scene = GridScene();
   scene.lights = {light};
-  return ShowLayer(RenderLayers(scene), "", {.tone = ToneOperator::kNeutral});
+  return ShowImage(RenderLayers(scene), {.tone = ToneOperator::kNeutral});
 }
 
 // The largest specular radiance of the smooth and fully metallic sphere.

@@ -149,7 +149,8 @@ StudyPicture Pictures() {
   for (const Interpolation interpolation :
        {Interpolation::kFlat, Interpolation::kGouraud, Interpolation::kPhong}) {
     for (int level = 0; level < 5; ++level) {
-      sheet.panes.push_back(ShowLayer(RenderIcosphere(interpolation, level, kPanePixels), ""));
+      sheet.panes.push_back(
+          ShowImage(RenderIcosphere(interpolation, level, kPanePixels), kClipped));
       if (interpolation == Interpolation::kFlat) {
         sheet.columns.push_back(fmt::format("{} faces", FacesOf(level)));
       }

@@ -57,8 +57,7 @@ StudyPicture Operators(const Image& image) {
   PaneSheet sheet;
   for (const double ev : {-2.0, 0.0, 2.0, 4.0}) {
     for (const std::string& name : ToneOperatorNames()) {
-      sheet.panes.push_back(
-          ShowLayer(image, "", {.tone = ParseToneOperator(name), .exposure_ev = ev}));
+      sheet.panes.push_back(ShowImage(image, {.tone = ParseToneOperator(name), .exposure_ev = ev}));
       if (ev == 0) sheet.columns.push_back(name == "reinhard_extended" ? "extended" : name);
     }
     sheet.rows.push_back(fmt::format("{:+g} EV", ev));

@@ -22,13 +22,7 @@ Vec3d Direction(double cos_theta, double phi) {
   return {sin_theta * std::cos(phi), sin_theta * std::sin(phi), cos_theta};
 }
 
-TextbookPoint PointAt(const Vec3d& to_light, const Vec3d& to_view) {
-  TextbookPoint p;
-  p.normal = Vec3d(0, 0, 1);
-  p.to_light = to_light;
-  p.to_view = to_view;
-  return p;
-}
+const Vec3d kUp(0, 0, 1);
 
 constexpr int kRadialPoints = 400;
 constexpr int kAzimuthPoints = 200;
@@ -78,14 +72,14 @@ double AverageAlbedo(const std::function<double(double)>& albedo) {
 double TextbookSpecularAlbedo(double n_dot_v, double roughness, double f0,
                               const TextbookFaults& faults) {
   return LobeAlbedo(n_dot_v, roughness, [&](const Vec3d& to_light, const Vec3d& to_view) {
-    return TextbookSpecular(TextbookAnglesAt(PointAt(to_light, to_view), faults), roughness, f0,
+    return TextbookSpecular(TextbookAnglesAt({kUp, to_light, to_view}, faults), roughness, f0,
                             faults);
   });
 }
 
 double TextbookDiffuseAlbedo(double n_dot_v, double f0, const TextbookFaults& faults) {
   return SmoothAlbedo(n_dot_v, [&](const Vec3d& to_light, const Vec3d& to_view) {
-    const TextbookAngles a = TextbookAnglesAt(PointAt(to_light, to_view), faults);
+    const TextbookAngles a = TextbookAnglesAt({kUp, to_light, to_view}, faults);
     return (1 - TextbookFresnel(a.v_dot_h, f0)) / M_PI;
   });
 }

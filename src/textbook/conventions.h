@@ -3,8 +3,6 @@
 // from their formulas.
 #pragma once
 
-#include <cstdint>
-
 namespace nacre {
 
 // k of Schlick's G1 for direct light: (alpha + 1)^2 / 8 in the text, and (r + 1)^2 / 8 in the

@@ -50,19 +50,6 @@ void SumColumns(const std::vector<Cover>& columns, size_t channels, const double
   }
 }
 
-// SumColumns for columns that are two texels wide, the usual case, with the same bits.
-template <size_t kChannels>
-void SumPairs(size_t columns, const double* row, float* out) {
-  for (size_t x = 0; x < columns; ++x) {
-    for (size_t c = 0; c < kChannels; ++c) {
-      // The 0 with which the sum of SumColumns begins turns -0 into 0.
-      const double sum =
-          (0.0 + 0.5 * row[2 * kChannels * x + c]) + 0.5 * row[2 * kChannels * x + kChannels + c];
-      out[kChannels * x + c] = static_cast<float>(sum);
-    }
-  }
-}
-
 // Makes the level after `from`, of size `to`.
 HugeVector<float> MakeNextLevel(const TexelView& from, const MipLevel& to) {
   const auto channels = static_cast<size_t>(from.channels);
@@ -81,14 +68,7 @@ HugeVector<float> MakeNextLevel(const TexelView& from, const MipLevel& to) {
       from.Read((static_cast<size_t>(row.first) + k) * from_stride, line);
       for (size_t i = 0; i < from_stride; ++i) column_sums[i] += row.weights[k] * double{line[i]};
     }
-    float* const out = values.data() + y * width * channels;
-    if (from.width == 2 * to.width && channels == 3) {
-      SumPairs<3>(width, column_sums, out);
-    } else if (from.width == 2 * to.width && channels == 1) {
-      SumPairs<1>(width, column_sums, out);
-    } else {
-      SumColumns(columns, channels, column_sums, out);
-    }
+    SumColumns(columns, channels, column_sums, values.data() + y * width * channels);
   }
   return values;
 }

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/path.h"
 #include "scene_io/load_scene.h"
-#include "scene_io/model_tree.h"
+#include "scene_io/scene_json.h"
 #include "view/mailbox.h"
 #include "view/page_parts.h"
 
@@ -48,8 +48,8 @@ std::string ExistingPart(const Json& root, const std::string& pointer) {
 bool IsImageFile(const std::filesystem::path& path) {
   constexpr std::array kExtensions = {".png", ".jpg",  ".jpeg", ".exr", ".hdr", ".tga",
                                       ".tif", ".tiff", ".ppm",  ".pgm", ".pfm"};
-  return std::any_of(kExtensions.begin(), kExtensions.end(),
-                     [&](const char* extension) { return HasExtension(path.string(), extension); });
+  const std::string name = path.string();
+  return std::ranges::any_of(kExtensions, [&](const char* end) { return HasExtension(name, end); });
 }
 
 }  // namespace
@@ -161,19 +161,11 @@ void ViewDocument::Remember(Change change, uint64_t gesture) {
   past_.erase(past_.begin(), past_.end() - static_cast<std::ptrdiff_t>(steps));
 }
 
-bool ViewDocument::Undo() {
-  if (past_.empty()) return false;
-  PutAll(past_.back().changes, false);
-  future_.push_back(std::move(past_.back()));
-  past_.pop_back();
-  return true;
-}
-
-bool ViewDocument::Redo() {
-  if (future_.empty()) return false;
-  PutAll(future_.back().changes, true);
-  past_.push_back(std::move(future_.back()));
-  future_.pop_back();
+bool ViewDocument::MoveStep(std::vector<Step>* from, std::vector<Step>* to, bool after) {
+  if (from->empty()) return false;
+  PutAll(from->back().changes, after);
+  to->push_back(std::move(from->back()));
+  from->pop_back();
   return true;
 }
 

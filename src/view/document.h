@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "render/prepared_scene.h"
@@ -45,8 +44,8 @@ class ViewDocument {
   std::vector<std::string> Restore(const std::vector<Edit>& edits);
 
   // Each returns whether there was anything to do. If they throw Error, nothing has changed.
-  bool Undo();
-  bool Redo();
+  bool Undo() { return MoveStep(&past_, &future_, false); }
+  bool Redo() { return MoveStep(&future_, &past_, true); }
   bool Reset();  // back to the scene as it was read, as a step of the history
 
   bool can_undo() const { return !past_.empty(); }
@@ -91,6 +90,8 @@ class ViewDocument {
 
   void Put(const std::string& pointer, const std::string& json);
   void PutAll(const std::vector<Change>& changes, bool after);
+  // Applies the last step of `from` and moves it. Returns whether there was one.
+  bool MoveStep(std::vector<Step>* from, std::vector<Step>* to, bool after);
   void Remember(Change change, uint64_t gesture);
   void ListShapes();
 

@@ -16,7 +16,6 @@
 #include "brdf/phong.h"
 #include "scene/coat.h"
 #include "scene/material_parameters.h"
-#include "scene/shapes.h"
 #include "shading/light.h"
 #include "shading/scalar_bsdf.h"
 #include "shading/share.h"
@@ -30,11 +29,9 @@ constexpr int kCurveSteps = 90;  // per quarter of a circle
 // JSON has no infinity: values that are not finite become null.
 Json NumberJson(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
-Json TripleJson(const Vec3d& v) {
-  Json json = Json::array();
-  for (int c = 0; c < 3; ++c) json.push_back(NumberJson(v[c]));
-  return json;
-}
+Json TripleJson(const Vec3d& v) { return {NumberJson(v.x), NumberJson(v.y), NumberJson(v.z)}; }
+
+double MeanOf(const Rgb& rgb) { return (rgb.x + rgb.y + rgb.z) / 3; }
 
 double SampleOf(const Image& pixel, const std::string& name) {
   const Channel* const channel = pixel.Find(name);
@@ -266,9 +263,8 @@ Json LobeJson(const ExplainedMaterial& material, const Point& point) {
     const Vec3d to_light = point.normal * std::cos(angle) - across * std::sin(angle);
     const Reflection r =
         Reflect(material.prepared, material.NormalsWith(point.normal), to_light, point.to_view);
-    const auto mean = [](const Rgb& rgb) { return (rgb.x + rgb.y + rgb.z) / 3; };
-    diffuse.push_back(NumberJson(mean(r.diffuse)));
-    specular.push_back(NumberJson(mean(r.specular)));
+    diffuse.push_back(NumberJson(MeanOf(r.diffuse)));
+    specular.push_back(NumberJson(MeanOf(r.specular)));
   }
   return {{"first_deg", -kCurveSteps + 1},
           {"view_deg", -std::acos(std::clamp(n_dot_v, -1.0, 1.0)) * kDegrees},
@@ -281,8 +277,7 @@ Json AlbedoCurve(const ShadingMaterial& material) {
   constexpr std::array kAngles = {0, 10, 20, 30, 40, 50, 60, 65, 70, 75, 80, 83, 86, 89};
   std::array<double, kAngles.size()> means{};
   ParallelFor(kAngles.size(), 0, [&](size_t i) {  // 30 ms each for layered materials
-    const Rgb share = ReflectedShare(material, ShareOf::kFurnace, std::cos(kAngles[i] / kDegrees));
-    means[i] = (share.x + share.y + share.z) / 3;
+    means[i] = MeanOf(ReflectedShare(material, ShareOf::kFurnace, std::cos(kAngles[i] / kDegrees)));
   });
   Json curve = Json::array();
   for (size_t i = 0; i < means.size(); ++i) curve.push_back({kAngles[i], NumberJson(means[i])});

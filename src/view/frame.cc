@@ -58,9 +58,7 @@ SharedBytes PictureBytes(FrameHead head, const std::array<const float*, 3>& rgb,
     EncodeDisplay(display, rgb[0] + first, rgb[1] + first, rgb[2] + first, count, rgb8.data());
     for (size_t i = 0; i < count; ++i) {
       uint8_t* const out = rgba + 4 * (first + i);
-      out[0] = rgb8[3 * i];
-      out[1] = rgb8[3 * i + 1];
-      out[2] = rgb8[3 * i + 2];
+      std::memcpy(out, &rgb8[3 * i], 3);
       out[3] = 255;
     }
   });

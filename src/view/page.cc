@@ -13,10 +13,10 @@
 namespace nacre {
 
 ServedPage MakeViewPage(const std::string& title, const std::string& generator,
-                        const std::string& tone, double exposure) {
+                        const DisplaySettings& display) {
   // The schema contains the parameters of all models, with ranges, defaults and descriptions.
-  const std::string data = ScriptJson({{"tone", tone},
-                                       {"exposure", exposure},
+  const std::string data = ScriptJson({{"tone", ToneOperatorName(display.tone)},
+                                       {"exposure", display.exposure_ev},
                                        {"generator", generator},
                                        {"schema", Json::parse(SceneSchema())}});
   const std::string safe_title = EscapeHtml(Printable(title));

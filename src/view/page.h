@@ -12,7 +12,7 @@ namespace nacre {
 // The page for a scene, which is sent later through the socket. `generator`: "nacre 0.2.0
 // (c0ffee)".
 ServedPage MakeViewPage(const std::string& title, const std::string& generator,
-                        const std::string& tone, double exposure);
+                        const DisplaySettings& display);
 
 // A report's page with a script that reacts to changes of its files: the server sends {"reload":
 // true} when they have changed, and {"banner": TEXT} when they cannot be read.

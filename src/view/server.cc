@@ -18,7 +18,6 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/printable.h"
 #include "view/answer.h"
 #include "view/token.h"
 
@@ -239,10 +238,8 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
     server_->waiting_bytes += bytes;
     if (waiting_.size() == 1) Write();
     if (server_->waiting_bytes <= kMaxWaitingBytes) return;
-    const auto slowest = std::max_element(
-        server_->pages.begin(), server_->pages.end(), [](const auto& a, const auto& b) {
-          return a.second->waiting_bytes_ < b.second->waiting_bytes_;
-        });
+    const auto slowest = std::ranges::max_element(
+        server_->pages, {}, [](const auto& page) { return page.second->waiting_bytes_; });
     const auto page = slowest->second;  // a copy, since closing removes it from `pages`
     page->Close();
   }
@@ -354,6 +351,15 @@ bool IsOrigin(std::string_view text) {
   return host > 0 && text.size() > host &&
          text.substr(host).find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789._-:[]") ==
              std::string_view::npos;
+}
+
+// Runs work(page) for a client's page; client 0: for all pages.
+template <class Work>
+void ForPages(Server::Impl* server, ClientId client, const Work& work) {
+  const auto pages = server->pages;  // a copy, since a page that fails is removed
+  for (const auto& [id, page] : pages) {
+    if (client == 0 || id == client) DoFor(page.get(), [&work, &page = page] { work(page.get()); });
+  }
 }
 
 }  // namespace
@@ -519,21 +525,14 @@ void Server::Run(const std::function<bool()>& stopped) {
 void Server::Show(SharedBytes frame) {
   asio::post(impl_->context, [impl = impl_.get(), frame = std::move(frame)] {
     impl->latest = frame;
-    const auto pages = impl->pages;  // a copy, since a page that fails is removed
-    for (const auto& [id, page] : pages) {
-      DoFor(page.get(), [&page = page] { page->Show(); });
-    }
+    ForPages(impl, 0, [](PageSocket* page) { page->Show(); });
   });
 }
 
 void Server::Say(ClientId client, std::string text) {
   asio::post(impl_->context, [impl = impl_.get(), client,
                               text = std::make_shared<const std::string>(std::move(text))] {
-    const auto pages = impl->pages;
-    for (const auto& [id, page] : pages) {
-      if (client != 0 && id != client) continue;
-      DoFor(page.get(), [&text, &page = page] { page->Say(text); });
-    }
+    ForPages(impl, client, [&](PageSocket* page) { page->Say(text); });
   });
 }
 
@@ -543,10 +542,7 @@ void Server::Serve(ServedPage page) {
 
 void Server::Send(ClientId client, SharedBytes bytes) {
   asio::post(impl_->context, [impl = impl_.get(), client, bytes = std::move(bytes)] {
-    const auto page = impl->pages.find(client);
-    if (page == impl->pages.end()) return;
-    const auto socket = page->second;  // a copy, since closing removes it from `pages`
-    DoFor(socket.get(), [&] { socket->Send(bytes); });
+    ForPages(impl, client, [&](PageSocket* page) { page->Send(bytes); });
   });
 }
 

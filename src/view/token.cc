@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <optional>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/random.h>
 
 #include "base/error.h"
@@ -29,12 +31,7 @@ std::string MakeToken() {
   if (got != static_cast<ssize_t>(bytes.size())) {
     throw Error(ExitCode::kInternal, "", "the kernel gives no random numbers");
   }
-  std::string token;
-  for (const uint8_t byte : bytes) {
-    token += "0123456789abcdef"[byte >> 4];
-    token += "0123456789abcdef"[byte & 15];
-  }
-  return token;
+  return fmt::format("{:02x}", fmt::join(bytes, ""));
 }
 
 std::string KeptToken(unsigned port) {

@@ -11,7 +11,7 @@
 #include "base/printable.h"
 #include "scene/material_parameters.h"
 #include "scene_io/load_scene.h"
-#include "scene_io/material_json.h"
+#include "scene_io/scene_json.h"
 #include "shading/material_fit.h"
 #include "view/answer.h"
 #include "view/explain.h"
@@ -79,9 +79,7 @@ bool HasMap(const MaterialModel& model, std::string_view name) {
 std::vector<std::string> KeepMaps(const Json& maps, std::string_view model_name, Json* material) {
   constexpr std::array<std::string_view, 3> kOfColor = {"base_color_map", "albedo_map",
                                                         "diffuse_map"};
-  const std::span<const MaterialModel> models = MaterialModels();
-  const auto model = std::find_if(models.begin(), models.end(),
-                                  [&](const MaterialModel& m) { return m.name == model_name; });
+  const MaterialModel* const model = FindModel(model_name);
   std::vector<std::string> lost;
   for (const auto& [name, value] : maps.items()) {
     std::vector<std::string_view> names = {name};
@@ -89,7 +87,7 @@ std::vector<std::string> KeepMaps(const Json& maps, std::string_view model_name,
       names.insert(names.end(), kOfColor.begin(), kOfColor.end());
     }
     const auto found = std::find_if(names.begin(), names.end(), [&](std::string_view candidate) {
-      return model != models.end() && HasMap(*model, candidate);
+      return model != nullptr && HasMap(*model, candidate);
     });
     if (found != names.end()) {
       (*material)[std::string(*found)] = value;
@@ -307,7 +305,7 @@ void Worker::KeepEdits(bool at_once) {
 // Serves one request; exceptions are reported to its page.
 void Worker::Serve(const Request& request) {
   try {
-    Answer(request);
+    std::visit([&](const auto& what) { Answer(request.client, what); }, request.what);
   } catch (...) {
     sinks_.say(request.client, CaughtFault(""));
   }
@@ -317,50 +315,30 @@ void Worker::Serve(const Request& request) {
   cancel_ = stop_;
 }
 
-void Worker::Answer(const Request& request) {
-  if (const auto* set = std::get_if<SetRequest>(&request.what)) {
-    ServeSet(request.client, *set);
-  } else if (const auto* step = std::get_if<HistoryRequest>(&request.what)) {
-    ServeHistory(*step);
-  } else if (const auto* look = std::get_if<LookRequest>(&request.what)) {
-    display_.tone = ParseToneOperator(look->tone);
-    display_.exposure_ev = look->exposure;
-    for (auto& [id, kept] : kept_) kept.measured = false;  // SSIM and FLIP compare display pictures
-    const std::string layer = std::exchange(layer_, look->layer);
-    try {
-      ParseLayers({"all", look->layer.empty() ? "albedo" : look->layer}, document_->scene());
-    } catch (const Error&) {
-      layer_ = layer;
-      throw;
-    }
-    if (layer != layer_) {
-      Changed();
-    } else if (!image_.channels.empty()) {
-      Publish(done_);
-    }
-  } else if (const auto* samples = std::get_if<SamplesRequest>(&request.what)) {
-    SendSamples(request.client, *samples);
-  } else if (const auto* explain = std::get_if<ExplainRequest>(&request.what)) {
-    Explain(request.client, *explain);
-  } else if (const auto* convert = std::get_if<ConvertRequest>(&request.what)) {
-    ServeConvert(request.client, *convert);
-  } else if (const auto* keep = std::get_if<KeepRequest>(&request.what)) {
-    Keep(request.client, keep->keep);
-  } else if (const auto* take = std::get_if<TakeRequest>(&request.what)) {
-    Take(request.client, *take);
-  } else if (const auto* offered = std::get_if<OfferedRequest>(&request.what)) {
-    ServeOffered(request.client, *offered);
-  } else {
-    SayScene(request.client);
-    if (image_.channels.empty()) {
-      moved_ = true;
-    } else {
-      Publish(done_);
-    }
+void Worker::Answer(ClientId /*client*/, const LookRequest& look) {
+  display_.tone = ParseToneOperator(look.tone);
+  display_.exposure_ev = look.exposure;
+  for (auto& [id, kept] : kept_) kept.measured = false;  // SSIM and FLIP compare display pictures
+  ParseLayers({"all", look.layer.empty() ? "albedo" : look.layer}, document_->scene());
+  const bool another = layer_ != look.layer;
+  layer_ = look.layer;
+  if (another) {
+    Changed();
+  } else if (!image_.channels.empty()) {
+    Publish(done_);
   }
 }
 
-void Worker::ServeSet(ClientId client, const SetRequest& set) {
+void Worker::Answer(ClientId client, const WelcomeRequest& /*request*/) {
+  SayScene(client);
+  if (image_.channels.empty()) {
+    moved_ = true;
+  } else {
+    Publish(done_);
+  }
+}
+
+void Worker::Answer(ClientId client, const SetRequest& set) {
   plan_.reset();  // it refers to the scene
   try {
     document_->Set(set.pointer, set.value, set.gesture);
@@ -383,7 +361,7 @@ void Worker::ServeSet(ClientId client, const SetRequest& set) {
   sinks_.say(0, JsonText(told));
 }
 
-void Worker::ServeConvert(ClientId client, const ConvertRequest& convert) {
+void Worker::Answer(ClientId client, const ConvertRequest& convert) {
   try {
     const Json tree = document_->Tree();
     const Json::json_pointer pointer(convert.pointer);
@@ -397,7 +375,7 @@ void Worker::ServeConvert(ClientId client, const ConvertRequest& convert) {
     Json fitted = MaterialJson(fit.fitted);
     Json notes = Json::array();
     for (const std::string& name : KeepMaps(maps, convert.model, &fitted)) notes.push_back(name);
-    ServeSet(client, {convert.pointer, std::move(fitted), convert.gesture, 0});
+    Answer(client, SetRequest{convert.pointer, std::move(fitted), convert.gesture});
     if (notes.empty() && fit.notes.empty()) return;
     for (const std::string& note : fit.notes) notes.push_back(Printable(note));
     sinks_.say(client, JsonText({{"not_kept", std::move(notes)}, {"convert", convert.pointer}}));
@@ -409,7 +387,7 @@ void Worker::ServeConvert(ClientId client, const ConvertRequest& convert) {
   }
 }
 
-void Worker::ServeOffered(ClientId client, OfferedRequest what) {
+void Worker::Answer(ClientId client, OfferedRequest what) {
   if (!edits_ || edits_->offered().empty()) return SayScene(client);  // another page has decided
   const std::vector<Edit> offered = edits_->offered();
   plan_.reset();  // it refers to the scene
@@ -427,7 +405,7 @@ void Worker::ServeOffered(ClientId client, OfferedRequest what) {
   sinks_.say(client, FaultMessage("", Error(ExitCode::kUsage, std::move(faults))));
 }
 
-void Worker::Explain(ClientId client, const ExplainRequest& request) {
+void Worker::Answer(ClientId client, const ExplainRequest& request) {
   // A filter of almost no width, so that the ray goes through the pixel's centre, where the terms
   // are computed.
   constexpr double kNoWidth = 1e-6;
@@ -477,7 +455,7 @@ void Worker::Explain(ClientId client, const ExplainRequest& request) {
   sinks_.say(client, JsonText({{"explained", std::move(json)}, {"revision", revision_}}));
 }
 
-void Worker::ServeHistory(HistoryRequest step) {
+void Worker::Answer(ClientId /*client*/, HistoryRequest step) {
   plan_.reset();
   const bool did = step == HistoryRequest::kUndo   ? document_->Undo()
                    : step == HistoryRequest::kRedo ? document_->Redo()
@@ -550,7 +528,7 @@ void Worker::CheckFiles() {
   }
 }
 
-void Worker::SendSamples(ClientId client, const SamplesRequest& request) {
+void Worker::Answer(ClientId client, const SamplesRequest& request) {
   std::vector<const Channel*> channels;
   if (!image_.channels.empty()) channels = ChannelsOf(image_, request.layer);
   FrameHead head;
@@ -565,16 +543,17 @@ void Worker::SendSamples(ClientId client, const SamplesRequest& request) {
 
 // ---- A and B, and what is taken away ------------------------------------------------------------
 
-void Worker::Keep(ClientId client, bool keep) {
+void Worker::Answer(ClientId client, const KeepRequest& request) {
+  const bool keep = request.keep && done_;
   kept_.erase(client);
   size_t bytes = 0;
   for (const auto& [id, kept] : kept_) bytes += BytesOf(*kept.image);
-  if (keep && done_ && bytes + BytesOf(image_) > kMaxKeptBytes) {
+  if (keep && bytes + BytesOf(image_) > kMaxKeptBytes) {
     throw Error(ExitCode::kUsage, "", "pictures that are kept as A take too much memory",
                 "a smaller picture, or fewer pages that keep one");
   }
-  if (keep && done_) kept_[client] = {std::make_shared<const Image>(image_)};
-  sinks_.say(client, JsonText({{"kept", keep && done_}, {"revision", revision_}}));
+  if (keep) kept_[client] = {std::make_shared<const Image>(image_)};
+  sinks_.say(client, JsonText({{"kept", keep}, {"revision", revision_}}));
 }
 
 bool Worker::AnyToMeasure() const {
@@ -591,7 +570,7 @@ void Worker::Measure() {
   }
 }
 
-void Worker::Take(ClientId client, TakeRequest what) {
+void Worker::Answer(ClientId client, TakeRequest what) {
   {
     const std::lock_guard lock(mutex_);
     refining_ = true;  // a change cancels it

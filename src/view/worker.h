@@ -82,16 +82,18 @@ class Worker {
   bool Step();
   void Finish();
   void Serve(const Request& request);
-  void Answer(const Request& request);
-  void ServeSet(ClientId client, const SetRequest& set);
-  void ServeHistory(HistoryRequest step);
-  void ServeConvert(ClientId client, const ConvertRequest& convert);
-  void ServeOffered(ClientId client, OfferedRequest what);
+  // What each kind of request asks for.
+  void Answer(ClientId client, const SetRequest& set);
+  void Answer(ClientId client, HistoryRequest step);
+  void Answer(ClientId client, const LookRequest& look);
+  void Answer(ClientId client, const SamplesRequest& request);
+  void Answer(ClientId client, const ExplainRequest& request);
+  void Answer(ClientId client, const ConvertRequest& convert);
+  void Answer(ClientId client, const KeepRequest& request);
+  void Answer(ClientId client, TakeRequest what);
+  void Answer(ClientId client, const WelcomeRequest& request);
+  void Answer(ClientId client, OfferedRequest what);
   void KeepEdits(bool at_once);
-  void Explain(ClientId client, const ExplainRequest& request);
-  void SendSamples(ClientId client, const SamplesRequest& request);
-  void Keep(ClientId client, bool keep);
-  void Take(ClientId client, TakeRequest what);
   SharedBytes TakeExr();
   SharedBytes TakeReport(ClientId client);
   bool AnyToMeasure() const;

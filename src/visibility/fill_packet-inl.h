@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // visibility/fill_packet-inl.h: fills packets with a batch's rays: rounded to float, with the terms
-// that the float tests and the exact tests need.
+// that the exact tests need.
 #if defined(NACRE_VISIBILITY_FILL_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_VISIBILITY_FILL_PACKET_INL_H_
 #undef NACRE_VISIBILITY_FILL_PACKET_INL_H_
@@ -27,8 +27,8 @@ HWY_INLINE V FlushTiny(D d, V component) {
   return hn::IfThenElseZero(hn::Gt(hn::Abs(component), hn::Set(d, 0x1p-56)), component);
 }
 
-// Rounds the rays to float. Their directions are first divided by a power of two, so that the
-// largest component is in [1, 2] and no product leaves float's range.
+// Rounds the rays to float, but for their origins. Their directions are first divided by a power of
+// two, so that the largest component is in [1, 2] and no product leaves float's range.
 template <class D>
 HWY_INLINE void FillLanes(D d, hn::Vec<D> t_max, int lane, Packet* packet) {
   using V = hn::Vec<D>;
@@ -36,28 +36,18 @@ HWY_INLINE void FillLanes(D d, hn::Vec<D> t_max, int lane, Packet* packet) {
   const auto store = [&](V v, float* to) { hn::StoreU(hn::DemoteTo(df, v), df, to + lane); };
   const FloatRays& rays = packet->floats;
 
-  const Vec3V<V> origin = Origin(d, *packet, lane);
   const Vec3V<V> direction = Direction(d, *packet, lane);
   const V inverse_dd = hn::Div(hn::Set(d, 1.0), FusedDot(direction, direction));
   const V largest =
       hn::Max(hn::Max(hn::Abs(direction.x), hn::Abs(direction.y)), hn::Abs(direction.z));
   const auto scale = PowerOfTwo(d, largest);
   const Vec3V<V> scaled = Scale(direction, scale.inverse);
-  const auto scaled_inverse_dd =
-      hn::DemoteTo(df, hn::Mul(hn::Mul(inverse_dd, scale.power), scale.power));
   hn::Store(inverse_dd, d, packet->inverse_dd + lane);
   hn::Store(scale.power, d, packet->t_scale + lane);
-  store(origin.x, rays.origin[0]);
-  store(origin.y, rays.origin[1]);
-  store(origin.z, rays.origin[2]);
   store(FlushTiny(d, scaled.x), rays.direction[0]);
   store(FlushTiny(d, scaled.y), rays.direction[1]);
   store(FlushTiny(d, scaled.z), rays.direction[2]);
   hn::StoreU(UpperDepth(d, t_max, scale.power), df, rays.depth + lane);
-  hn::StoreU(scaled_inverse_dd, df, packet->ray_inverse_dd + lane);
-  hn::StoreU(hn::Mul(hn::Sqrt(scaled_inverse_dd), hn::Set(df, 1 + 0x1p-22f)), df,
-             packet->ray_inverse_length + lane);
-  store(hn::Mul(SumOfAbs(origin), hn::Set(d, 32 * kFloatUnit)), packet->origin_error);
   if (!packet->geometry->triangles.empty()) {
     const RayShearV<V> shear = MakeShear(d, direction);
     Store3(shear.x_axis, d, packet->shear, lane);

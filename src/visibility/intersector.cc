@@ -35,7 +35,7 @@ struct Intersector::State {
 
   bool HasShells() const { return !geometry.shells.empty(); }
   void BuildBoxes(BoxTree tree, CancelPointer cancel) {
-    if (!boxes) boxes.emplace(&geometry, settings.one_by_one);
+    if (!boxes) boxes.emplace(&geometry);
     boxes->Build(tree, settings.threads, cancel);
   }
 };

@@ -98,21 +98,15 @@ HWY_INLINE hn::Mask<F> SurelyHit(const FloatOccluder& sphere, const Approach& ap
   return hn::And(hn::And(outside, near), hn::And(ahead, before_end));
 }
 
-// The entries of a list that a run of rays is tested against.
-struct ListPart {
-  const uint32_t* entries;  // indices of OccluderLists::spheres and floats
-  size_t count;
-};
-
-// Collects those spheres of the part that any of the rays `pending` may hit; returns their number.
-// There is no branch, because no branch predictor would find a pattern.
-HWY_INLINE size_t FindNear(const OccluderLists& lists, const ListPart& part, const ListRays& rays,
+// Collects those spheres in the list of sphere `start` that any of the rays `pending` may hit;
+// returns their number. There is no branch, because no branch predictor would find a pattern.
+HWY_INLINE size_t FindNear(const OccluderLists& lists, uint32_t start, const ListRays& rays,
                            uint32_t pending, uint32_t* near) {
   size_t count = 0;
-  for (size_t k = 0; k < part.count; ++k) {
-    const FloatOccluder& occluder = lists.floats[part.entries[k]];
+  for (uint32_t i = lists.Begin(start); i < lists.end[start]; ++i) {
+    const FloatOccluder& occluder = lists.floats[i];
     const uint32_t missed = BitsOfMask(F(), SurelyMiss(occluder, FindApproach(occluder, rays)));
-    near[count] = part.entries[k];
+    near[count] = i;
     count += (pending & ~missed) != 0 ? 1 : 0;
   }
   return count;
@@ -121,15 +115,15 @@ HWY_INLINE size_t FindNear(const OccluderLists& lists, const ListPart& part, con
 // Returns those of the rays `pending`, as bits, that are occluded. All of them start on sphere
 // `start`.
 HWY_INLINE uint32_t OccludedByList(const TraceGeometry& geometry, const OccluderLists& lists,
-                                   const ListPart& part, uint32_t start, const ShadowRayBatch& rays,
-                                   size_t first, uint32_t pending) {
+                                   uint32_t start, const ShadowRayBatch& rays, size_t first,
+                                   uint32_t pending) {
   const F d;
   const TraceSphere& own = geometry.spheres[start];
   const ListRays floats = LoadListRays(rays, first, own.center);
   pending &= floats.active;
   uint32_t occluded = 0;
   uint32_t near[kMaxListedSpheres];
-  const size_t count = FindNear(lists, part, floats, pending, near);
+  const size_t count = FindNear(lists, start, floats, pending, near);
   for (size_t k = 0; k < count && pending != 0; ++k) {
     const FloatOccluder& occluder = lists.floats[near[k]];
     const Approach approach = FindApproach(occluder, floats);
@@ -149,23 +143,23 @@ struct PointBox {
   Vec3d low, high;
 };
 
-// The box of points [first, end).
-HWY_INLINE PointBox BoxOf(const Soa3<double>& points, size_t first, size_t end) {
+// The box of the first `count` points.
+HWY_INLINE PointBox BoxOf(const Soa3<double>& points, size_t count) {
   const D d;
   const size_t lanes = hn::Lanes(d);
   PointBox box;
   for (int c = 0; c < 3; ++c) {
     const double* const values = ChannelOf(points, c).data();
-    V low = hn::Set(d, values[first]), high = low;
-    size_t i = first;
-    for (; i + lanes <= end; i += lanes) {
-      const V v = hn::LoadU(d, values + i);
+    V low = hn::Set(d, values[0]), high = low;
+    size_t i = 0;
+    for (; i + lanes <= count; i += lanes) {
+      const V v = hn::Load(d, values + i);
       low = hn::Min(low, v);
       high = hn::Max(high, v);
     }
     box.low[c] = hn::GetLane(hn::MinOfLanes(d, low));
     box.high[c] = hn::GetLane(hn::MaxOfLanes(d, high));
-    for (; i < end; ++i) {
+    for (; i < count; ++i) {
       box.low[c] = std::min(box.low[c], values[i]);
       box.high[c] = std::max(box.high[c], values[i]);
     }
@@ -173,36 +167,9 @@ HWY_INLINE PointBox BoxOf(const Soa3<double>& points, size_t first, size_t end) 
   return box;
 }
 
-// Rays that leave outward stay above the tangent plane at their origin, except for grazing ones,
-// whose directions are rounded (2e-6). Spheres below the tangent planes of all origins are
-// therefore skipped. Returns the number of the other entries in the list of sphere `start`.
-HWY_INLINE size_t FindAbove(const TraceGeometry& geometry, const OccluderLists& lists,
-                            uint32_t start, const ShadowRayBatch& rays, size_t first, size_t end,
-                            uint32_t* entries) {
-  const TraceSphere& own = geometry.spheres[start];
-  const PointBox box = BoxOf(rays.origin, first, end);
-  size_t count = 0;
-  for (uint32_t i = lists.Begin(start); i < lists.end[start]; ++i) {
-    const TraceSphere& sphere = geometry.spheres[lists.spheres[i]];
-    const Vec3d offset = sphere.center - own.center;
-    // An upper bound of the centre's height over planes through own.center parallel to the tangent
-    // planes, times own.radius.
-    double highest = 0;
-    for (int c = 0; c < 3; ++c) {
-      highest += std::max(offset[c] * (box.low[c] - own.center[c]),
-                          offset[c] * (box.high[c] - own.center[c]));
-    }
-    const double margin =
-        1e-5 * (offset.length() + own.radius + sphere.radius) + 1e-12 * own.center.length();
-    const bool below = highest < (own.radius - sphere.radius - margin) * own.radius;
-    if (!below || !rays.outward) entries[count++] = i;
-  }
-  return count;
-}
-
 // A ball that contains all positions of the batch.
 TraceSphere BoundPositionsT(const HitBatch& hits) {
-  const auto [low, high] = BoxOf(hits.position, 0, hits.count);
+  const auto [low, high] = BoxOf(hits.position, hits.count);
   return {(low + high) / 2, (high - low).length() / 2 * (1 + 1e-9)};
 }
 
@@ -211,13 +178,10 @@ HWY_INLINE void OccludedOfRun(const TraceGeometry& geometry, const OccluderLists
                               size_t first, size_t end, ShadowRayBatch* rays) {
   const size_t step = hn::Lanes(F());
   const uint32_t start = rays->primitive[first];
-  uint32_t entries[kMaxListedSpheres];
-  const size_t kept = FindAbove(geometry, lists, start, *rays, first, end, entries);
   for (; first < end; first += step) {
     const size_t count = std::min(step, end - first);
     const uint32_t lanes = (1u << count) - 1;
-    StoreOccluded(OccludedByList(geometry, lists, {entries, kept}, start, *rays, first, lanes),
-                  first, count, rays);
+    StoreOccluded(OccludedByList(geometry, lists, start, *rays, first, lanes), first, count, rays);
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/packet.h: a packet of rays during the traversal of a BVH: float rays, by which spheres
-// are proposed, and the terms of the exact tests in double.
+// visibility/packet.h: a packet of rays during the traversal of a BVH: float rays, which find
+// boxes, and the terms of the exact tests in double.
 #pragma once
 
 #include <cstddef>
@@ -15,9 +15,9 @@ namespace nacre {
 
 inline constexpr int kMaxPacketWidth = 16;
 
-// A packet's rays rounded to float, one per lane, where its BVH reads them.
+// Directions and limits of a packet's rays rounded to float, one per lane, where its BVH reads
+// them.
 struct FloatRays {
-  float* origin[3];
   float* direction[3];
   float* depth;  // limits of the rays: t times Packet::t_scale, rounded up
 };
@@ -51,11 +51,6 @@ struct Packet {
   alignas(64) double inverse_dd[kMaxPacketWidth];  // 1 / |direction|^2
   alignas(64) double t_scale[kMaxPacketWidth];     // power of two that direction was divided by
   alignas(64) double shear[6][kMaxPacketWidth];    // RayShear, if there are triangles
-
-  // Terms of the float rays, for the float test of spheres.
-  alignas(64) float ray_inverse_dd[kMaxPacketWidth];
-  alignas(64) float ray_inverse_length[kMaxPacketWidth];  // an upper bound
-  alignas(64) float origin_error[kMaxPacketWidth];
 
   const double* t_max = nullptr;  // limits of the rays
   // For closest hits: the best hit so far. best_t is t_max.

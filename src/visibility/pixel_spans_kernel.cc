@@ -227,7 +227,7 @@ namespace {
 // pixel.
 void AppendSpansOfRow(RowSpan* row, size_t count, const TileCandidate* const* in_front,
                       uint32_t first, std::vector<PixelSpan>* spans) {
-  if (!std::is_sorted(row, row + count)) std::sort(row, row + count);
+  std::sort(row, row + count);
   for (size_t i = 0; i < count;) {
     const RowSpan& span = row[i++];
     const TileCandidate* only = in_front[span.outline()];
@@ -238,20 +238,6 @@ void AppendSpansOfRow(RowSpan* row, size_t count, const TileCandidate* const* in
     }
     spans->push_back({first + span.begin(), end - span.begin(), only});
   }
-}
-
-// Writes the spans of a tile's only outline, without a branch for the rows that it does not cover.
-void AppendSpansOfOutline(const OutlineSpans& outline, const TileCandidate* candidate,
-                          const Window& tile, std::vector<PixelSpan>* spans) {
-  const auto width = static_cast<uint32_t>(tile.width());
-  spans->resize(static_cast<size_t>(tile.height()));
-  size_t count = 0;
-  for (uint32_t y = 0; y < static_cast<uint32_t>(tile.height()); ++y) {
-    const RowSpan span{outline.rows[y]};
-    (*spans)[count] = {y * width + span.begin(), span.end() - span.begin(), candidate};
-    count += span.bits != RowSpan::kNone ? 1 : 0;
-  }
-  spans->resize(count);
 }
 
 void AppendWholeRows(const Window& tile, std::vector<PixelSpan>* spans) {
@@ -292,8 +278,6 @@ void FindPixelSpans(const SphereBins& bins, TileCandidates* candidates) {
   GatherSpheres(*candidates, &outlines, in_front);
   HWY_DYNAMIC_DISPATCH(FindOutlineSpansT)
   (bins.projector, bins.sample_margin, tile, &outlines, of_outline);
-  if (outlines.count == 1)
-    return AppendSpansOfOutline(of_outline[0], in_front[0], tile, &candidates->spans);
   RowSpan row[kMaxOutlines];
   for (int y = 0; y < tile.height(); ++y) {
     size_t in_row = 0;

@@ -148,8 +148,7 @@ struct ShellPacket {
   explicit ShellPacket(const TraceGeometry& geometry) {
     packet.width = std::max(4, 2 * static_cast<int>(hn::Lanes(ShellTag())));
     packet.geometry = &geometry;
-    packet.floats = {
-        {floats[0], floats[1], floats[2]}, {floats[3], floats[4], floats[5]}, floats[6]};
+    packet.floats = {{floats[0], floats[1], floats[2]}, floats[3]};
   }
   ShellPacket(const ShellPacket&) = delete;  // it points into itself
   ShellPacket& operator=(const ShellPacket&) = delete;
@@ -157,7 +156,7 @@ struct ShellPacket {
   size_t Width() const { return static_cast<size_t>(packet.width); }
 
   Packet packet;
-  alignas(64) float floats[7][kMaxPacketWidth];
+  alignas(64) float floats[4][kMaxPacketWidth];
 };
 
 void Nearer(const TraceGeometry& geometry, const RayBatch& rays, ClosestHits* hits) {

@@ -32,12 +32,11 @@ TEST_CASE("The map is viridis, brighter with every step", "[compare]") {
   }
 }
 
-TEST_CASE("The scale is logarithmic and invertible", "[compare]") {
+TEST_CASE("The scale is logarithmic and ends at its ends", "[compare]") {
   const HeatScale scale{1e-6, 1};
   CHECK(scale.Position(1e-3) == Approx(0.5).epsilon(1e-14));
   CHECK(scale.Position(1e-9) == 0);
   CHECK(scale.Position(50) == 1);
-  for (const double t : {0.0, 0.3, 1.0}) CHECK(scale.Position(scale.Value(t)) == Approx(t));
 }
 
 TEST_CASE("Pixels have the colour of their largest error", "[compare]") {

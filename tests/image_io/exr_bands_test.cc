@@ -10,6 +10,7 @@
 #include <OpenEXR/ImfOutputFile.h>
 
 #include "base/error.h"
+#include "image_io/exr_container.h"
 #include "pictures.h"
 
 namespace nacre {
@@ -58,7 +59,7 @@ TEST_CASE("bands put together are the whole picture's file, to the byte") {
     CHECK(header.compression == compression);
     CHECK(header.header.data == picture.header.data);
     CHECK(header.header.attributes == picture.header.attributes);
-    ExrBandWriter writer(folder / "merged.exr", header);
+    ExrContainer writer(folder / "merged.exr", nullptr, header.header, header.compression);
     for (const auto& [y0, y1] : {std::pair{5, 37}, std::pair{37, 101}, std::pair{101, 114}}) {
       WritePicture(folder / "band.exr", CutRows(picture, y0, y1), options);
       ExrBandReader band(folder / "band.exr");
@@ -66,7 +67,7 @@ TEST_CASE("bands put together are the whole picture's file, to the byte") {
         writer.WriteChunk(y, band.ReadChunk(y));
       }
     }
-    writer.Finish();
+    writer.Finish(/*sync=*/true);
     CHECK(ReadBytes(folder / "merged.exr") == ReadBytes(folder / "whole.exr"));
   }
 }

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "image_io/exr_bands.h"
 #include "image_io/png_writer.h"
-#include "image_io/verify_image.h"
+#include "image_io/read_image.h"
 #include "pictures.h"
 
 namespace nacre {

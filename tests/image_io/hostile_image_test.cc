@@ -16,7 +16,6 @@
 
 #include "image_io/exr_bands.h"
 #include "image_io/read_image.h"
-#include "image_io/verify_image.h"
 #include "pictures.h"
 #include "png_bytes.h"
 

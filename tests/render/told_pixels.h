@@ -46,12 +46,14 @@ inline std::vector<bool> ToldIn(const FramePlan& plan) {
   const auto room = std::make_unique<CellRoom>();
   Strip strip;
   StageClock clock(nullptr);
+  work.clock = &clock;
   for (int y0 = 0; y0 < kSide; y0 += kCellSize) {
     StartStrip(plan.film, {0, y0, kSide, y0 + kCellSize}, nullptr, &strip);
     for (int x0 = 0; x0 < kSide; x0 += kCellSize) {
       const Window cell{x0, y0, x0 + kCellSize, y0 + kCellSize};
       RenderStats stats;
-      RenderCell(plan, cell, cell, &work, room.get(), &strip, &clock, &stats);
+      work.stats = &stats;
+      RenderCell(plan, cell, cell, &work, room.get(), &strip);
       for (const uint32_t pixel : room->state.active) {
         const FilmPixel at = PixelOf(cell, pixel);
         const Window alone{at.x, at.y, at.x + 1, at.y + 1};

@@ -8,7 +8,7 @@
 #include "catch.h"
 #include "color/transfer.h"
 #include "scene_io/load_scene.h"
-#include "scene_io/material_json.h"
+#include "scene_io/scene_json.h"
 
 namespace nacre {
 namespace {

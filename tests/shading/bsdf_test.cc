@@ -233,7 +233,7 @@ struct StackBatch {
     PrepareSurface(hits, &surface);
   }
 
-  BsdfHits Prepare(const Stack& stack, const ShadingMaterial& material, const Vec3d& to_view) {
+  MaterialHits Prepare(const Stack& stack, const ShadingMaterial& material, const Vec3d& to_view) {
     hits.count = kBatchCapacity;
     SetNormals(kUp, to_view);
     surface.normal_mapped = stack.Mapped();
@@ -286,7 +286,7 @@ TEST_CASE("the mean weight of samples is the albedo, and kernels agree with the 
       for (const double n_dot_v : kViewCosines) {
         CAPTURE(stack.name, n_dot_v);
         const Vec3d v = ViewAt(n_dot_v);
-        const BsdfHits at = batch->Prepare(stack, material, v);
+        const MaterialHits at = batch->Prepare(stack, material, v);
         double sum = 0, squares = 0;
         size_t count = 0, mirrors = 0;
         for (int repeat = 0; repeat < 4; ++repeat) {

@@ -105,8 +105,8 @@ class LitFurnace {
     PrepareRun(prepared, 0, kBatchCapacity, &surface_);
     Rgb sum(0, 0, 0);
     for (size_t k = 0; k < hits_.size(); ++k) {
-      ShadeRun(prepared, {hits_[k], surface_, light, &light_[k]}, 0, kBatchCapacity, &scratch_,
-               &radiance_);
+      ShadeRun({{prepared, hits_[k], surface_, 0, kBatchCapacity}, light, &light_[k], &radiance_},
+               &scratch_);
       for (size_t i = 0; i < kBatchCapacity; ++i) {
         sum += VectorAt(radiance_.diffuse, i) + VectorAt(radiance_.specular, i);
       }

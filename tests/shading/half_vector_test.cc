@@ -24,6 +24,11 @@ struct MirrorBatch {
   ShadingLight light;
   LightBatch directions;
   ShadeScratch scratch;
+
+  void Shade(const ShadingMaterial& material, size_t begin, size_t end,
+             ReflectedRadiance* radiance) {
+    ShadeRun({{material, hits, surface, begin, end}, light, &directions, radiance}, &scratch);
+  }
 };
 
 Vec3d WideAt(const Soa3<float>& soa, size_t i) {
@@ -63,10 +68,9 @@ template <class Model>
 void CheckMirrored(const ShadingMaterial& material, const Model& model, double width) {
   MirrorBatch batch;
   FillMirrorBatch(width, &batch);
-  const LitHits lit{batch.hits, batch.surface, batch.light, &batch.directions};
   PrepareRun(material, 0, kMirrorHits, &batch.surface);
   ReflectedRadiance whole;
-  ShadeRun(material, lit, 0, kMirrorHits, &batch.scratch, &whole);
+  batch.Shade(material, 0, kMirrorHits, &whole);
   const double tolerance = (2 * 2 / width + 2 * 8) * 0x1p-24;
   for (size_t i = 0; i < kMirrorHits; ++i) {
     const Vec3d n = WideAt(batch.surface.normal, i), v = WideAt(batch.surface.to_view, i);
@@ -159,13 +163,12 @@ TEST_CASE("a hit's bits do not depend on whether others need more care") {
     size_t material_number = 0;
     for (const ShadingMaterial& material : MaterialsWithHalfVectors()) {
       CAPTURE(material_number++);
-      const LitHits lit{batch.hits, batch.surface, batch.light, &batch.directions};
       ReflectedRadiance whole, alone;
       PrepareRun(material, 0, kMirrorHits, &batch.surface);
-      ShadeRun(material, lit, 0, kMirrorHits, &batch.scratch, &whole);
+      batch.Shade(material, 0, kMirrorHits, &whole);
       for (size_t i = 0; i < kMirrorHits; ++i) {
         PrepareRun(material, i, i + 1, &batch.surface);
-        ShadeRun(material, lit, i, i + 1, &batch.scratch, &alone);
+        batch.Shade(material, i, i + 1, &alone);
         CAPTURE(i);
         REQUIRE(ColorAt(whole.specular, i) == ColorAt(alone.specular, i));
         REQUIRE(ColorAt(whole.diffuse, i) == ColorAt(alone.diffuse, i));
@@ -197,7 +200,6 @@ TEST_CASE("a half vector of next to no length keeps its lobe") {
   }
   batch.light =
       PrepareLight({.name = {}, .kind = DirectionalLight{.irradiance = kLightColor}}, {0, 0, 0});
-  const LitHits lit{batch.hits, batch.surface, batch.light, &batch.directions};
   ForEachTarget([&](Target) {
     for (const Shadowing shadowing : {Shadowing::kSchlickDirect, Shadowing::kHeightCorrelated}) {
       const ShadingMaterial prepared =
@@ -205,7 +207,7 @@ TEST_CASE("a half vector of next to no length keeps its lobe") {
       const auto& model = std::get<MicrofacetModel>(prepared.model);
       PrepareRun(prepared, 0, kSteps, &batch.surface);
       ReflectedRadiance got;
-      ShadeRun(prepared, lit, 0, kSteps, &batch.scratch, &got);
+      batch.Shade(prepared, 0, kSteps, &got);
       for (size_t i = 0; i < kSteps; ++i) {
         const Vec3d v = WideAt(batch.surface.to_view, i);
         const Rgb expected = Reflect(model, {0, 0, 1}, v, {{-v.x, 0, v.z}, 1}).specular;

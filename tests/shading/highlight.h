@@ -58,8 +58,11 @@ inline Highlight ShadeHighlight(const ShadingMaterial& material, const Rgb& irra
   const ShadingLight prepared = PrepareLight(light, Vec3d(0));
   LightBatch on_hits;
   EvaluateLight(prepared, highlight.hits, surface, &on_hits);
-  ShadeRun(material, {highlight.hits, surface, prepared, &on_hits}, 0, highlight.hits.count,
-           &scratch, &highlight.radiance);
+  ShadeRun({{material, highlight.hits, surface, 0, highlight.hits.count},
+            prepared,
+            &on_hits,
+            &highlight.radiance},
+           &scratch);
   return highlight;
 }
 

@@ -112,8 +112,11 @@ ReflectedRadiance ReflectFromSpheres(const ShadingLight& light, HitsOnSpheres* h
   ShadeScratch scratch;
   ReflectedRadiance radiance;
   PrepareRun(prepared, 0, kHitsOnSpheres, &hits->surface);
-  ShadeRun(prepared, {hits->batch, hits->surface, light, in_place ? nullptr : &evaluated}, 0,
-           kHitsOnSpheres, &scratch, &radiance);
+  ShadeRun({{prepared, hits->batch, hits->surface, 0, kHitsOnSpheres},
+            light,
+            in_place ? nullptr : &evaluated,
+            &radiance},
+           &scratch);
   return radiance;
 }
 

@@ -42,10 +42,10 @@ class SampledHits {
     PrepareRun(material, 0, kCoverageHits, &surface_);
   }
 
-  LobeRange Range() const { return {hits_, surface_, 0, kCoverageHits}; }
+  MaterialHits Hits() const { return {material_, hits_, surface_, 0, kCoverageHits}; }
 
   void Sample(const float* u, const float* v) {
-    SampleLobe(material_, Range(), u, v, &scratch_, &lit_.to_light);
+    SampleLobe(Hits(), u, v, &scratch_, &lit_.to_light);
     Shade();
   }
 
@@ -68,8 +68,8 @@ class SampledHits {
   void Shade() {
     for (size_t i = 0; i < kCoverageHits; ++i)
       lit_.irradiance[i] = lit_.to_light.z[i] > 0 ? 1.0f : 0.0f;
-    LobePdf(material_, Range(), lit_, &scratch_, pdf_.data());
-    ShadeRun(material_, {hits_, surface_, light_, &lit_}, 0, kCoverageHits, &scratch_, &radiance_);
+    LobePdf(Hits(), lit_, &scratch_, pdf_.data());
+    ShadeRun({Hits(), light_, &lit_, &radiance_}, &scratch_);
   }
 
   const ShadingMaterial& material_;

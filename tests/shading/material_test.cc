@@ -384,7 +384,7 @@ void ReflectSun(const ShadingMaterial& material, const HitBatch& hits, const Vec
   PrepareSurface(hits, &surface);
   PrepareRun(material, 0, 1, &surface);
   EvaluateLight(prepared, hits, surface, &on_hit);
-  ShadeRun(material, {hits, surface, prepared, &on_hit}, 0, 1, &scratch, radiance);
+  ShadeRun({{material, hits, surface, 0, 1}, prepared, &on_hit, radiance}, &scratch);
 }
 
 TEST_CASE("a normal that leans away from the viewer counts as seen edge-on") {

@@ -139,8 +139,8 @@ void CheckRange(const ShadingMaterial& material, const Lit& on, const ReflectedR
           SetAt(i, Vec3d(kUntouched), soa);
         }
       }
-      ShadeRun(material, {on.hits, on.surface, on.light, on_hits, components}, begin, end, &scratch,
-               &part);
+      ShadeRun({{material, on.hits, on.surface, begin, end}, on.light, on_hits, &part, components},
+               &scratch);
       for (size_t i = 0; i < kSphereHits; ++i) {
         CAPTURE(i);
         const bool inside = begin <= i && i < end;
@@ -182,8 +182,8 @@ TEST_CASE("a range of hits has the bits that it has among all, and no others are
       for (const Lit* on : {&front, &limb, &behind}) {
         ShadeScratch scratch;
         ReflectedRadiance all;
-        ShadeRun(material, {on->hits, on->surface, on->light, &on->on_hits}, 0, kSphereHits,
-                 &scratch, &all);
+        ShadeRun({{material, on->hits, on->surface, 0, kSphereHits}, on->light, &on->on_hits, &all},
+                 &scratch);
         CheckRange(material, *on, all, 77, 900);
         CheckRange(material, *on, all, 700, 701);
       }

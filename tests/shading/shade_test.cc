@@ -90,7 +90,7 @@ struct Batch {
   void Shade(const ShadingMaterial& material, size_t begin, size_t end,
              ReflectedRadiance* radiance) {
     PrepareRun(material, begin, end, &surface);
-    ShadeRun(material, {hits, surface, light, &evaluated}, begin, end, &scratch, radiance);
+    ShadeRun({{material, hits, surface, begin, end}, light, &evaluated, radiance}, &scratch);
   }
 };
 

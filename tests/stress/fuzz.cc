@@ -63,8 +63,8 @@ void Shade(const ShadingMaterial& material, const Rgb& color, size_t begin, size
            Placement* p) {
   p->light.color = color;
   PrepareRun(material, begin, end, &p->surface);
-  ShadeRun(material, {p->hits, p->surface, p->light, &p->evaluated}, begin, end, &p->scratch,
-           &p->radiance);
+  ShadeRun({{material, p->hits, p->surface, begin, end}, p->light, &p->evaluated, &p->radiance},
+           &p->scratch);
 }
 
 // The bits of a hit's radiance.

@@ -37,7 +37,7 @@ Vec3d Reflect(const Material& material, const Rgb& color, const Point& point, bo
   ShadeScratch scratch;
   const ShadingMaterial prepared = PrepareMaterial(material);
   PrepareRun(prepared, 0, 1, &surface);
-  ShadeRun(prepared, {hits, surface, light, &batch}, 0, 1, &scratch, &radiance);
+  ShadeRun({{prepared, hits, surface, 0, 1}, light, &batch, &radiance}, &scratch);
   const Soa3<float>& part = specular ? radiance.specular : radiance.diffuse;
   return {part.x[0], part.y[0], part.z[0]};
 }

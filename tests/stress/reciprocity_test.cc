@@ -91,8 +91,9 @@ void CheckReciprocal(const Material& material, BothSides* sides, double bound, d
   for (Side* side : {&sides->there, &sides->back}) {
     ClearRadiance(kHits, &side->radiance);
     PrepareRun(prepared, 0, kHits, &side->surface);
-    ShadeRun(prepared, {side->hits, side->surface, light, &side->evaluated}, 0, kHits,
-             &side->scratch, &side->radiance);
+    ShadeRun(
+        {{prepared, side->hits, side->surface, 0, kHits}, light, &side->evaluated, &side->radiance},
+        &side->scratch);
   }
   const ReflectedRadiance& there = sides->there.radiance;
   const ReflectedRadiance& back = sides->back.radiance;

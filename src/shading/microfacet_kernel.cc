@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/microfacet_kernel-inl.h: a GGX lobe over a diffuse base, for any Fresnel curve. The
-// kernels of the curves instantiate it: metallic_roughness_kernel.cc, conductor_kernel.cc,
-// dielectric_kernel.cc.
-#if defined(NACRE_SHADING_MICROFACET_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef NACRE_SHADING_MICROFACET_KERNEL_INL_H_
-#undef NACRE_SHADING_MICROFACET_KERNEL_INL_H_
-#else
-#define NACRE_SHADING_MICROFACET_KERNEL_INL_H_
-#endif
-
+// shading/microfacet_kernel.cc: a GGX lobe over a diffuse base, for any Fresnel curve.
 #include <limits>
 #include <type_traits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shading/microfacet_kernel.cc"
+#include "hwy/foreach_target.h"
+
+#include "hwy/highway.h"
 
 #include "brdf/ggx-inl.h"
 #include "shading/microfacet_albedo-inl.h"
@@ -30,14 +27,7 @@ struct Microfacet {
   static constexpr bool kIsMix = kFresnel == FresnelForm::kSchlick || kFresnel == FresnelForm::kF82;
   MicrofacetUniforms<Number> uniforms;  // a copy, which no store can alias
   const MicrofacetModel& model;
-
-  struct View {
-    const Surface* surface;  // what PrepareRun has stored is loaded where it is needed
-  };
-
-  HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface& surface) const {
-    return {&surface};
-  }
+  const Surface& surface;
 
   // The denominator of the visibility times `scale`.
   HWY_INLINE FloatV Masking(FloatTag d, const PacketV& p, const Incident& in, FloatV scale) const {
@@ -101,8 +91,7 @@ struct Microfacet {
     return hn::IfThenElseZero(IsLit(d, in.n_dot_l), hn::Min(product, largest));
   }
 
-  HWY_INLINE ReflectedV Reflect(FloatTag d, const View& view, const PacketV& p,
-                                const Incident& in) const {
+  HWY_INLINE ReflectedV Reflect(FloatTag d, const PacketV& p, const Incident& in) const {
     const MicrofacetLight<Number>& light = uniforms.light;
     // At grazing light the spread grows as much as the weight falls: their product stays in range.
     const bool spreads = kFresnel != FresnelForm::kConductor && uniforms.spread != nullptr;
@@ -114,72 +103,106 @@ struct Microfacet {
     if (model.compensation == Compensation::kTurquin) {
       // `multiple` is multiplied by the lobe, not by the term: a bright light's colour times the
       // weight may be beyond float's range.
-      const FloatV multiple = hn::LoadU(d, view.surface->multiple.data() + p.i);
+      const FloatV multiple = hn::LoadU(d, surface.multiple.data() + p.i);
       if constexpr (kIsMix) {
         const FloatV largest = hn::Set(d, std::numeric_limits<float>::max());
         const FloatV more = hn::Min(hn::Mul(multiple, lobe), largest);
         const RgbV term = TurquinTerm(d, curve, p.i, uniforms, light);
-        reflected = WholePart(d, MulAddRgb(term, more, RgbOf(reflected)));
+        reflected = WholePart(d, MulAdd3(term, more, RgbOf(reflected)));
       } else {
         const FloatV one = hn::Set(d, 1.0f);
-        const RgbV scale = MulAddRgb(RgbAt(d, uniforms.f0, p.i), multiple, {one, one, one});
+        const RgbV scale = MulAdd3(RgbAt(d, uniforms.f0, p.i), multiple, {one, one, one});
         reflected = {RgbOf(reflected), scale};
       }
     }
-    Complete(d, view, p.i, in, light, &reflected, &base.color);
-    if (spreads) return {{{RgbOf(base), ScaleRgb(SpreadAt(d, p.i), in.weight)}}, reflected};
+    Complete(d, p.i, in, light, &reflected, &base.color);
+    if (spreads) return {{{RgbOf(base), Scale(SpreadAt(d, p.i), in.weight)}}, reflected};
     return {{base}, reflected};
   }
 
   HWY_INLINE RgbV SpreadAt(FloatTag d, size_t i) const {
     const FloatV single = hn::LoadU(d, uniforms.spread->single.data() + i);
     const FloatV multiple = hn::LoadU(d, uniforms.spread->multiple.data() + i);
-    return MulAddRgb(RgbAt(d, uniforms.base.ratio, i), multiple, {single, single, single});
+    return MulAdd3(RgbAt(d, uniforms.base.ratio, i), multiple, {single, single, single});
   }
 
   // The albedo of the lobe that covers the base.
   HWY_INLINE AlbedoV AlbedoAt(FloatTag d, size_t i, FloatV cosine) const {
     const FloatV f90 = NumberAt(d, uniforms.dielectric_f90, i);
     if constexpr (kSame) {
-      return EvaluateAlbedo(d, model, f90, cosine);
+      return EvaluateAlbedo(d, model, model.albedo.lobe, f90, cosine);
     } else {
-      if (uniforms.fit == nullptr) return EvaluateAlbedo(d, model, f90, cosine);
-      return EvaluateAlbedo(d, model, FitAt(uniforms.fit + i, uniforms.fit_stride, model.shadowing),
-                            f90, cosine);
+      if (uniforms.fit == nullptr) {
+        return EvaluateAlbedo(d, model, model.albedo.lobe, f90, cosine);
+      }
+      const AlbedoFitLanes fit = FitAt(uniforms.fit, i, model.shadowing);
+      return EvaluateAlbedo(d, model, fit, f90, cosine);
     }
   }
 
   // Adds Kulla and Conty's lobe, and, if kAlbedoScaled, scales the base by 1 - the albedo of the
   // lobe that covers it.
-  HWY_INLINE void Complete(FloatTag d, const View& view, size_t i, const IncidentV& in,
+  HWY_INLINE void Complete(FloatTag d, size_t i, const IncidentV& in,
                            const MicrofacetLight<Number>& light, PartV* reflected,
                            RgbV* base) const {
     const bool scaled = model.coupling == DiffuseCoupling::kAlbedoScaled;
-    const Surface& surface = *view.surface;
-    if (scaled) *base = MulRgb(*base, LoadRgb(d, surface.transmittance, i));
+    if (scaled) *base = Mul3(*base, LoadSoa(d, surface.transmittance, i));
     if (model.compensation != Compensation::kKullaConty) return;
     const FloatV multiple = hn::LoadU(d, surface.multiple.data() + i);
     const FloatV largest = hn::Set(d, std::numeric_limits<float>::max());
     const AlbedoV from_light = AlbedoAt(d, i, hn::Max(in.n_dot_l, hn::Zero(d)));
     const FloatV amount = hn::Mul(hn::Mul(multiple, from_light.loss), in.weight);
-    const RgbV more = ScaleRgb(RgbAt(d, light.multiple, i), hn::Min(amount, largest));
-    *reflected = WholePart(d, AddRgb(RgbOf(*reflected), more));
+    const RgbV more = Scale(RgbAt(d, light.multiple, i), hn::Min(amount, largest));
+    *reflected = WholePart(d, Add(RgbOf(*reflected), more));
     if (scaled) {
       const RgbV f0 = RgbAt(d, uniforms.dielectric_f0, i);
       const RgbV f_multiple = RgbAt(d, uniforms.dielectric_f_multiple, i);
-      *base = MulRgb(*base, {KullaContyBase(d, from_light, f0.r, f_multiple.r),
-                             KullaContyBase(d, from_light, f0.g, f_multiple.g),
-                             KullaContyBase(d, from_light, f0.b, f_multiple.b)});
+      *base = Mul3(*base, {KullaContyBase(d, from_light, f0.x, f_multiple.x),
+                           KullaContyBase(d, from_light, f0.y, f_multiple.y),
+                           KullaContyBase(d, from_light, f0.z, f_multiple.z)});
     }
   }
 };
 
 template <FresnelForm kFresnel, class Number>
-void ShadeMicrofacet(const MicrofacetUniforms<Number>& uniforms, const ShadeRange& range) {
-  ShadePackets(FloatTag(), Microfacet<kFresnel, Number>{uniforms, *uniforms.model}, range);
+void ShadeByCurve(const MicrofacetUniforms<Number>& uniforms, const LitHits& lit) {
+  ShadePackets(FloatTag(), Microfacet<kFresnel, Number>{uniforms, uniforms.model, lit.surface},
+               lit);
 }
+
+// The kernel of a Fresnel curve.
+template <class Number>
+auto CurveKernel(FresnelForm form) {
+  switch (form) {
+    case FresnelForm::kSchlick:
+      return &ShadeByCurve<FresnelForm::kSchlick, Number>;
+    case FresnelForm::kF82:
+      return &ShadeByCurve<FresnelForm::kF82, Number>;
+    case FresnelForm::kDielectric:
+      return &ShadeByCurve<FresnelForm::kDielectric, Number>;
+    case FresnelForm::kConductor:
+      break;
+  }
+  return &ShadeByCurve<FresnelForm::kConductor, Number>;
+}
+constexpr auto& CurveKernelT = CurveKernel<float>;
+constexpr auto& CurveKernelMapsT = CurveKernel<float*>;
 
 }  // namespace HWY_NAMESPACE
 }  // namespace nacre
 HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace nacre {
+HWY_EXPORT(CurveKernelT);
+HWY_EXPORT(CurveKernelMapsT);
+
+void ShadeMicrofacet(const MicrofacetUniforms<float>& uniforms, const LitHits& lit) {
+  HWY_DYNAMIC_DISPATCH(CurveKernelT)(uniforms.model.fresnel)(uniforms, lit);
+}
+
+void ShadeMicrofacet(const MicrofacetUniforms<float*>& uniforms, const LitHits& lit) {
+  HWY_DYNAMIC_DISPATCH(CurveKernelMapsT)(uniforms.model.fresnel)(uniforms, lit);
+}
+}  // namespace nacre
 #endif

@@ -1,20 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene_io/model_tree.h"
+#include "scene_io/scene_json.h"
 
-#include <algorithm>
+#include <cstdlib>
 #include <utility>
 #include <variant>
 
+#include <fmt/format.h>
+
+#include "brdf/fresnel.h"
 #include "scene/material_parameters.h"
-#include "scene_io/material_json.h"
 #include "scene_io/read_keys.h"
 
 namespace nacre {
 namespace {
 
-Json ColorJson(const Rgb& color) {
-  if (color.x == color.y && color.y == color.z) return color.x;
-  return {color.x, color.y, color.z};
+double Rounded(double value) { return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr); }
+
+Json RoundedColorJson(const Rgb& rgb) {
+  const Json color = {Rounded(rgb.x), Rounded(rgb.y), Rounded(rgb.z)};
+  return color[0] == color[1] && color[1] == color[2] ? color[0] : color;
+}
+
+bool DoesNothing(const MaterialParameter& parameter, const Rgb& value) {
+  return (parameter.name == "emission" && value == Rgb(0)) ||
+         (parameter.name == "dielectric_f0" && value == Rgb(kDielectricF0)) ||
+         (parameter.name == "specular" && value == Rgb(1)) ||
+         (parameter.name == "opacity" && value == Rgb(1)) ||
+         (parameter.name == "opacity_cutoff" && value == Rgb(Material().opacity_cutoff)) ||
+         (parameter.name == "f82_tint" && value == Rgb(1));
 }
 
 // Converts the kind of a light. Leaves out members that a model's lights do not have, and pictures.
@@ -38,6 +51,41 @@ struct KindJson {
 };
 
 }  // namespace
+
+Json MaterialJson(const Material& material) {
+  const MaterialModel& model = *ModelOf(material);
+  Json json = {{"model", model.name}};
+  for (const MaterialParameter& parameter : model.parameters) {
+    const Rgb value = parameter.get(material);
+    if (!DoesNothing(parameter, value)) json[std::string(parameter.name)] = RoundedColorJson(value);
+  }
+  const Material defaults = model.make();
+  for (const MaterialChoice& choice : model.choices) {
+    if (choice.get == nullptr || choice.get(material) == choice.get(defaults)) continue;
+    json[std::string(choice.name)] = choice.options[choice.get(material)];
+  }
+  return json;
+}
+
+std::string DescribeMaterial(const Json& material) {
+  std::string text;
+  for (const auto& [key, value] : material.items()) {
+    if (key == "model") continue;
+    text += text.empty() ? "" : ", ";
+    text += key + " ";
+    if (value.is_array()) {
+      for (size_t i = 0; i < value.size(); ++i) {
+        text += fmt::format("{}{:.4g}", i > 0 ? " " : "", value[i].get<double>());
+      }
+    } else {
+      text += value.is_number()   ? fmt::format("{:.4g}", value.get<double>())
+              : value.is_string() ? value.get<std::string>()
+                                  : JsonText(value);
+    }
+  }
+  const std::string model = material.value("model", "material");
+  return text.empty() ? model : model + ": " + text;
+}
 
 Json ModelLightJson(const Light& light) {
   const Json keys = std::visit(KindJson{}, light.kind);
@@ -80,7 +128,7 @@ Json ModelTree(const Scene& scene, const ImageSettings& image, Json put) {
   Json whole = KeysJson(image);
   whole.update(put.value("image", Json::object()));
   put["image"] = std::move(whole);
-  put["background"] = ColorJson(scene.background);
+  put["background"] = KeyValueJson(KeyForm::kColor, {}, Vec3d(scene.background));
   put["nacre"] = 1;
   return put;
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// image_io/exr_chunk_check.cc: CheckExrChunks() and DecodeExrLines() of exr_check.h.
+#include "image_io/exr_check.h"
+
 #include <algorithm>
-#include <array>
 #include <cstring>
-#include <span>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -14,14 +16,96 @@
 #include "base/error.h"
 #include "base/huge_pages.h"
 #include "base/parallel.h"
-#include "image_io/exr_check.h"
 #include "image_io/image_file.h"
 
 namespace nacre {
 namespace {
 
-[[noreturn]] void FailChunk(const std::string& path, const std::string& what) {
+[[noreturn]] void FailExr(const std::string& path, const std::string& what) {
   throw Error(ExitCode::kBadInput, path, "cannot be read as EXR: " + what);
+}
+
+// Whether the file is at least as long as its chunk tables, 8 bytes per chunk, for which the C++
+// reader allocates memory.
+bool HasRoomForTables(exr_const_context_t context, const std::string& path) {
+  int parts = 0;
+  if (exr_get_count(context, &parts) != EXR_ERR_SUCCESS) return false;
+  uint64_t chunks = 0;
+  for (int part = 0; part < parts; ++part) {
+    int32_t count = 0;
+    if (exr_get_chunk_count(context, part, &count) != EXR_ERR_SUCCESS || count < 0) return false;
+    chunks += static_cast<uint64_t>(count);
+  }
+  std::error_code error;
+  return chunks * sizeof(uint64_t) <= std::filesystem::file_size(path, error) && !error;
+}
+
+// The first error that OpenEXR's C library reports about the header. Its C++ reader allocates as
+// much memory as an attribute claims to have, 2 GiB of text in a file of 40 bytes. The C library
+// compares the size with that of the file and reports an error, but then continues; so any report
+// counts.
+exr_result_t FirstComplaint(const std::string& path) {
+  exr_result_t complaint = EXR_ERR_SUCCESS;
+  exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
+  initializer.user_data = &complaint;
+  initializer.error_handler_fn = [](exr_const_context_t context, exr_result_t code, const char*) {
+    void* first = nullptr;
+    if (exr_get_user_data(context, &first) != EXR_ERR_SUCCESS || first == nullptr) return;
+    if (auto* const kept = static_cast<exr_result_t*>(first); *kept == EXR_ERR_SUCCESS)
+      *kept = code;
+  };
+  exr_context_t context = nullptr;
+  exr_result_t result = exr_start_read(&context, path.c_str(), &initializer);
+  if (result == EXR_ERR_SUCCESS && !HasRoomForTables(context, path)) {
+    result = EXR_ERR_FILE_BAD_HEADER;
+  }
+  exr_finish(&context);
+  return complaint != EXR_ERR_SUCCESS ? complaint : result;
+}
+
+// Whether a list of channels, which have a name and 16 bytes each, ends with an empty name exactly
+// at its end.
+bool EndsWhereItSays(std::string_view list) {
+  constexpr size_t kDescription = 16;
+  while (!list.empty()) {
+    const size_t end = list.find('\0');
+    if (end == 0) return list.size() == 1;
+    if (end == std::string_view::npos || list.size() <= end + kDescription) return false;
+    list.remove_prefix(end + 1 + kDescription);
+  }
+  return false;
+}
+
+// The C++ reader continues after the last channel's name instead of after the attribute's size, and
+// takes what is there for an attribute. Here, sizes have been checked to lie within the file.
+bool ChannelListsEnd(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  constexpr std::streamoff kMagic = 4;
+  constexpr uint32_t kMultiPart = 0x1000;
+  uint32_t version = 0;
+  file.seekg(kMagic).read(reinterpret_cast<char*>(&version), sizeof(version));
+  bool after_header = false;  // a second empty name ends the headers of a multi-part file
+  std::string name, type, value;
+  while (std::getline(file, name, '\0')) {
+    if (name.empty()) {
+      if ((version & kMultiPart) == 0 || after_header) return true;
+      after_header = true;
+      continue;
+    }
+    after_header = false;
+    int32_t size = 0;
+    if (!std::getline(file, type, '\0') ||
+        !file.read(reinterpret_cast<char*>(&size), sizeof(size)) || size < 0) {
+      return false;
+    }
+    if (type != "chlist") {
+      file.seekg(size, std::ios::cur);
+      continue;
+    }
+    value.resize(static_cast<size_t>(size));
+    if (!file.read(value.data(), size) || !EndsWhereItSays(value)) return false;
+  }
+  return false;
 }
 
 // A file opened for reading chunks. The library also reports errors in its result codes, so its
@@ -42,7 +126,7 @@ class ChunkFile {
   exr_const_context_t get() const { return context_; }
   void Check(exr_result_t result, const std::string& what) const {
     if (result == EXR_ERR_SUCCESS) return;
-    FailChunk(path_, what + ": " + exr_get_default_error_message(result));
+    FailExr(path_, what + ": " + exr_get_default_error_message(result));
   }
 
  private:
@@ -85,21 +169,6 @@ uint64_t RunsSize(std::span<const uint8_t> packed) {
   return size;
 }
 
-// The size that a chunk decodes to. Other compressions detect short data themselves.
-uint64_t DecodedSize(int compression, std::span<const uint8_t> packed, uint64_t expected) {
-  switch (compression) {
-    case EXR_COMPRESSION_NONE:
-      return packed.size();
-    case EXR_COMPRESSION_RLE:
-      return packed.size() == expected ? expected : RunsSize(packed);
-    case EXR_COMPRESSION_ZIP:
-    case EXR_COMPRESSION_ZIPS:
-      return packed.size() == expected ? expected : InflatedSize(packed, expected);
-    default:
-      return expected;
-  }
-}
-
 // Inflates a chunk, faster than zlib does. Returns false if it is not whole; InflatedSize finds out
 // why.
 bool InflateWhole(std::span<const uint8_t> packed, std::span<uint8_t> unpacked) {
@@ -135,22 +204,24 @@ void JoinPredicted(std::span<const uint8_t> bytes, std::span<uint16_t> words) {
 void CheckChunk(const std::string& path, const ChunkFile& file, int part,
                 const exr_chunk_info_t& chunk, const std::string& name) {
   if (chunk.packed_size > chunk.unpacked_size) {
-    FailChunk(path, name + " is longer than what it holds");
+    FailExr(path, name + " is longer than what it holds");
   }
-  const bool to_decode = chunk.compression == EXR_COMPRESSION_RLE ||
-                         chunk.compression == EXR_COMPRESSION_ZIP ||
-                         chunk.compression == EXR_COMPRESSION_ZIPS;
+  const bool has_runs = chunk.compression == EXR_COMPRESSION_RLE;
+  const bool is_deflated =
+      chunk.compression == EXR_COMPRESSION_ZIP || chunk.compression == EXR_COMPRESSION_ZIPS;
   uint64_t size = chunk.packed_size;
-  if (to_decode) {
+  if (has_runs || is_deflated) {
     std::vector<uint8_t> packed(chunk.packed_size);
     file.Check(exr_read_chunk(file.get(), part, &chunk, packed.data()), name);
-    size = DecodedSize(chunk.compression, packed, chunk.unpacked_size);
+    if (size != chunk.unpacked_size) {  // else it is stored: packing did not make it shorter
+      size = has_runs ? RunsSize(packed) : InflatedSize(packed, chunk.unpacked_size);
+    }
   } else if (chunk.compression != EXR_COMPRESSION_NONE) {
-    return;
+    return;  // other compressions detect short data themselves
   }
   if (size == chunk.unpacked_size) return;
-  FailChunk(path,
-            fmt::format("{} holds {} bytes of samples, not {}", name, size, chunk.unpacked_size));
+  FailExr(path,
+          fmt::format("{} holds {} bytes of samples, not {}", name, size, chunk.unpacked_size));
 }
 
 // The chunks of a part that consists of scanlines.
@@ -177,7 +248,7 @@ void ForEachChunk(
 void CheckTable(const std::string& path, uint64_t file_bytes, int64_t columns, int64_t rows) {
   if (static_cast<double>(columns) * static_cast<double>(rows) * 8 >
       static_cast<double>(file_bytes)) {
-    FailChunk(path, "it is too short for its table of chunks");
+    FailExr(path, "it is too short for its table of chunks");
   }
 }
 
@@ -212,6 +283,12 @@ PartHeader DescribePart(const ChunkFile& file, int part) {
 
 }  // namespace
 
+void CheckExrHeader(const std::string& path) {
+  const exr_result_t complaint = FirstComplaint(path);
+  if (complaint != EXR_ERR_SUCCESS) FailExr(path, exr_get_default_error_message(complaint));
+  if (!ChannelListsEnd(path)) FailExr(path, "its list of channels is not as long as it says");
+}
+
 void CheckExrChunks(const std::string& path, int part, uint64_t file_bytes) {
   const ChunkFile file(path);
   const auto [storage, compression, box, channel_count] = DescribePart(file, part);
@@ -224,7 +301,7 @@ void CheckExrChunks(const std::string& path, int part, uint64_t file_bytes) {
     file.Check(
         exr_get_tile_descriptor(file.get(), part, &tile_width, &tile_height, &levels, &rounding),
         "tiles");
-    if (tile_width == 0 || tile_height == 0) FailChunk(path, "its tiles are empty");
+    if (tile_width == 0 || tile_height == 0) FailExr(path, "its tiles are empty");
     // OpenEXR's reader keeps a row of tiles, and a tile.
     CheckSampleCount(path + ": tiles", file_bytes, std::max<int64_t>(width, tile_width),
                      tile_height, channel_count);
@@ -266,7 +343,7 @@ bool DecodeExrLines(const std::string& path, int part, uint64_t file_bytes,
       HugeArray<uint8_t> bytes(chunk.unpacked_size);
       if (!InflateWhole({packed.data(), packed.size()}, {bytes.data(), bytes.size()})) {
         CheckChunk(path, file, part, chunk, name);
-        FailChunk(path, name + " is damaged");
+        FailExr(path, name + " is damaged");
       }
       JoinPredicted({bytes.data(), bytes.size()}, {words.data(), words.size()});
     }
