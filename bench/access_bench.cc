@@ -19,6 +19,7 @@
 #include "base/float_mode.h"
 #include "base/target.h"
 #include "batch_shader.h"
+#include "scene/material.h"
 
 namespace nacre {
 namespace {

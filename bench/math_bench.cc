@@ -20,6 +20,7 @@
 #include "brdf/ggx.h"
 #include "brdf/phong.h"
 #include "scalar_baseline.h"
+#include "scene/material.h"
 
 namespace nacre {
 namespace {

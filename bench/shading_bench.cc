@@ -23,6 +23,7 @@
 #include "base/float_mode.h"
 #include "base/target.h"
 #include "scalar_baseline.h"
+#include "scene/material.h"
 #include "shading/shade.h"
 #include "textbook_kernel.h"
 

@@ -237,6 +237,7 @@ Batches MakeBatches(const Rays& rays) {
     nacre::SetVector(rays.directions[i], place, &shadow.direction);
     shadow.t_max[place] = INFINITY;
     shadow.primitive[place] = nacre::kNoPrimitive;
+    shadow.own_after[place] = nacre::kLeavesToEitherSide;
     shadow.camera_extent = 2;
   }
   return made;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 
 #include "base/aligned.h"
@@ -110,6 +111,14 @@ struct FilmBatch {
   AlignedArray<double> x{kBatchCapacity}, y{kBatchCapacity};
 };
 
+// A ray that leaves a sphere may meet it again, and those that coincide with it, at twice the
+// distance to its closest approach to the centre, but only if this is more than `own_after` of the
+// ray. One that leaves outward never does, and one that leaves inward always does, whatever the
+// rounding; where the side is not known, the distance decides.
+inline constexpr double kLeavesOutward = std::numeric_limits<double>::infinity();
+inline constexpr double kLeavesInward = -kLeavesOutward;
+inline constexpr double kLeavesToEitherSide = 0;
+
 // Rays are the points origin + t direction, t > 0. Directions are not normalised.
 struct RayBatch {
   size_t count = 0;
@@ -117,12 +126,13 @@ struct RayBatch {
   Soa3<double> direction;
   ProjectedTestView view;  // the camera's for camera rays; the default for others
   // Whether rays are spawned on surfaces. If true, `start` is the primitive that each ray starts
-  // on, or kNoPrimitive if it starts on none. A ray meets the sphere that it starts on, or one that
-  // coincides with it, only on the far side, and only if it goes inward; it meets no triangle whose
-  // plane it starts on. Origins therefore need no offset. If false, as for camera rays, `start` is
-  // not read.
+  // on, or kNoPrimitive if it starts on none, and `own_after` one of the numbers above. A ray meets
+  // the sphere that it starts on, or one that coincides with it, only on the far side, and no
+  // triangle whose plane it starts on. Origins therefore need no offset. If false, as for camera
+  // rays, neither is read.
   bool from_surfaces = false;
   AlignedArray<uint32_t> start{kBatchCapacity};
+  AlignedArray<double> own_after{kBatchCapacity};
   bool holes_are_solid = false;  // whether rays also hit what an opacity has cut out
 };
 
@@ -166,9 +176,6 @@ struct ShadowRayBatch {
   size_t count = 0;
   // The light that all rays go to: its index in Intersector::FindOccluders, or kAnyLight.
   uint32_t light = kAnyLight;
-  // All rays leave the spheres that they start on outward, because these were hit from outside and
-  // face the light. Such a sphere then never occludes its own rays, whatever the rounding.
-  bool outward = false;
   // Primitives of the light itself, which never occlude rays to it.
   PrimitiveRange target;
   // An upper bound of the camera's coordinates. It bounds the rounding errors of the positions of
@@ -182,7 +189,9 @@ struct ShadowRayBatch {
   // which is never occluded.
   AlignedArray<double> t_max{kBatchCapacity};
   AlignedArray<uint32_t> primitive{kBatchCapacity};  // where the ray starts
-  AlignedArray<uint8_t> occluded{kBatchCapacity};    // the result: 1 if occluded
+  // kLeavesOutward and its like: outward from spheres that were hit from outside and face the light
+  AlignedArray<double> own_after{kBatchCapacity};
+  AlignedArray<uint8_t> occluded{kBatchCapacity};  // the result: 1 if occluded
 };
 
 }  // namespace nacre

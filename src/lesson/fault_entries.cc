@@ -9,6 +9,7 @@
 
 #include "brdf/fresnel.h"
 #include "brdf/ggx.h"
+#include "scene/material.h"
 #include "shading/material.h"
 #include "shading/scalar_bsdf.h"
 #include "textbook/albedo.h"

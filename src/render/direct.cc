@@ -28,7 +28,6 @@ void CastShadows(const DirectBatch& batch, const ShadingLight& light, const Ligh
   const Soa3<double>& origin = plan.offset_shadow_origins ? room.shadow_origin : hits.position;
   ShadowRayBatch& rays = room.shadow_rays;
   rays.light = shadows.occluders;
-  rays.outward = plan.shapes.eye_outside;
   rays.camera_extent = plan.shapes.camera_extent;
   // Without a branch on whether a hit is lit, which would be mispredicted.
   const bool all = hits.one_primitive && !NeverShadowed(shadows, hits.primitive[0]);
@@ -42,6 +41,7 @@ void CastShadows(const DirectBatch& batch, const ShadingLight& light, const Ligh
   batch.stats.shadow_rays += count;
   if (count == 0) return;
   FillShadowRays(light, hits, origin, room.shadow_hits, &rays);
+  std::fill_n(rays.own_after.data(), count, plan.shapes.OwnAfter());
   plan.shapes.intersector->Occluded(&rays);
   for (size_t ray = 0; ray < rays.count; ++ray) {
     if (rays.occluded[ray] != 0) room.light.irradiance[room.shadow_hits[ray]] = 0;

@@ -25,6 +25,10 @@ struct TracedShapes {
   double camera_extent = 0;                  // ShadowRayBatch::camera_extent
   std::shared_ptr<Intersector> intersector;  // null: there is nothing to hit
   bool eye_outside = false;                  // no camera ray starts inside a sphere
+
+  // ShadowRayBatch::own_after of rays from surfaces that camera rays have hit, and that face the
+  // light.
+  double OwnAfter() const { return eye_outside ? kLeavesOutward : kLeavesToEitherSide; }
 };
 
 // How camera rays find the shapes.

@@ -53,7 +53,7 @@ void CastSampledShadows(const DirectBatch& batch, const PlannedSampledLight& pla
   if (active == 0) return;
   ShadowRayBatch& rays = batch.room.shadow_rays;
   rays.light = shadows.occluders;
-  rays.outward = batch.plan.shapes.eye_outside;
+  std::fill_n(rays.own_after.data(), rays.count, batch.plan.shapes.OwnAfter());
   rays.target = planned.primitives;
   rays.camera_extent = batch.plan.shapes.camera_extent;
   batch.plan.shapes.intersector->Occluded(&rays);

@@ -7,11 +7,12 @@
 #include <variant>
 #include <vector>
 
-#include "scene/material.h"
 #include "shading/layer.h"
 #include "shading/models.h"
 
 namespace nacre {
+
+struct Material;
 
 // What differs from hit to hit.
 struct VariesByHit {

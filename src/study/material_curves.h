@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "report/plot.h"
+#include "scene/material.h"
 #include "shading/share.h"
 #include "study/reflection.h"
 

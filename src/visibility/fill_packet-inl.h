@@ -109,13 +109,14 @@ HWY_INLINE void FillClosest(const RayBatch& rays, size_t first, ClosestHits* hit
   FillPacket(rays, first, packet);
   packet->holes_are_solid = rays.holes_are_solid;
   packet->from_surfaces = rays.from_surfaces;
+  packet->own_after = rays.own_after.data() + first;
   if (rays.from_surfaces) FillStarts(rays.start, first, packet);
 }
 
 // Fills the packet with shadow rays, but those that are known to be occluded are not traced.
 HWY_INLINE void FillShadowPacket(const ShadowRayBatch& rays, size_t first, Packet* packet) {
   packet->t_max = rays.t_max.data() + first;
-  packet->outward = rays.outward;
+  packet->own_after = rays.own_after.data() + first;
   packet->target = rays.target;
   packet->camera_extent = rays.camera_extent;
   FillPacket(rays, first, packet);

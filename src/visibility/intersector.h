@@ -125,7 +125,8 @@ class Intersector {
 
   // Finds the possible occluders between the spheres and each light, so that shadow rays to it need
   // no BVH: their ShadowRayBatch::light is the light's index in `lights`. Triangles are ignored, so
-  // this must not be called if the scene has any. `outward` must be that of the ShadowRayBatch.
+  // this must not be called if the scene has any. `outward` tells that most rays will leave outward
+  // (OccluderLists::outward_only).
   void FindOccluders(const std::vector<const Light*>& lights, bool outward);
 
   // Called after FindOccluders: finds the possible occluders between the spheres, of which there
@@ -142,7 +143,8 @@ class Intersector {
   const LightOccluders& Occluders(uint32_t light) const;
 
   // False only if nothing can occlude a light of FindOccluders, or kAnyLight, from the hits of a
-  // batch, which are all on one sphere and have their positions.
+  // batch, which are all on one sphere and have their positions. After FindOccluders with `outward`
+  // that holds for rays that leave outward.
   bool MayOcclude(uint32_t light, const HitBatch& hits) const;
 
   // Sets rays->occluded: whether a surface lies at 0 < t < t_max. The surface that a ray starts on

@@ -58,12 +58,12 @@ HWY_INLINE uint32_t LanesOccludedBy(D d, const TraceGeometry& geometry, uint32_t
   const TraceSphere& sphere = geometry.spheres[number];
   uint32_t own = 0;
   for (uint32_t left = lanes; left != 0; left &= left - 1) {
-    const int lane = __builtin_ctz(left);
-    const uint32_t start = rays.primitive[first + static_cast<size_t>(lane)];
-    own |= static_cast<uint32_t>(start == number || Coincide(sphere, geometry.spheres[start]))
-           << lane;
+    const size_t ray = first + static_cast<size_t>(__builtin_ctz(left));
+    const uint32_t start = rays.primitive[ray], lane = left & -left;
+    if (start != number && !Coincide(sphere, geometry.spheres[start])) continue;
+    // The sphere is in its own cell: rays that leave outward need no test.
+    (rays.own_after[ray] == kLeavesOutward ? lanes : own) ^= lane;
   }
-  if (rays.outward) lanes &= ~own;
   return OccludedBits(d, sphere, rays, first, lanes, own);
 }
 

@@ -136,9 +136,11 @@ FloatOccluder MakeFloatOccluder(const TraceSphere& sphere, const TraceSphere& fr
 
 // Makes the list of every sphere i: those spheres j for which may_block(i, j).
 template <class MayBlock>
-OccluderLists MakeLists(const HugeArray<TraceSphere>& spheres, const MayBlock& may_block) {
+OccluderLists MakeLists(const HugeArray<TraceSphere>& spheres, bool outward_only,
+                        const MayBlock& may_block) {
   const size_t count = spheres.size();
   OccluderLists lists;
+  lists.outward_only = outward_only;
   lists.end.reserve(count);
   for (size_t i = 0; i < count; ++i) {
     for (size_t j = 0; j < count; ++j) {
@@ -158,7 +160,7 @@ OccluderLists ListOccludersOfBall(const TraceGeometry& geometry,
                                   const std::optional<LightBall>& ball,
                                   const PrimitiveRange& target, bool outward) {
   const HugeArray<TraceSphere>& spheres = geometry.spheres;
-  return MakeLists(spheres, [&](size_t i, size_t j) {
+  return MakeLists(spheres, outward, [&](size_t i, size_t j) {
     if (target.Contains(static_cast<uint32_t>(j))) return false;
     if (Coincide(spheres[i], spheres[j])) return !outward;
     return !ball || MayBlockBall(spheres[j], spheres[i], *ball);
@@ -173,7 +175,7 @@ OccluderLists ListOccluders(const TraceGeometry& geometry, const ShadowLight& li
     seen.push_back(light.positional ? FromPositionalLight(light.position, sphere, outward)
                                     : FromDirectionalLight(sphere, outward));
   }
-  return MakeLists(spheres, [&](size_t i, size_t j) {
+  return MakeLists(spheres, outward, [&](size_t i, size_t j) {
     const bool may = light.positional
                          ? MayBlockFrom(seen[j], seen[i])
                          : MayBlockAlong(spheres[j], seen[j], spheres[i], seen[i], light.to_light);

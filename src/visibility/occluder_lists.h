@@ -35,16 +35,18 @@ struct OccluderLists {
   std::vector<uint32_t> end;          // where each sphere's list ends
   std::vector<uint32_t> spheres;      // possible occluders of each sphere, in ascending order
   std::vector<FloatOccluder> floats;  // the same spheres in float
-
+  // Whether the lists hold only for rays that leave their sphere outward (kLeavesOutward), and from
+  // points that face the light. Other rays are tested against all spheres.
+  bool outward_only = false;
   size_t longest = 0;
 
   uint32_t Begin(size_t sphere) const { return sphere == 0 ? 0 : end[sphere - 1]; }
 };
 
 // Makes a list for each sphere, which holds every sphere that the exact test could find to occlude
-// a shadow ray from any of its points that face the light. `outward` says that such rays surely
-// leave the sphere outward (ShadowRayBatch); the list then contains neither the sphere itself nor
-// any that coincides with it. Triangles are ignored.
+// a shadow ray from any of its points that face the light. If `outward`, the lists are
+// outward_only: each contains neither the sphere itself nor any that coincides with it. Triangles
+// are ignored.
 OccluderLists ListOccluders(const TraceGeometry& geometry, const ShadowLight& light, bool outward);
 
 // Makes the lists for a light inside a ball, which is relative to the camera; without a ball, for

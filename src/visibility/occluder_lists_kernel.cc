@@ -173,6 +173,30 @@ TraceSphere BoundPositionsT(const HitBatch& hits) {
   return {(low + high) / 2, (high - low).length() / 2 * (1 + 1e-9)};
 }
 
+// The rays, as bits, for which the lists do not hold.
+HWY_INLINE uint32_t NotListed(const OccluderLists& lists, const ShadowRayBatch& rays, size_t first,
+                              size_t count) {
+  uint32_t others = 0;
+  for (size_t lane = 0; lists.outward_only && lane < count; ++lane) {
+    others |= static_cast<uint32_t>(rays.own_after[first + lane] != kLeavesOutward) << lane;
+  }
+  return others;
+}
+
+// Returns those of `lanes`, as bits, whose rays any sphere occludes. All start on sphere `start`.
+HWY_INLINE uint32_t OccludedByAny(const TraceGeometry& geometry, uint32_t start,
+                                  const ShadowRayBatch& rays, size_t first, uint32_t lanes) {
+  uint32_t occluded = 0;
+  for (uint32_t i = 0; i < geometry.SphereCount() && lanes != occluded; ++i) {
+    if (rays.target.Contains(i)) continue;
+    const TraceSphere& sphere = geometry.spheres[i];
+    const uint32_t open = lanes & ~occluded;
+    occluded |= OccludedBits(D(), sphere, rays, first, open,
+                             Coincide(sphere, geometry.spheres[start]) ? open : 0);
+  }
+  return occluded;
+}
+
 // Tests rays [first, end), which all start on one sphere.
 HWY_INLINE void OccludedOfRun(const TraceGeometry& geometry, const OccluderLists& lists,
                               size_t first, size_t end, ShadowRayBatch* rays) {
@@ -181,7 +205,10 @@ HWY_INLINE void OccludedOfRun(const TraceGeometry& geometry, const OccluderLists
   for (; first < end; first += step) {
     const size_t count = std::min(step, end - first);
     const uint32_t lanes = (1u << count) - 1;
-    StoreOccluded(OccludedByList(geometry, lists, start, *rays, first, lanes), first, count, rays);
+    const uint32_t others = NotListed(lists, *rays, first, count);
+    uint32_t occluded = OccludedByList(geometry, lists, start, *rays, first, lanes & ~others);
+    if (others != 0) occluded |= OccludedByAny(geometry, start, *rays, first, others);
+    StoreOccluded(occluded, first, count, rays);
   }
 }
 

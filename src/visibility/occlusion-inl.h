@@ -23,7 +23,7 @@ template <class D, class V = hn::Vec<D>>
 struct ShadowRaysV {
   Vec3V<V> origin, direction;
   V inverse_dd;  // 1 / |direction|^2
-  V t_max;
+  V t_max, own_after;
   double camera_extent;  // ShadowRayBatch's
 };
 
@@ -69,16 +69,16 @@ HWY_NOINLINE hn::Mask<D> EndsOnSphere(D d, const LoadRays& load, const TraceSphe
 
 // The lanes whose ray the sphere occludes. `own` are the lanes that start on this sphere, or on one
 // that coincides with it. For these one root is 0, and the other is twice the distance to the
-// closest approach: negative for a ray that leaves outward, however its origin is rounded; with
-// `outward` the sphere never occludes them. If the light lies on the sphere, one root is t_max,
+// closest approach: negative for a ray that leaves outward, however its origin is rounded, and to
+// be above the ray's `own_after`. If the light lies on the sphere, one root is t_max,
 // however it is rounded, and the other lies as far before the closest approach as t_max lies behind
 // it: only this other hit can occlude.
 template <class D, class LoadRays, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> InTheWay(D d, const TraceSphere& sphere, const SphereHitV<D>& hit,
-                                hn::Mask<D> own, bool outward, V t_max, const LoadRays& load) {
+                                hn::Mask<D> own, V own_after, V t_max, const LoadRays& load) {
   const auto zero = hn::Zero(d);
   const auto t = hn::IfThenElse(own, hn::Add(hit.closest, hit.closest), hit.t);
-  const auto met_own = outward ? hn::Lt(zero, zero) : hn::And(own, hn::Gt(t, zero));
+  const auto met_own = hn::And(own, hn::Gt(t, own_after));
   const auto met = hn::And(hn::Or(met_own, hn::AndNot(own, hit.hit)), hn::Lt(t, t_max));
   // The light may lie on the sphere only if the hit is in the second half of the ray and no other
   // hit comes before its end. This is rare.
@@ -112,6 +112,7 @@ HWY_INLINE ShadowRaysV<D> LoadShadowRays(D d, const ShadowRayBatch& rays, size_t
                             rays.direction.z.data() + i);
   loaded.inverse_dd = hn::Div(hn::Set(d, 1.0), FusedDot(loaded.direction, loaded.direction));
   loaded.t_max = hn::LoadU(d, rays.t_max.data() + i);
+  loaded.own_after = hn::LoadU(d, rays.own_after.data() + i);
   loaded.camera_extent = rays.camera_extent;
   return loaded;
 }
@@ -119,8 +120,11 @@ HWY_INLINE ShadowRaysV<D> LoadShadowRays(D d, const ShadowRayBatch& rays, size_t
 // Loads a vector of the packet's rays.
 template <class D>
 HWY_INLINE ShadowRaysV<D> ShadowRaysOf(D d, const Packet& packet, int lane) {
-  return {Origin(d, packet, lane), Direction(d, packet, lane),
-          hn::Load(d, packet.inverse_dd + lane), hn::Load(d, packet.t_max + lane),
+  return {Origin(d, packet, lane),
+          Direction(d, packet, lane),
+          hn::Load(d, packet.inverse_dd + lane),
+          hn::Load(d, packet.t_max + lane),
+          hn::Load(d, packet.own_after + lane),
           packet.camera_extent};
 }
 
@@ -128,12 +132,11 @@ HWY_INLINE ShadowRaysV<D> ShadowRaysOf(D d, const Packet& packet, int lane) {
 // `load` loads `rays` again.
 template <class D, class LoadRays>
 HWY_INLINE hn::Mask<D> OccludedLanes(D d, const TraceSphere& sphere, const ShadowRaysV<D>& rays,
-                                     hn::Mask<D> lanes, hn::Mask<D> own, bool outward,
-                                     const LoadRays& load) {
+                                     hn::Mask<D> lanes, hn::Mask<D> own, const LoadRays& load) {
   const auto to_center = Sub(SetVec3(d, sphere.center), rays.origin);
   const auto hit =
       TestSphere(d, to_center, rays.direction, rays.inverse_dd, hn::Set(d, sphere.radius));
-  return hn::And(lanes, InTheWay(d, sphere, hit, own, outward, rays.t_max, load));
+  return hn::And(lanes, InTheWay(d, sphere, hit, own, rays.own_after, rays.t_max, load));
 }
 
 // The subset of `lanes`, as bits, whose rays the sphere occludes, of the batch's rays from `first`
@@ -148,8 +151,7 @@ HWY_INLINE uint32_t OccludedBits(D d, const TraceSphere& sphere, const ShadowRay
     const auto load = [&]() HWY_ATTR {
       return LoadShadowRays(d, rays, first + static_cast<size_t>(lane));
     };
-    const auto blocked =
-        OccludedLanes(d, sphere, load(), asked, MaskOfBits(d, own, lane), rays.outward, load);
+    const auto blocked = OccludedLanes(d, sphere, load(), asked, MaskOfBits(d, own, lane), load);
     occluded |= BitsOfMask(d, blocked) << lane;
   }
   return occluded;

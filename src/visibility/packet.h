@@ -62,11 +62,11 @@ struct Packet {
   // Where the rays start, for shadow rays, and for a RayBatch whose rays leave surfaces.
   bool from_surfaces = false;
   alignas(64) uint32_t start[kMaxPacketWidth];  // primitive that the ray starts on
+  const double* own_after = nullptr;            // from the batch
   StartSpheres start_spheres;
   alignas(64) double start_extent[kMaxPacketWidth];  // upper bound of that primitive's coordinates
 
   // For shadow rays.
-  bool outward = false;      // from the ShadowRayBatch
   PrimitiveRange target;     // from the ShadowRayBatch
   double camera_extent = 0;  // from the ShadowRayBatch
   uint32_t occluded = 0;     // one bit per lane

@@ -26,16 +26,17 @@ HWY_INLINE SphereHitV<D> TestLanes(D d, const Packet& packet, int lane, const Tr
 
 // Records hits of the general test for rays that leave surfaces. For rays that start on this sphere
 // one root is 0, however their origin is rounded, and the other is twice the distance to the
-// closest approach.
+// closest approach, or 0 for a ray that leaves inward along the sphere.
 template <class D>
 HWY_INLINE void RecordFromSurfaces(D d, const TraceSphere& sphere, uint32_t primitive,
                                    const SphereHitV<D>& hit, hn::Mask<D> asked, int lane,
                                    Packet* packet) {
   const auto is_start = StartsOn(d, packet->start_spheres, lane, sphere);
   const auto far = hn::Add(hit.closest, hit.closest);
-  const auto met =
-      hn::Or(hn::And(is_start, hn::Gt(far, hn::Zero(d))), hn::AndNot(is_start, hit.hit));
-  RecordClosest(d, packet, lane, hn::And(asked, met), hn::IfThenElse(is_start, far, hit.t),
+  const auto leaves = hn::Le(far, hn::Load(d, packet->own_after + lane));
+  const auto met = hn::Or(hn::AndNot(leaves, is_start), hn::AndNot(is_start, hit.hit));
+  const auto far_side = hn::Max(far, hn::Zero(d));
+  RecordClosest(d, packet, lane, hn::And(asked, met), hn::IfThenElse(is_start, far_side, hit.t),
                 primitive);
 }
 
@@ -74,8 +75,9 @@ HWY_INLINE void OccludeLanes(const TraceSphere& sphere, uint32_t lanes, Packet* 
     if (hn::AllFalse(d, asked)) continue;
     const auto load = [&]() HWY_ATTR { return ShadowRaysOf(d, *packet, lane); };
     const auto own = StartsOn(d, packet->start_spheres, lane, sphere);
-    const auto in_the_way = InTheWay(d, sphere, TestLanes(d, *packet, lane, sphere), own,
-                                     packet->outward, hn::Load(d, packet->t_max + lane), load);
+    const auto in_the_way =
+        InTheWay(d, sphere, TestLanes(d, *packet, lane, sphere), own,
+                 hn::Load(d, packet->own_after + lane), hn::Load(d, packet->t_max + lane), load);
     occluded |= BitsOfMask(d, hn::And(asked, in_the_way)) << lane;
   }
   RecordOccluded(packet, occluded);

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "catch.h"
+#include "scene/material.h"
 #include "shading/light_batch.h"
 #include "shading/shade.h"
 #include "targets.h"

@@ -14,6 +14,7 @@
 #include "brdf/phong.h"
 #include "light/punctual.h"
 #include "scene/light.h"
+#include "scene/material.h"
 #include "shading/material.h"
 
 namespace nacre {

@@ -292,6 +292,47 @@ TEST_CASE("bins do not depend on the threads that make them") {
   }
 }
 
+// As in a scene with glass: some rays go through the sphere that they start on, from points that do
+// not face the light.
+TEST_CASE("rays of one batch leave outward, inward and to either side") {
+  Random random(63);
+  size_t inward = 0;  // rays that their own sphere, or another one, occludes
+  for (const unsigned count : {4u, 60u, 2000u}) {  // lists, and bins
+    Scene scene = RandomSpheres(&random, count);
+    scene.spheres[1] = scene.spheres[0];
+    const Vec3d eye(0);
+    const TraceGeometry geometry = MakeTraceGeometry(scene, eye);
+    const auto surfaces = TraceSurfaces(Intersector(scene, eye), CameraRays(&random, 1500));
+    for (const Light& light : {PointAt({1, 4, -2}), SunAlong({0.3, -1, 0.2})}) {
+      const ShadowLight target = MakeShadowLight(light, eye);
+      std::vector<ShadowRay> rays;
+      for (const Surface& surface : surfaces) {
+        const Vec3d to_light =
+            target.positional ? target.position - surface.position : target.to_light;
+        const Vec3d out = surface.position - geometry.spheres[surface.primitive].center;
+        const bool known = rays.size() % 3 != 0;
+        const double side = out.dot(to_light) > 0 ? kLeavesOutward : kLeavesInward;
+        rays.push_back({{surface.position, to_light},
+                        target.positional ? 1 : kInfinity,
+                        surface.primitive,
+                        known ? side : kLeavesToEitherSide});
+      }
+      ForEachTarget([&](Target) {
+        Intersector intersector(scene, eye);
+        intersector.FindOccluders({&light}, true);
+        const std::vector<bool> found = TraceShadows(intersector, rays, 0);
+        CHECK(found == TraceShadows(intersector, rays));
+        for (size_t i = 0; i < rays.size(); ++i) {
+          INFO("ray " << i << " from " << rays[i].primitive);
+          REQUIRE(found[i] == BruteForceOccluded(geometry, rays[i]));
+          inward += rays[i].own_after == kLeavesInward && found[i] ? 1 : 0;
+        }
+      });
+    }
+  }
+  CHECK(inward > 500);
+}
+
 TEST_CASE("the lists leave out what cannot be in the way") {
   Scene scene;
   scene.spheres = {MakeSphere({0, 0, -5}, 1), MakeSphere({0, 3, -5}, 0.5),

@@ -39,6 +39,7 @@ struct ShadowRay {
   Ray ray;
   double t_max;
   uint32_t primitive;
+  double own_after = kLeavesToEitherSide;
 };
 
 // Spheres, and three meshes of 20 random triangles in [-1, 1]^3, of materials 1, 0 and 1.
@@ -121,7 +122,7 @@ inline std::vector<Surface> TraceSurfaces(const Intersector& intersector,
   return surfaces;
 }
 
-// `light`, `outward`, `camera_extent`: ShadowRayBatch's.
+// `light`, `camera_extent`: ShadowRayBatch's. If `outward`, all rays are kLeavesOutward.
 inline std::vector<bool> TraceShadows(const Intersector& intersector,
                                       const std::vector<ShadowRay>& rays,
                                       uint32_t light = kAnyLight, bool outward = false,
@@ -129,7 +130,6 @@ inline std::vector<bool> TraceShadows(const Intersector& intersector,
   std::vector<bool> occluded;
   ShadowRayBatch batch;
   batch.light = light;
-  batch.outward = outward;
   batch.camera_extent = camera_extent;
   for (size_t first = 0; first < rays.size(); first += kBatchCapacity) {
     batch.count = std::min(kBatchCapacity, rays.size() - first);
@@ -137,6 +137,7 @@ inline std::vector<bool> TraceShadows(const Intersector& intersector,
       SetRay(rays[first + i].ray, i, &batch);
       batch.t_max[i] = rays[first + i].t_max;
       batch.primitive[i] = rays[first + i].primitive;
+      batch.own_after[i] = outward ? kLeavesOutward : rays[first + i].own_after;
     }
     intersector.Occluded(&batch);
     for (size_t i = 0; i < batch.count; ++i) occluded.push_back(batch.occluded[i] != 0);
@@ -197,15 +198,16 @@ inline bool StartsOnSphere(const TraceGeometry& geometry, uint32_t start,
 }
 
 // Of a ray that leaves a surface: RayBatch::from_surfaces.
-inline Hit BruteForceFrom(const TraceGeometry& geometry, const Ray& ray, uint32_t start) {
+inline Hit BruteForceFrom(const TraceGeometry& geometry, const Ray& ray, uint32_t start,
+                          double own_after = kLeavesToEitherSide) {
   Hit best;
   for (uint32_t i = 0; i < geometry.SphereCount(); ++i) {
     const TraceSphere& sphere = geometry.spheres[i];
     const auto hit =
         TestSphere(sphere.center - ray.origin, ray.direction, sphere.radius, TargetProducts());
     const bool own = StartsOnSphere(geometry, start, sphere);
-    const double t = own ? 2 * hit.closest : hit.t;
-    if ((own ? t > 0 : hit.hit) && t < best.t) best = {i, t};
+    const double t = own ? std::max(2 * hit.closest, 0.0) : hit.t;
+    if ((own ? 2 * hit.closest > own_after : hit.hit) && t < best.t) best = {i, t};
   }
   for (size_t i = 0; i < geometry.triangles.size(); ++i) {
     const auto primitive = geometry.SphereCount() + static_cast<uint32_t>(i);
@@ -244,7 +246,7 @@ inline bool EndsOnPlane(const TraceGeometry& geometry, size_t triangle, const Sh
 // sphere that it ends on has one root there, and may have another one before.
 inline bool BruteForceOccluded(const TraceGeometry& geometry, const ShadowRay& shadow,
                                double gap = 0, bool outward = false) {
-  const auto& [ray, t_max, start] = shadow;
+  const auto& [ray, t_max, start, own_after] = shadow;
   for (uint32_t i = 0; i < geometry.SphereCount(); ++i) {
     const TraceSphere& sphere = geometry.spheres[i];
     const auto hit =
@@ -253,7 +255,7 @@ inline bool BruteForceOccluded(const TraceGeometry& geometry, const ShadowRay& s
     const double t = own ? 2 * hit.closest : hit.t;
     const double other = 2 * hit.closest - t_max;
     if ((own || other <= 0 || other >= t_max) && EndsOnSphere(sphere, shadow)) continue;
-    if ((own ? t > 0 && !outward : hit.hit) && t < t_max) return true;
+    if ((own ? t > (outward ? kLeavesOutward : own_after) : hit.hit) && t < t_max) return true;
   }
   for (size_t i = 0; i < geometry.triangles.size(); ++i) {
     if (geometry.SphereCount() + i == start) continue;

@@ -172,6 +172,7 @@ TEST_CASE("coincident spheres block a light that one of them is, and not one tha
     SetRay({{0, 0, 4}, {0, 0, -1}}, 0, &batch);
     batch.t_max[0] = 8.5;
     batch.primitive[0] = kNested;
+    batch.own_after[0] = kLeavesToEitherSide;
     const auto is_blocked = [&](const PrimitiveRange& light) {
       batch.target = light;
       intersector.Occluded(&batch);
