@@ -12,7 +12,6 @@
 #include "shading/lobe_sample.h"
 #include "shading/models_at_hit.h"
 #include "shading/shade.h"
-#include "shading/textures.h"
 
 namespace nacre {
 namespace {

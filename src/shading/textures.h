@@ -3,8 +3,6 @@
 // batch.
 #pragma once
 
-#include <span>
-
 #include "hit/batch.h"
 #include "hit/camera_frame.h"
 #include "scene/scene.h"

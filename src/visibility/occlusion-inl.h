@@ -70,15 +70,16 @@ HWY_NOINLINE hn::Mask<D> EndsOnSphere(D d, const LoadRays& load, const TraceSphe
 // The lanes whose ray the sphere occludes. `own` are the lanes that start on this sphere, or on one
 // that coincides with it. For these one root is 0, and the other is twice the distance to the
 // closest approach: negative for a ray that leaves outward, however its origin is rounded, and to
-// be above the ray's `own_after`. If the light lies on the sphere, one root is t_max,
-// however it is rounded, and the other lies as far before the closest approach as t_max lies behind
-// it: only this other hit can occlude.
+// be above the ray's `own_after`; it counts as 0 where rounding has made it negative. If the light
+// lies on the sphere, one root is t_max, however it is rounded, and the other lies as far before
+// the closest approach as t_max lies behind it: only this other hit can occlude.
 template <class D, class LoadRays, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> InTheWay(D d, const TraceSphere& sphere, const SphereHitV<D>& hit,
                                 hn::Mask<D> own, V own_after, V t_max, const LoadRays& load) {
   const auto zero = hn::Zero(d);
-  const auto t = hn::IfThenElse(own, hn::Add(hit.closest, hit.closest), hit.t);
-  const auto met_own = hn::And(own, hn::Gt(t, own_after));
+  const auto own_t = hn::Add(hit.closest, hit.closest);
+  const auto t = hn::IfThenElse(own, hn::Max(own_t, zero), hit.t);
+  const auto met_own = hn::And(own, hn::Gt(own_t, own_after));
   const auto met = hn::And(hn::Or(met_own, hn::AndNot(own, hit.hit)), hn::Lt(t, t_max));
   // The light may lie on the sphere only if the hit is in the second half of the ray and no other
   // hit comes before its end. This is rare.

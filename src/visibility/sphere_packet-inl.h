@@ -33,8 +33,8 @@ HWY_INLINE void RecordFromSurfaces(D d, const TraceSphere& sphere, uint32_t prim
                                    Packet* packet) {
   const auto is_start = StartsOn(d, packet->start_spheres, lane, sphere);
   const auto far = hn::Add(hit.closest, hit.closest);
-  const auto leaves = hn::Le(far, hn::Load(d, packet->own_after + lane));
-  const auto met = hn::Or(hn::AndNot(leaves, is_start), hn::AndNot(is_start, hit.hit));
+  const auto met_own = hn::And(is_start, hn::Gt(far, hn::Load(d, packet->own_after + lane)));
+  const auto met = hn::Or(met_own, hn::AndNot(is_start, hit.hit));
   const auto far_side = hn::Max(far, hn::Zero(d));
   RecordClosest(d, packet, lane, hn::And(asked, met), hn::IfThenElse(is_start, far_side, hit.t),
                 primitive);

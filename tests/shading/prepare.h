@@ -2,6 +2,7 @@
 // tests/shading/prepare.h: materials as the kernels want them.
 #pragma once
 
+#include "scene/material.h"
 #include "shading/material.h"
 
 namespace nacre {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "catch.h"
+#include "scene/material.h"
 #include "shading/shade.h"
 #include "targets.h"
 

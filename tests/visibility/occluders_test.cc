@@ -313,7 +313,9 @@ TEST_CASE("rays of one batch leave outward, inward and to either side") {
         const bool known = rays.size() % 3 != 0;
         const double side = out.dot(to_light) > 0 ? kLeavesOutward : kLeavesInward;
         rays.push_back({{surface.position, to_light},
-                        target.positional ? 1 : kInfinity,
+                        rays.size() % 7 == 0 ? 0
+                        : target.positional  ? 1
+                                             : kInfinity,  // 0: inactive
                         surface.primitive,
                         known ? side : kLeavesToEitherSide});
       }

@@ -252,10 +252,11 @@ inline bool BruteForceOccluded(const TraceGeometry& geometry, const ShadowRay& s
     const auto hit =
         TestSphere(sphere.center - ray.origin, ray.direction, sphere.radius, TargetProducts());
     const bool own = StartsOnSphere(geometry, start, sphere);
-    const double t = own ? 2 * hit.closest : hit.t;
+    const double t = own ? std::max(2 * hit.closest, 0.0) : hit.t;
     const double other = 2 * hit.closest - t_max;
     if ((own || other <= 0 || other >= t_max) && EndsOnSphere(sphere, shadow)) continue;
-    if ((own ? t > (outward ? kLeavesOutward : own_after) : hit.hit) && t < t_max) return true;
+    const double after = outward ? kLeavesOutward : own_after;
+    if ((own ? 2 * hit.closest > after : hit.hit) && t < t_max) return true;
   }
   for (size_t i = 0; i < geometry.triangles.size(); ++i) {
     if (geometry.SphereCount() + i == start) continue;
