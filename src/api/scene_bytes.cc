@@ -83,7 +83,8 @@ Scene::Impl::Source Unpack(const Json& packed) {
   source.names = packed.at("names").get<std::vector<std::string>>();
   for (uint32_t i = 0; i < source.names.size(); ++i) source.places.try_emplace(source.names[i], i);
   const auto material_of = [&](uint32_t index) {
-    return source.names.at(index), nacre::MaterialId{index};
+    static_cast<void>(source.names.at(index));  // throws if there is no such material
+    return nacre::MaterialId{index};
   };
   const auto balls = ItemsOf<double>(packed.at("balls"));
   const auto materials = ItemsOf<uint32_t>(packed.at("materials"));
