@@ -102,17 +102,28 @@ HWY_INLINE size_t EncodeChunk(D d, const int32_t* HWY_RESTRICT srgb8_entries, co
   return nan_count;
 }
 
+// Whether the chunk that begins at `plane` holds the bits of the chunk before it.
+HWY_INLINE bool RepeatsChunk(const float* plane) {
+  return std::memcmp(plane, plane - kChunk, kChunk * sizeof(float)) == 0;
+}
+
 template <class Tone>
 HWY_INLINE size_t EncodePixels(const Tone& tone, float scale, const float* r, const float* g,
                                const float* b, size_t count, uint8_t* rgb8) {
   const hn::ScalableTag<float> d;
   const int32_t* entries = GetSrgb8Table().entries.data();
   Chunk light;
-  size_t nan_count = 0;
+  size_t nan_count = 0, nan_in_chunk = 0;
   size_t i = 0;
   for (; i + kChunk <= count; i += kChunk) {
-    ToneChunk(d, tone, scale, r + i, g + i, b + i, &light);
-    nan_count += EncodeChunk(d, entries, light, rgb8 + 3 * i);
+    // Early out: large parts of most pictures are a background of one colour.
+    if (i > 0 && RepeatsChunk(r + i) && RepeatsChunk(g + i) && RepeatsChunk(b + i)) {
+      std::memcpy(rgb8 + 3 * i, rgb8 + 3 * (i - kChunk), 3 * kChunk);
+    } else {
+      ToneChunk(d, tone, scale, r + i, g + i, b + i, &light);
+      nan_in_chunk = EncodeChunk(d, entries, light, rgb8 + 3 * i);
+    }
+    nan_count += nan_in_chunk;
   }
   // The caller's planes have no padding: the remaining pixels are copied to padded arrays.
   const size_t remaining = count - i;

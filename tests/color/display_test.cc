@@ -148,6 +148,56 @@ TEST_CASE("Any count and alignment gives the same pixels and nothing beyond", "[
   });
 }
 
+TEST_CASE("Pixels that repeat those before them are encoded as any others", "[color]") {
+  // Chunks of 128 pixels, each equal to the one before or different in one channel; first of one
+  // colour, then with a pattern. NaN pixels are counted each time.
+  const float colors[][3] = {{0.2f, 0.2f, 0.2f}, {0.2f, 0.2f, 0.2f}, {0.2f, 0.2f, 0.7f},
+                             {0.2f, 0.2f, 0.7f}, {0.2f, 0.9f, 0.7f}, {0.5f, 0.9f, 0.7f},
+                             {0.5f, 0.9f, 0.7f}, {kNan, 0.9f, 0.7f}, {kNan, 0.9f, 0.7f},
+                             {kNan, 0.9f, 0.7f}, {0.5f, 0.9f, 0.7f}};
+  std::vector<float> planes[3];
+  for (const float pattern : {0.0f, 0.01f}) {
+    for (const auto& color : colors) {
+      for (int i = 0; i < 128; ++i) {
+        const float more = static_cast<float>(i % 9) * pattern;
+        for (int c = 0; c < 3; ++c) planes[c].push_back(color[c] + more);
+      }
+    }
+  }
+  const size_t count = planes[0].size();
+  ForEachTarget([&](Target) {
+    std::vector<uint8_t> all(3 * count), one(3 * count);
+    const size_t nans =
+        EncodeDisplay({}, planes[0].data(), planes[1].data(), planes[2].data(), count, all.data());
+    size_t nans_one_by_one = 0;
+    for (size_t i = 0; i < count; ++i) {
+      nans_one_by_one +=
+          EncodeDisplay({}, &planes[0][i], &planes[1][i], &planes[2][i], 1, &one[3 * i]);
+    }
+    CHECK(all == one);
+    CHECK(nans == nans_one_by_one);
+    CHECK(nans == 2 * 3 * 128);
+  });
+}
+
+TEST_CASE("a pixel that breaks a repetition is seen wherever it is", "[color]") {
+  // Two chunks of 128 pixels that differ in one value.
+  ForEachTarget([&](Target) {
+    size_t missed = 0;
+    for (size_t i = 128; i < 256; ++i) {
+      for (size_t c = 0; c < 3; ++c) {
+        std::vector<float> planes[3];
+        for (auto& plane : planes) plane.assign(256, 0.2f);
+        planes[c][i] = 0.7f;
+        std::vector<uint8_t> rgb8(3 * 256);
+        EncodeDisplay({}, planes[0].data(), planes[1].data(), planes[2].data(), 256, rgb8.data());
+        missed += rgb8[3 * i + c] == rgb8[c];
+      }
+    }
+    CHECK(missed == 0);
+  });
+}
+
 TEST_CASE("NaN pixels are magenta and counted, infinities are light or dark", "[color]") {
   std::vector<float> r(301, 0.5f), g(301, 0.5f), b(301, 0.5f);
   r[0] = g[130] = b[300] = kNan;
