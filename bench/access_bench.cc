@@ -70,8 +70,7 @@ void BenchAccess(benchmark::State& state, const Material& material, const Access
     PrepareSurface(batches[i].hits, &batches[i].surface);
   }
   BatchShader shader(std::vector<ShadingMaterial>(kHits / access.run, PrepareMaterial(material)),
-                     access.run,
-                     {.position = {3, 4, 2}, .intensity = {60, 60, 60}, .attenuation = {}});
+                     access.run, {.position = {3, 4, 2}, .intensity = {60, 60, 60}});
   ReflectedRadiance radiance;
   size_t next = 0;
   for (auto _ : state) {

@@ -20,9 +20,7 @@ class BatchShader {
   // Material i is that of the hits from i * run on.
   BatchShader(std::vector<ShadingMaterial> materials, size_t run, const PointLight& light)
       : materials_(std::move(materials)), run_(run) {
-    Light source;
-    source.kind = light;
-    light_ = PrepareLight(source, Vec3d(0));
+    light_ = PrepareLight(Light{.kind = light}, Vec3d(0));
   }
 
   // Writes what the first materials * run hits reflect to `radiance`.

@@ -60,9 +60,8 @@ struct FrameCase {
   }
 
   RenderSettings Settings() const {
-    RenderSettings settings;
-    settings.threads = variant == "threads2" ? 2 : 1;
-    settings.general_path = variant == "general_path";
+    RenderSettings settings{.threads = variant == "threads2" ? 2 : 1,
+                            .general_path = variant == "general_path"};
     if (variant == "embree") settings.intersector = IntersectorChoice::kEmbree;
     return settings;
   }

@@ -89,8 +89,7 @@ void BenchStable(benchmark::State& state, const Lobe& lobe, bool double_terms) {
   PrepareSurface(batch.hits, &batch.surface);
   ShadingMaterial material = PrepareMaterial(lobe.material);
   SetDoubleTerms(double_terms, &material);
-  BatchShader shader({material}, kHits,
-                     {.position = kLight, .intensity = Rgb(1), .attenuation = {}});
+  BatchShader shader({material}, kHits, {.position = kLight, .intensity = Rgb(1)});
   ReflectedRadiance radiance;
   shader.Shade(&batch, &radiance);
   const double error = MaxRelError(batch.hits, lobe, radiance.specular.x.data());

@@ -31,10 +31,7 @@ Scene MakeNestedScene(NestedKind kind, int count) {
   scene.materials.emplace_back();
   Light lamp;
   lamp.name = "lamp";
-  PointLight point;
-  point.position = {0.4, 0.5, 4};
-  point.intensity = Rgb(40);
-  lamp.kind = point;
+  lamp.kind = PointLight{.position = {0.4, 0.5, 4}, .intensity = Rgb(40)};
   scene.lights.push_back(lamp);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> jitter(-0.05, 0.05);
@@ -52,8 +49,7 @@ Scene MakeNestedScene(NestedKind kind, int count) {
 
 void BenchNested(benchmark::State& state, NestedKind kind, int count) {
   const Scene scene = MakeNestedScene(kind, count);
-  RenderSettings settings;
-  settings.threads = 1;
+  RenderSettings settings{.threads = 1};
   for (auto _ : state) {
     const FramePlan plan = MakePlan(scene, settings);
     Render(plan, settings,

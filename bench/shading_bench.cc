@@ -96,10 +96,9 @@ void BenchShade(benchmark::State& state, const ShadingMaterial& material, Target
   LightBatch on_hits;
   ReflectedRadiance radiance;
   PrepareSurface(hits, &surface);
-  Light source;
-  source.kind = PointLight{.position = {kLight.x, kLight.y, places.from_behind ? -20.0 : kLight.z},
-                           .intensity = {60, 60, 60},
-                           .attenuation = {}};
+  Light source{
+      .kind = PointLight{.position = {kLight.x, kLight.y, places.from_behind ? -20.0 : kLight.z},
+                         .intensity = {60, 60, 60}}};
   ShadingLight light = PrepareLight(source, {0, 0, 0});
   if (!places.by_position && !OffsetFromSpheres({&kSphere, 1}, {0, 0, 0}, &light)) {
     state.SkipWithError("the light is too near for its offset from the sphere");

@@ -66,9 +66,7 @@ Scene MakeScene(const Material& material) {
   scene.spheres = {{{0, 0, 0}, 1, {0}}};
   scene.materials = {material};
   scene.images = {{"image", std::make_shared<const MipChain>(MakeImage(1024)), 0.5f}};
-  Texture texture;
-  texture.image = ImageId{0};
-  texture.mapping = MappingKind::kSpherical;
+  Texture texture{.image = ImageId{0}, .mapping = MappingKind::kSpherical};
   scene.textures = {texture};
   return scene;
 }
@@ -107,8 +105,7 @@ void BenchMapped(benchmark::State& state, const Material& material, Target targe
   HitBatch hits = MakeHits();
   Surface surface;
   PrepareSurface(hits, &surface);
-  Light light;
-  light.kind = PointLight{.position = {3, 4, 8}, .intensity = {60, 60, 60}, .attenuation = {}};
+  Light light{.kind = PointLight{.position = {3, 4, 8}, .intensity = {60, 60, 60}}};
   const ShadingLight shading_light = PrepareLight(light, scene.camera.position);
   LightBatch on_hits;
   const auto texture_hits = std::make_unique<HitParameters>();

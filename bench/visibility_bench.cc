@@ -29,15 +29,16 @@ void BenchClosest(benchmark::State& state, const SphereScene& which) {
   const CameraFrame camera = MakeCameraFrame(scene.camera, kWidth, kHeight);
   RayBatch rays;
   ClosestHits hits;
-  AlignedArray<double> x(kBatchCapacity), y(kBatchCapacity);
+  FilmBatch film;
   constexpr int kBatch = static_cast<int>(kBatchCapacity);
   for (auto _ : state) {
     for (int row = 0; row < kHeight; ++row) {
       for (int first = 0; first < kWidth; first += kBatch) {
         const int count = std::min(kBatch, kWidth - first);
-        for (int i = 0; i < count; ++i) x[static_cast<size_t>(i)] = first + i + 0.5;
-        std::fill_n(y.data(), count, row + 0.5);
-        MakeCameraRays(camera, x.data(), y.data(), static_cast<size_t>(count), &rays);
+        film.count = static_cast<size_t>(count);
+        for (int i = 0; i < count; ++i) film.x[static_cast<size_t>(i)] = first + i + 0.5;
+        std::fill_n(film.y.data(), count, row + 0.5);
+        MakeCameraRays(camera, film, &rays);
         intersector.Closest(rays, &hits);
         benchmark::DoNotOptimize(hits.primitive.data());
       }

@@ -306,24 +306,24 @@ NACRE_API std::vector<uint8_t> EncodeJpeg(const Picture& picture, int quality = 
 // ---- Rendering ----------------------------------------------------------------------------------
 
 struct RenderSettings {
-  int width = 0, height = 0;     // pixels; 0: the scene's
-  int samples = 0;               // per pixel; 0: the scene's. With max_error, the maximum (0: 4096)
-  double max_error = 0;          // > 0: adaptive sampling, as --max-error
-  std::optional<uint32_t> seed;  // of the sample pattern; nullopt: the scene's
-  Window region;                 // pixels to render, bit for bit as in the full frame; empty: all
+  int width = 0, height = 0;  // pixels; 0: the scene's
+  int samples = 0;            // per pixel; 0: the scene's. With max_error, the maximum (0: 4096)
+  double max_error = 0;       // > 0: adaptive sampling, as --max-error
+  std::optional<uint32_t> seed{};  // of the sample pattern; nullopt: the scene's
+  Window region{};                 // pixels to render, bit for bit as in the full frame; empty: all
   // Channels besides R G B A: diffuse, specular, ambient, emission, albedo, N, P, Z, id.object,
   // id.material, light.NAME, or all.
-  std::vector<std::string> layers;
+  std::vector<std::string> layers{};
   int threads = 0;                   // 0: as many as the machine has
   std::string intersector = "auto";  // or embree, tiles, shells, which give the same bits
   // Called with the finished fraction in (0, 1], from any thread, but one call at a time. It may
   // throw to end the render.
-  std::function<void(double)> on_progress;
+  std::function<void(double)> on_progress{};
   // Any thread may set it to true, which ends the render by Cancelled within some milliseconds;
   // before the first pixel, once the current tree, bin or table is built. May be null.
   const std::atomic<bool>* cancel = nullptr;
   // Settings by name, those of NamedSettings(). They win over the members of the same name.
-  Parameters others;
+  Parameters others{};
 };
 
 // The settings that RenderSettings::others may have, and their meanings.

@@ -60,12 +60,14 @@ struct QueryPacket {
   }
 };
 
-// Calls ask(packet) for all queries. There are as many answers.
-template <typename T, class Query, class Answer, class Ask>
-void AskInPackets(const std::vector<Query>& queries, std::vector<Answer>* answers, const Ask& ask) {
+// The answers to all queries, as many, which ask(packet) stores.
+template <typename T, class Answer, class Query, class Ask>
+std::vector<Answer> AskInPackets(const std::vector<Query>& queries, const Ask& ask) {
+  std::vector<Answer> answers(queries.size());
   for (size_t first = 0; first < queries.size(); first += hn::Lanes(hn::ScalableTag<T>())) {
-    ask(QueryPacket<Query, Answer, T>{queries, answers, first});
+    ask(QueryPacket<Query, Answer, T>{queries, &answers, first});
   }
+  return answers;
 }
 
 }  // namespace HWY_NAMESPACE

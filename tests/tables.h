@@ -11,6 +11,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/vec.h"
+
 namespace nacre {
 
 // The table `name`.json: from the folder that the environment variable NACRE_TABLES names, so
@@ -35,6 +37,10 @@ inline double TableNumber(const nlohmann::json& value) {
   const double number = std::strtod(text.c_str(), &end);
   if (text.empty() || *end != '\0') throw std::runtime_error("\"" + text + "\" is no number");
   return number;
+}
+
+inline Vec3d TableVector(const nlohmann::json& value) {
+  return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
 }
 
 // Half an ulp of 1 in float and in double.

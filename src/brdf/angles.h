@@ -40,15 +40,7 @@ Angles<Real> ComputeAngles(const Imath::Vec3<Real>& n, const Imath::Vec3<Real>& 
   const Imath::Vec3<Real> l_minus_v = l - v;
   const Imath::Vec3<Real> sum = l + v;
   const Imath::Vec3<Real> u = sum - l_minus_v * ((sum ^ l_minus_v) / 4);
-  const Imath::Vec3<Real> n_cross_u = n % u;
-  Angles<Real> a;
-  a.n_dot_l = n ^ l;
-  a.n_dot_v = n ^ v;
-  a.n_dot_u = n ^ u;
-  a.u_squared = u.length2();
-  a.nxu_squared = n_cross_u.length2();
-  a.lv_squared = l_minus_v.length2();
-  return a;
+  return {n ^ l, n ^ v, n ^ u, u.length2(), (n % u).length2(), l_minus_v.length2()};
 }
 
 }  // namespace nacre

@@ -196,11 +196,8 @@ ExposureRange FlipExposures(const PictureView& reference) {
     median = Median(&luminances);
   }
   const double radiance = RadianceShownAs(kShown);
-  ExposureRange range;
-  range.start = std::log2(radiance / brightest);
-  range.stop = std::log2(radiance / median);
-  range.count = std::max(2, static_cast<int>(std::ceil(range.stop - range.start)));
-  return range;
+  const double start = std::log2(radiance / brightest), stop = std::log2(radiance / median);
+  return {start, stop, std::max(2, static_cast<int>(std::ceil(stop - start)))};
 }
 
 Plane HdrFlipMap(const PictureView& reference, const PictureView& test, const ExposureRange& range,

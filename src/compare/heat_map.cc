@@ -43,9 +43,8 @@ double HeatScale::Position(double error) const {
 
 Rgb8Picture HeatMap(const Image& got, const Image& reference, const std::string& layer,
                     HeatQuantity quantity, const HeatScale& scale) {
-  CompareOptions options;
-  options.layers = {layer};
-  options.sizes_may_differ = true;  // only the common part is drawn
+  // Only the part that both have is drawn.
+  const CompareOptions options{.layers = {layer}, .sizes_may_differ = true};
   const ImagePair pair = PairImages(got, reference, options);
   const Window& window = pair.window;
   Rgb8Picture picture{window.width(), window.height(), {}};

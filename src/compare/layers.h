@@ -12,7 +12,7 @@ namespace nacre {
 
 struct CompareOptions {
   // The layers to compare. If empty, all are, and both images must have the same channels.
-  std::vector<std::string> layers;
+  std::vector<std::string> layers{};
   // If the windows differ, compare only the pixels that both images have.
   bool crop = false;
   // Treat display windows of different sizes as a difference instead of an error. Pages and

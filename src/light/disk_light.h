@@ -38,14 +38,10 @@ template <typename Real>
 DiskView<Real> ViewOf(const DiskLight<Real>& light) {
   const Basis<Real> basis = BasisAbout(light.normal);
   const Imath::Vec3<Real> centre = basis.ToLocal(light.centre);
-  DiskView<Real> view;
-  view.z = centre.z;
-  view.rho = std::hypot(centre.x, centre.y);
-  const Real cos = view.rho > 0 ? centre.x / view.rho : 1;
-  const Real sin = view.rho > 0 ? centre.y / view.rho : 0;
-  view.x_axis = basis.x * cos + basis.y * sin;
-  view.y_axis = basis.y * cos - basis.x * sin;
-  return view;
+  const Real rho = std::hypot(centre.x, centre.y);
+  const Real cos = rho > 0 ? centre.x / rho : 1;
+  const Real sin = rho > 0 ? centre.y / rho : 0;
+  return {basis.x * cos + basis.y * sin, basis.y * cos - basis.x * sin, rho, centre.z};
 }
 
 // Whether the disk's nearest point is nearer than 0.7 radii. At that distance, on the disk's axis,
@@ -137,14 +133,13 @@ template <typename Real>
 DiskHorizonTerms<Real> MakeDiskHorizonTerms(const DiskLight<Real>& light,
                                             const Imath::Vec3<Real>& normal) {
   const DiskView<Real> view = ViewOf(light);
-  DiskHorizonTerms<Real> disk;
-  disk.n = {normal ^ view.x_axis, normal ^ view.y_axis, normal ^ light.normal};
-  disk.rho = view.rho;
-  disk.z = view.z;
-  disk.radius = light.radius;
-  disk.centre_height = normal ^ light.centre;
-  disk.rim_height = light.radius * std::hypot(disk.n.x, disk.n.y);
-  return disk;
+  const Imath::Vec3<Real> n(normal ^ view.x_axis, normal ^ view.y_axis, normal ^ light.normal);
+  return {n,
+          view.rho,
+          view.z,
+          light.radius,
+          normal ^ light.centre,
+          light.radius * std::hypot(n.x, n.y)};
 }
 
 // The irradiance of a disk above the horizon is pi radius^2 (n.z (w + q) + 2 z rho n.x) /

@@ -62,8 +62,8 @@ EnvironmentMap MakeEnvironmentMap(int width, int height, std::shared_ptr<const V
   map.row_sums.resize(rows);
   std::vector<double> row_weights(rows);
   constexpr size_t kRows = 16;  // per task
-  ParallelFor((rows + kRows - 1) / kRows, threads, [&](size_t some) {
-    for (size_t y = some * kRows; y < std::min(rows, (some + 1) * kRows); ++y) {
+  ParallelForBlocks(rows, kRows, threads, [&](size_t begin, size_t end) {
+    for (size_t y = begin; y < end; ++y) {
       EnvironmentBlock* const blocks = &map.blocks[y * map.row_blocks];
       const double sum = FillBlocks({&map.texels[static_cast<ptrdiff_t>(y * columns)], columns},
                                     {blocks, map.row_blocks});

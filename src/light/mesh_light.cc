@@ -2,37 +2,27 @@
 #include "light/mesh_light.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <span>
 
+#include <Imath/ImathBox.h>
+
 namespace nacre {
 namespace {
 
-struct Box {
-  Vec3d low{std::numeric_limits<double>::infinity()};
-  Vec3d high{-std::numeric_limits<double>::infinity()};
-
-  void Add(const Vec3d& p) {
-    for (int c = 0; c < 3; ++c) {
-      low[c] = std::min(low[c], p[c]);
-      high[c] = std::max(high[c], p[c]);
-    }
-  }
-  void Add(const TriangleLight<double>& t) {
-    Add(t.corner);
-    Add(t.corner + t.edge_x);
-    Add(t.corner + t.edge_y);
-  }
-};
+std::array<Vec3d, 3> CornersOf(const TriangleLight<double>& t) {
+  return {t.corner, t.corner + t.edge_x, t.corner + t.edge_y};
+}
 
 Vec3d Centroid(const TriangleLight<double>& t) { return t.corner + (t.edge_x + t.edge_y) / 3; }
 
 // Triangles [begin, end) in sorted order, and their box. A range that is split has its two halves
 // at the indices `halves` and `halves` + 1.
 struct Range {
-  Box box;
+  Imath::Box3d box;
   uint32_t begin = 0, end = 0;
   uint32_t halves = 0;  // 0: not split
 
@@ -44,14 +34,15 @@ struct Range {
 void SplitRange(const std::vector<TriangleLight<double>>& triangles, size_t range, uint32_t begin,
                 uint32_t end, std::vector<uint32_t>* order, std::vector<Range>* ranges) {
   constexpr uint32_t kFew = 4;
-  Box box, centroids;
+  Imath::Box3d box, centroids;
   for (uint32_t i = begin; i < end; ++i) {
-    box.Add(triangles[(*order)[i]]);
-    centroids.Add(Centroid(triangles[(*order)[i]]));
+    const TriangleLight<double>& triangle = triangles[(*order)[i]];
+    for (const Vec3d& corner : CornersOf(triangle)) box.extendBy(corner);
+    centroids.extendBy(Centroid(triangle));
   }
   (*ranges)[range] = {box, begin, end, 0};
   if (end - begin <= kFew) return;
-  const Vec3d size = centroids.high - centroids.low;
+  const Vec3d size = centroids.size();
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   const uint32_t middle = begin + (end - begin) / 2;
   std::nth_element(order->begin() + begin, order->begin() + middle, order->begin() + end,
@@ -130,10 +121,10 @@ class TreeBuilder {
     return children;
   }
 
-  static void SetBox(const Box& box, size_t i, MeshLightNode* node) {
+  static void SetBox(const Imath::Box3d& box, size_t i, MeshLightNode* node) {
     for (int c = 0; c < 3; ++c) {
-      node->low[c][i] = RoundDown(box.low[c]);
-      node->high[c][i] = -RoundDown(-box.high[c]);
+      node->low[c][i] = RoundDown(box.min[c]);
+      node->high[c][i] = -RoundDown(-box.max[c]);
     }
   }
 
@@ -178,14 +169,16 @@ struct Heights {
 };
 
 Heights FindHeights(const MeshLight& light) {
-  Box box;
-  for (const auto& triangle : light.triangles) box.Add(triangle);
-  const double size = (box.high - box.low).length();
+  Imath::Box3d box;
+  for (const auto& triangle : light.triangles) {
+    for (const Vec3d& corner : CornersOf(triangle)) box.extendBy(corner);
+  }
+  const double size = box.size().length();
   Heights heights;
   for (const auto& plane : light.triangles) {
     const Vec3d normal = (plane.edge_x % plane.edge_y).normalized();
     for (const auto& t : light.triangles) {
-      for (const Vec3d& corner : {t.corner, t.corner + t.edge_x, t.corner + t.edge_y}) {
+      for (const Vec3d& corner : CornersOf(t)) {
         const double height = (normal ^ (corner - plane.corner)) / size;
         heights.highest = std::max(heights.highest, height);
         heights.lowest = std::min(heights.lowest, height);
@@ -235,9 +228,9 @@ MeshLight MakeMeshLight(std::span<const Vec3d> positions, std::span<const uint32
     light.crosses.push_back(unsorted[i].edge_x % unsorted[i].edge_y);
     light.probabilities.push_back(light.crosses.back().length());
     sum += light.probabilities.back();
-    const auto& [corner, edge_x, edge_y] = unsorted[i];
-    light.radius = std::max(
-        {light.radius, corner.length(), (corner + edge_x).length(), (corner + edge_y).length()});
+    for (const Vec3d& corner : CornersOf(unsorted[i])) {
+      light.radius = std::max(light.radius, corner.length());
+    }
   }
   TreeBuilder(ranges, &light).Build();
   for (double& probability : light.probabilities) probability /= sum;

@@ -2,7 +2,6 @@
 #include "render/adaptive.h"
 
 #include <algorithm>
-#include <array>
 #include <span>
 
 #include "render/convergence.h"
@@ -31,41 +30,19 @@ void MakeListSamples(const PixelSampler* samplers, const Window& cell,
   s->samples.film.count = list.size() * static_cast<size_t>(count);
 }
 
-std::array<PixelRun, kBlockSide> BlockRows(const Window& block) {
-  std::array<PixelRun, kBlockSide> rows;
-  for (int i = 0; i < kBlockSide; ++i) {
-    rows[static_cast<size_t>(i)] = {block.x0, block.y0 + i, kBlockSide};
-  }
-  return rows;
-}
-
 // Makes the film position of one sample of each entry, if the list consists of whole blocks.
 void MakeBlockSamples(const PixelSampler* samplers, const Window& cell,
                       std::span<const SampleEntry> list, int index, TileWork* s, PixelBatch* room) {
   for (size_t ray = 0; ray < list.size(); ray += kBlockPixels) {
     const Window block = BlockWindow(cell, list[ray].pixel / kBlockPixels);
     const PixelSampler& sampler = samplers[list[ray].replicate];
-    PreparePixels(sampler, BlockRows(block), room);
+    PixelRun rows[kBlockSide];
+    for (int i = 0; i < kBlockSide; ++i) rows[i] = {block.x0, block.y0 + i, kBlockSide};
+    PreparePixels(sampler, rows, room);
     SamplePixels(sampler, *room, index, 1, s->samples.film.x.data() + ray,
                  s->samples.film.y.data() + ray);
   }
   s->samples.film.count = list.size();
-}
-
-// Numbers the samples of MakeListSamples, for light sampling.
-void NumberListSamples(const PixelSampler* samplers, const Window& cell,
-                       std::span<const SampleEntry> list, int first, int count,
-                       SampleNumbers* numbers) {
-  numbers->pixel_count = list.size();
-  size_t ray = 0;
-  for (uint32_t i = 0; i < list.size(); ++i) {
-    const FilmPixel pixel = PixelOf(cell, list[i].pixel);
-    numbers->seeds[i] = PixelSeed(pixel.x, pixel.y, samplers[list[i].replicate].seed);
-    for (int k = 0; k < count; ++k, ++ray) {
-      numbers->number[ray] = static_cast<uint32_t>(first + k);
-      numbers->pixel[ray] = i;
-    }
-  }
 }
 
 // The weighted sum of a chunk, in four partial sums. `count` is a power of two, but not 1.
@@ -151,14 +128,11 @@ void FindSums(LayerKind layer, int channel, double* film_sum, CellSamples* sampl
 // batch, by ray.
 template <class Use>
 void ForEachAveragedLayer(const FramePlan& plan, TileWork* work, const Use& use) {
-  size_t light_layer = 0;
   for (const Layer& layer : plan.film.layers) {
     if (!IsAveraged(layer.kind)) continue;
     const Rgb background = BackgroundOf(layer, plan.film);
     use(layer, background,
-        GatherLayer(plan.film, layer, light_layer, background, BatchOf(plan, *work),
-                    &work->layer_room));
-    if (layer.kind == LayerKind::kLight) ++light_layer;
+        GatherLayer(plan.film, layer, background, BatchOf(plan, *work), &work->layer_room));
   }
 }
 
@@ -213,10 +187,7 @@ void AddLevel(const FramePlan& plan, const Window& cell, size_t level, TileWork*
   const bool by_blocks = level < kCommonLevels && l.count == 1;
   const size_t capacity = kBatchCapacity / static_cast<size_t>(count);
   for (int first = l.first; first < end; first += count) {
-    s->samples.weights.resize(static_cast<size_t>(count));
-    for (int i = 0; i < count; ++i) {
-      s->samples.weights[static_cast<size_t>(i)] = SampleWeight(samplers[0], first + i);
-    }
+    SetWeights(samplers[0], first, count, &s->samples);
     size_t listed = 0;
     const auto flush = [&] {
       if (listed == 0) return;
@@ -228,7 +199,12 @@ void AddLevel(const FramePlan& plan, const Window& cell, size_t level, TileWork*
       }
       MoveToDust(plan, cell, list, static_cast<size_t>(count), &s->samples.film, &c.dust);
       if (plan.sampling.numbered) {
-        NumberListSamples(samplers.data(), cell, list, first, count, &EnsureNumbers(&s->samples));
+        const auto seed_of = [&](size_t i) {
+          const FilmPixel pixel = PixelOf(cell, list[i].pixel);
+          return PixelSeed(pixel.x, pixel.y, samplers[list[i].replicate].seed);
+        };
+        NumberPixelByPixel(listed, first, static_cast<size_t>(count), seed_of,
+                           &EnsureNumbers(&s->samples));
       }
       ShadeSamples(plan, s);
       AddListSamples(plan, cell, list, s, room);
@@ -253,10 +229,10 @@ void AddLevel(const FramePlan& plan, const Window& cell, size_t level, TileWork*
 std::vector<uint32_t> ListPixels(uint32_t blocks) {
   std::vector<uint32_t> pixels;
   pixels.reserve(kCellPixels);
-  for (; blocks != 0; blocks &= blocks - 1) {
-    const auto first = static_cast<uint32_t>(__builtin_ctz(blocks)) * uint32_t{kBlockPixels};
+  ForEachBlock(blocks, [&](size_t block) {
+    const auto first = static_cast<uint32_t>(block * kBlockPixels);
     for (uint32_t i = 0; i < kBlockPixels; ++i) pixels.push_back(first + i);
-  }
+  });
   return pixels;
 }
 
@@ -276,7 +252,10 @@ uint32_t AddCenters(const FramePlan& plan, const Window& cell, uint32_t blocks, 
   s.samples.film.count = pixels.size();
   // Any numbers will do: under sampled lights no block stops at its centres, and only positions,
   // depths and ids are used.
-  if (plan.sampling.numbered) NumberAlike(pixels.size(), &EnsureNumbers(&s.samples));
+  if (plan.sampling.numbered) {
+    NumberPixelByPixel(
+        pixels.size(), 0, 1, [](size_t) { return uint64_t{0}; }, &EnsureNumbers(&s.samples));
+  }
   ShadeSamples(plan, &s);
   uint32_t hit_of_ray[kCellPixels];
   std::fill_n(hit_of_ray, kCellPixels, kNoHit);
@@ -376,7 +355,7 @@ void RenderCell(const FramePlan& plan, const Window& cell, const Window& part, T
   // neighbours.
   const uint32_t blocks = BlocksOf(cell, plan.frame);
   const CellProjections projections = ProjectSpheres(plan.camera, s.shapes.spheres);
-  c.edges = FindEdges(plan, cell, blocks, s.shapes.spheres, projections, &room->footprint);
+  c.edges = FindEdges(plan, cell, blocks, projections, &s);
   work->clock->Charge(Stage::kIntersect);
   const bool all_centers = s.film.nearest_distance2.size() > 0;
   const uint32_t smooth =

@@ -22,14 +22,13 @@
 
 #include <vector>
 
-#include "render/cell_state.h"
+#include "render/evidence.h"
 
 namespace nacre {
 
 // What one worker knows about a cell, and its buffers, reused from cell to cell.
 struct CellRoom {
   CellState state;
-  FootprintRoom footprint;
   // Of the samples of one batch.
   std::vector<double> hits = std::vector<double>(kBatchCapacity);  // 1 for rays that hit, else 0
   std::vector<SampledPixel> pixels;

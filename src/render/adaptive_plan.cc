@@ -39,20 +39,6 @@ double NarrowestLobe(const ShadingMaterial& material) {
 
 bool HasBothSigns(const PixelFilter& filter) { return !MakeFilterSampler(filter).negative.empty(); }
 
-// The second moment of |filter| along one axis, in pixels squared. The mean over a pixel differs
-// from the value at its centre by half of that times the second derivative.
-double SecondMoment(const PixelFilter& filter) {
-  constexpr int kSteps = 4096;
-  double sum = 0, moment = 0;
-  for (int i = 0; i < kSteps; ++i) {
-    const double x = (i + 0.5) / kSteps * filter.width / 2;
-    const double value = std::abs(FilterValue(filter, x));
-    sum += value;
-    moment += value * x * x;
-  }
-  return moment / sum;
-}
-
 // Whether a spot light has a hard edge, which may lie between pixel centres unnoticed.
 bool HasHardCone(const Scene& scene) {
   return std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
@@ -93,21 +79,31 @@ SampleLevels PlanSampleLevels(const Scene& scene, int max_samples) {
 
 bool CentersMaySuffice(const Scene& scene) {
   // With lights that are sampled, one sample of a pixel is noisy however smooth the surface is.
-  const bool sampled =
-      std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
-        return !IsPunctual(light) && !std::holds_alternative<AmbientLight>(light.kind);
-      });
+  const bool sampled = std::ranges::any_of(scene.lights, [](const Light& light) {
+    return !IsPunctual(light) && !std::holds_alternative<AmbientLight>(light.kind);
+  });
   return !HasBothSigns(scene.image.filter) && !HasHardCone(scene) && !sampled;
 }
 
-// The error is half the second moment where the picture is smooth, and up to three times that where
-// its slope changes within a pixel, as where a surface turns away from a light (for a box: 1/8 of
-// the change of slope instead of 1/24).
-double CenterError(const PixelFilter& filter) { return 1.5 * SecondMoment(filter); }
+// The mean over a pixel differs from the value at its centre by half the second moment of |filter|
+// along one axis, in pixels squared, times the second derivative. That is where the picture is
+// smooth; the error is up to three times that where its slope changes within a pixel, as where a
+// surface turns away from a light (for a box: 1/8 of the change of slope instead of 1/24).
+double CenterError(const PixelFilter& filter) {
+  constexpr int kSteps = 4096;
+  double sum = 0, moment = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double x = (i + 0.5) / kSteps * filter.width / 2;
+    const double value = std::abs(FilterValue(filter, x));
+    sum += value;
+    moment += value * x * x;
+  }
+  return 1.5 * (moment / sum);
+}
 
 std::vector<double> LobeWidths(std::span<const ShadingMaterial> materials) {
   std::vector<double> widths(materials.size());
-  std::transform(materials.begin(), materials.end(), widths.begin(), NarrowestLobe);
+  std::ranges::transform(materials, widths.begin(), NarrowestLobe);
   return widths;
 }
 

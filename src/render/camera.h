@@ -11,10 +11,8 @@ namespace nacre {
 // `width` and `height` are those of the full frame, in pixels. Pixels are square.
 CameraFrame MakeCameraFrame(const Camera& camera, int width, int height);
 
-// Makes rays through `count` film positions, which are in pixels. Origins are relative to the
-// camera's position.
-void MakeCameraRays(const CameraFrame& frame, const double* film_x, const double* film_y,
-                    size_t count, RayBatch* rays);
+// Makes rays through film positions. Origins are relative to the camera's position.
+void MakeCameraRays(const CameraFrame& frame, const FilmBatch& film, RayBatch* rays);
 
 // Matrices for the EXR header, row-major and for row vectors (p' = p M), as OpenEXR has them: from
 // world to camera space (+x right, +y up, looking along -z), and from world space to normalised

@@ -15,8 +15,7 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-void MakeCameraRaysT(const CameraFrame& frame, const double* film_x, const double* film_y,
-                     size_t count, RayBatch* rays) {
+void MakeCameraRaysT(const CameraFrame& frame, const FilmBatch& film, RayBatch* rays) {
   const hn::ScalableTag<double> d;
   const bool perspective = frame.projection == Projection::kPerspective;
   Soa3<double>& varying = perspective ? rays->direction : rays->origin;
@@ -25,22 +24,15 @@ void MakeCameraRaysT(const CameraFrame& frame, const double* film_x, const doubl
   const auto corner = SetVec3(d, frame.corner);
   const auto step_x = SetVec3(d, frame.step_x);
   const auto step_y = SetVec3(d, frame.step_y);
-  rays->count = count;
-  const auto make = [&](size_t i, auto x, auto y) HWY_ATTR {
+  const double* const film_x = film.x.data();
+  const double* const film_y = film.y.data();
+  rays->count = film.count;
+  for (size_t i = 0; i < film.count; i += hn::Lanes(d)) {
+    const auto x = hn::LoadU(d, film_x + i), y = hn::LoadU(d, film_y + i);
     const auto varying_value = MulAdd3(step_y, y, MulAdd3(step_x, x, corner));
     Store3(varying_value, d, varying.x.data() + i, varying.y.data() + i, varying.z.data() + i);
     Store3(fixed, d, constant.x.data() + i, constant.y.data() + i, constant.z.data() + i);
-  };
-  const size_t step = hn::Lanes(d);
-  size_t i = 0;
-  for (; i + step <= count; i += step) make(i, hn::LoadU(d, film_x + i), hn::LoadU(d, film_y + i));
-  if (i == count) return;
-  HWY_ALIGN double x[hn::MaxLanes(d)] = {}, y[hn::MaxLanes(d)] = {};
-  for (size_t k = 0; k < count - i; ++k) {
-    x[k] = film_x[i + k];
-    y[k] = film_y[i + k];
   }
-  make(i, hn::Load(d, x), hn::Load(d, y));
 }
 
 }  // namespace HWY_NAMESPACE
@@ -51,10 +43,9 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(MakeCameraRaysT);
 
-void MakeCameraRays(const CameraFrame& frame, const double* film_x, const double* film_y,
-                    size_t count, RayBatch* rays) {
+void MakeCameraRays(const CameraFrame& frame, const FilmBatch& film, RayBatch* rays) {
   rays->view = MakeProjectedTestView(frame);
-  HWY_DYNAMIC_DISPATCH(MakeCameraRaysT)(frame, film_x, film_y, count, rays);
+  HWY_DYNAMIC_DISPATCH(MakeCameraRaysT)(frame, film, rays);
 }
 }  // namespace nacre
 #endif

@@ -2,7 +2,6 @@
 #include "render/cell_film.h"
 
 #include <algorithm>
-#include <vector>
 
 namespace nacre {
 namespace {
@@ -25,18 +24,11 @@ void CopyCell(const Window& cell, const Window& part, const Strip& strip, const 
   }
 }
 
-// Calls body(first) with the first pixel of each block whose bit is set.
-template <class Body>
-void ForEachBlock(uint32_t blocks, const Body& body) {
-  for (; blocks != 0; blocks &= blocks - 1) {
-    body(static_cast<size_t>(__builtin_ctz(blocks)) * kBlockPixels);
-  }
-}
-
 }  // namespace
 
 void ClearReplicates(uint32_t blocks, CellSamples* samples) {
-  ForEachBlock(blocks, [&](size_t first) {
+  ForEachBlock(blocks, [&](size_t block) {
+    const size_t first = block * kBlockPixels;
     for (auto& replicate : samples->sums) {
       for (auto& channel : replicate) std::fill_n(channel + first, kBlockPixels, 0.0);
     }
@@ -44,7 +36,8 @@ void ClearReplicates(uint32_t blocks, CellSamples* samples) {
 }
 
 void AddReplicates(uint32_t blocks, const CellSamples& samples, TileFilm* film) {
-  ForEachBlock(blocks, [&](size_t first) {
+  ForEachBlock(blocks, [&](size_t block) {
+    const size_t first = block * kBlockPixels;
     for (size_t channel = 0; channel < 4; ++channel) {
       double* const sums = film->sums[channel].data() + first;
       for (const auto& replicate : samples.sums) {
@@ -80,17 +73,10 @@ void ResolveCell(const FramePlan& plan, const Window& cell, const Window& part,
     of_sum[i] = hits[i] > 0 ? outlines.coverage[i] / hits[i] : 0;
     of_background[i] = 1 - of_sum[i] * count;
   }
-  std::vector<double> backgrounds;  // of the averaged channels
-  for (const Layer& layer : plan.film.layers) {
-    const Rgb background = IsAveraged(layer.kind) ? BackgroundOf(layer, plan.film) : Rgb(0, 0, 0);
-    const int channels = IsAveraged(layer.kind) ? FloatChannels(layer.kind) : 0;
-    for (int channel = 0; channel < channels; ++channel) backgrounds.push_back(background[channel]);
-  }
   size_t sum = 0, nearest = 0, id = 0, color = 0;
-  for (const ChannelKind kind : plan.film.channels) {
+  for (const auto& [kind, background] : plan.film.channels) {
     if (kind == ChannelKind::kAveraged) {
-      const double* const sums = film.sums[sum].data();
-      const double background = backgrounds[sum++];
+      const double* const sums = film.sums[sum++].data();
       float values[kCellPixels];
       for (size_t i = 0; i < kCellPixels; ++i) {
         values[i] = static_cast<float>(sums[i] * of_sum[i] + background * of_background[i]);

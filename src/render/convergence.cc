@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "render/evidence.h"
 #include "render/film.h"
 #include "render/interval.h"
 
@@ -26,102 +25,66 @@ size_t CommonLevels(const CellState& c, size_t block) {
   return kCommonLevels - ((c.edges.only_outlines & c.outlines.blocks) >> block & 1);
 }
 
-// The interval of an outline pixel in one channel of the beauty.
-Interval MeasureOutlineChannel(const CellSamples& of, const OutlinePixels& outlines, uint32_t pixel,
-                               int channel, double background) {
+// The interval of a pixel in one channel of the beauty.
+Interval MeasureChannel(const CellState& c, uint32_t pixel, int channel, double background) {
+  const CellSamples& of = c.samples;
   const double scale = 1.0 / of.count[pixel], samples = double{kReplicates} * of.count[pixel];
   double values[kReplicates];
   for (size_t r = 0; r < kReplicates; ++r) values[r] = of.sums[r][channel][pixel] * scale;
-  const PixelRange& range = outlines.hit_range[channel][pixel / kBlockPixels];
-  if (outlines.coverage[pixel] < 0) {
-    return MeasureOnOutline(values, range, outlines.sees_background[pixel] ? &background : nullptr,
-                            samples);
+  if (!c.outlines.on_outline[pixel]) return MeasureSpread(values);
+  const PixelRange& range = c.outlines.hit_range[channel][pixel / kBlockPixels];
+  if (c.outlines.coverage[pixel] < 0) {
+    return MeasureOnOutline(values, range,
+                            c.outlines.sees_background[pixel] ? &background : nullptr, samples);
   }
   double hits[kReplicates];
   for (size_t r = 0; r < kReplicates; ++r) hits[r] = of.sums[r][kAlphaSum][pixel] * scale;
-  return MeasureCovered(values, hits, outlines.coverage[pixel], range, background, samples);
+  return MeasureCovered(values, hits, c.outlines.coverage[pixel], range, background, samples);
 }
 
-// Copies the interval of one pixel.
-void CopyInterval(const BlockIntervals& from, uint32_t i, BlockIntervals* to) {
-  to->narrow = (to->narrow & ~(1u << i)) | (from.narrow & 1u << i);
-  to->half_width[i] = from.half_width[i];
-  to->tolerance[i] = from.tolerance[i];
-}
-
-// The interval and the tolerance of an outline pixel. Written so that NaN never converges; NaN is
-// counted and reported where the picture is written.
-void MeasureOutlinePixel(const ErrorBound& error, const Rgb& background, uint32_t pixel,
-                         CellState* c) {
-  BlockIntervals& intervals = c->intervals[pixel / kBlockPixels];
-  const size_t i = pixel % kBlockPixels;
+// Written so that NaN never converges; NaN is counted and reported where the picture is written.
+void MeasurePixel(const ErrorBound& error, const Rgb& background, uint32_t pixel, CellState* c) {
   double widest = 0, strictest = kUnbounded;
   bool narrow = true;
   for (int channel = 0; channel < 3; ++channel) {
-    const Interval interval =
-        MeasureOutlineChannel(c->samples, c->outlines, pixel, channel, background[channel]);
+    const Interval interval = MeasureChannel(*c, pixel, channel, background[channel]);
     const double tolerance = ToleranceAt(error, interval.mean);
     narrow = narrow && interval.half_width2 <= tolerance * tolerance;
     widest = std::max(widest, interval.half_width2);
     strictest = std::min(strictest, tolerance);
   }
-  intervals.tolerance[i] = strictest;
-  intervals.half_width[i] = std::sqrt(widest);
-  intervals.narrow = (intervals.narrow & ~(1u << i)) | uint32_t{narrow} << i;
+  c->intervals.narrow[pixel] = narrow;
+  c->intervals.half_width[pixel] = std::sqrt(widest);
+  c->intervals.tolerance[pixel] = strictest;
 }
 
-// Measures a block's pixels. Outline pixels that are no longer active keep their intervals.
-void MeasureBlockOfCell(const ErrorBound& error, const Rgb& background, size_t block,
-                        uint32_t active, CellState* c) {
-  const auto first = static_cast<uint32_t>(block * kBlockPixels);
-  const double* sums[kReplicates][3];
-  for (size_t r = 0; r < kReplicates; ++r) {
-    for (size_t channel = 0; channel < 3; ++channel) {
-      sums[r][channel] = c->samples.sums[r][channel] + first;
-    }
-  }
-  const BlockIntervals before = c->intervals[block];
-  MeasureBlock(sums, c->samples.count + first, error, &c->intervals[block]);
-  if (!HasOutlines(c->outlines, block)) return;
-  for (uint32_t i = 0; i < kBlockPixels; ++i) {
-    if (!c->outlines.on_outline[first + i]) continue;
-    if ((active >> i & 1) != 0) {
-      MeasureOutlinePixel(error, background, first + i, c);
-    } else {
-      CopyInterval(before, i, &c->intervals[block]);
-    }
-  }
-}
-
-// Measures the active pixels, and judges whether they have samples enough.
+// Measures the pixels of the blocks that have active ones, and judges whether they have samples
+// enough. Outline pixels that are no longer active keep their intervals.
 void MeasureActive(const ErrorBound& error, const Rgb& background, CellState* c) {
   uint32_t active[kCellBlocks] = {};  // pixels, as bits
   for (const uint32_t pixel : c->active) active[pixel / kBlockPixels] |= 1u << pixel % kBlockPixels;
-  for (size_t block = 0; block < kCellBlocks; ++block) {
-    if (active[block] != 0) MeasureBlockOfCell(error, background, block, active[block], c);
+  for (uint32_t pixel = 0; pixel < kCellPixels; ++pixel) {
+    const uint32_t of_block = active[pixel / kBlockPixels];
+    const bool is_active = (of_block >> pixel % kBlockPixels & 1) != 0;
+    if (is_active || (of_block != 0 && !c->outlines.on_outline[pixel])) {
+      MeasurePixel(error, background, pixel, c);
+    }
   }
-  RequireEvidence({c->active, c->samples, c->edges, c->outlines, c->dust, c->known}, &c->evidence,
-                  &c->intervals);
-}
-
-bool IsWithinTolerance(const CellState& c, uint32_t pixel) {
-  return (c.intervals[pixel / kBlockPixels].narrow >> pixel % kBlockPixels & 1) != 0;
+  RequireEvidence(c);
 }
 
 // The largest half-width among the neighbours in the block that are not within their tolerance.
 double WidestNeighbour(const CellState& c, uint32_t pixel) {
-  const BlockIntervals& intervals = c.intervals[pixel / kBlockPixels];
+  const uint32_t block = pixel - pixel % uint32_t{kBlockPixels};
   const int x = static_cast<int>(pixel % kBlockSide);
   const int y = static_cast<int>(pixel % kBlockPixels) / kBlockSide;
   double widest = 0;
   for (int row = std::max(y - 1, 0); row <= std::min(y + 1, kBlockSide - 1); ++row) {
     for (int column = std::max(x - 1, 0); column <= std::min(x + 1, kBlockSide - 1); ++column) {
-      const auto i = static_cast<uint32_t>(row * kBlockSide + column);
-      if ((intervals.narrow >> i & 1) != 0) continue;
+      const uint32_t other = block + static_cast<uint32_t>(row * kBlockSide + column);
       // Rare features are known for each pixel by itself, and say nothing about its neighbours.
-      const uint32_t other = pixel - pixel % uint32_t{kBlockPixels} + i;
-      if (c.evidence.required_samples[other] > 0) continue;
-      widest = std::max(widest, intervals.half_width[i]);
+      if (c.intervals.narrow[other] || c.evidence.required_samples[other] > 0) continue;
+      widest = std::max(widest, c.intervals.half_width[other]);
     }
   }
   return widest;
@@ -129,8 +92,8 @@ double WidestNeighbour(const CellState& c, uint32_t pixel) {
 
 bool HasConverged(const CellState& c, uint32_t pixel) {
   if (c.dust.sampled_share[pixel] == 0) return true;  // it is the background
-  const double tolerance = c.intervals[pixel / kBlockPixels].tolerance[pixel % kBlockPixels];
-  return IsWithinTolerance(c, pixel) && WidestNeighbour(c, pixel) <= kNeighbourSlack * tolerance;
+  return c.intervals.narrow[pixel] &&
+         WidestNeighbour(c, pixel) <= kNeighbourSlack * c.intervals.tolerance[pixel];
 }
 
 }  // namespace
@@ -142,7 +105,7 @@ void DropConverged(const FramePlan& plan, size_t level, CellState* c) {
   MeasureActive({plan.adaptive.max_error, plan.adaptive.white}, background, c);
   uint32_t open = 0;  // blocks, as bits, with pixels beyond their tolerance
   for (const uint32_t pixel : c->active) {
-    if (!IsWithinTolerance(*c, pixel)) open |= 1u << pixel / kBlockPixels;
+    if (!c->intervals.narrow[pixel]) open |= 1u << pixel / kBlockPixels;
   }
   std::erase_if(c->active, [&](uint32_t pixel) {
     const size_t block = pixel / kBlockPixels, common = CommonLevels(*c, block);

@@ -2,7 +2,7 @@
 // render/convergence.h: decides when a pixel of adaptive sampling has enough samples.
 #pragma once
 
-#include "render/cell_state.h"
+#include "render/evidence.h"
 
 namespace nacre {
 

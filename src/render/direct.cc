@@ -2,12 +2,11 @@
 #include "render/direct.h"
 
 #include <algorithm>
-#include <span>
 
 #include "render/camera.h"
+#include "render/lighting_kernel.h"
 #include "render/sampled_lights.h"
 #include "render/shadow_origins.h"
-#include "render/shadow_rays_kernel.h"
 
 namespace nacre {
 namespace {
@@ -50,10 +49,10 @@ void CastShadows(const DirectBatch& batch, const ShadingLight& light, const Ligh
 
 // Whether the kernels of the batch's materials evaluate the light, which casts no shadow here.
 bool IsLeftToKernels(const DirectBatch& batch, const ShadingLight& light) {
-  const std::span<const MaterialRun> runs = LitRuns(batch.surfaces);
   return EvaluatedInPlace(light) &&
-         std::none_of(runs.begin(), runs.end(),
-                      [](const MaterialRun& run) { return NeedsLightAtHits(*run.shading); });
+         std::ranges::none_of(LitRuns(batch.surfaces), [](const MaterialRun& run) {
+           return NeedsLightAtHits(*run.shading);
+         });
 }
 
 void ShadeByPunctualLight(const DirectBatch& batch, const ShadingLight& light,
@@ -107,7 +106,7 @@ void ShadeDirect(const DirectBatch& batch, const SampleNumbers* numbers) {
 void ShadeSky(const DirectPlan& plan, const FilmBatch& film, size_t hits, DirectRoom* room,
               BatchRadiance* radiance) {
   if (!plan.lights.sky || hits == film.count) return;
-  MakeCameraRays(plan.shapes.camera, film.x.data(), film.y.data(), film.count, &room->sky_rays);
+  MakeCameraRays(plan.shapes.camera, film, &room->sky_rays);
   SkyRadiance(plan.lights.sampled[*plan.lights.sky].light, room->sky_rays.direction, film.count,
               &radiance->sky);
 }

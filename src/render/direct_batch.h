@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/direct_batch.h: a batch in the direct integrator, its result and its buffers.
+// render/direct_batch.h: the plan of the direct integrator, and a batch in it, its result and its
+// buffers.
 #pragma once
 
 #include <memory>
 #include <vector>
 
-#include "render/direct_plan.h"
-#include "render/stage_clock.h"
+#include "render/hits_plan.h"
+#include "render/lights_plan.h"
+#include "render/shadow_plan.h"
 #include "render/stats.h"
 #include "render/surfaces.h"
 #include "sampling/pair_sampler.h"
@@ -14,6 +16,15 @@
 #include "shading/light_sampling.h"
 
 namespace nacre {
+
+// What the integrator of direct light (direct.h) reads: the plans of the lights and of their shadow
+// rays, and the shapes that these rays may hit.
+struct DirectPlan {
+  TracedShapes shapes;
+  LightsPlan lights;
+  ShadowPlan shadows;
+  bool offset_shadow_origins = false;  // PlanShadowOrigins: some do not start at their hits
+};
 
 // The result of an integrator for a batch: radiance by hit, except `sky`.
 struct BatchRadiance {
@@ -27,7 +38,7 @@ struct SampledRoom {
   UnitPoints points{kBatchCapacity};
   LightDirections directions;
   AlignedArray<float> diffuse_pdf{kBatchCapacity}, glossy_pdf{kBatchCapacity};  // of the BSDF
-  AlignedArray<float> pdf{kBatchCapacity}, weight{kBatchCapacity};
+  AlignedArray<float> weight{kBatchCapacity};
   AlignedArray<uint8_t> closed_form{kBatchCapacity};  // 1: diffuse reflection in closed form
   Soa3<float> irradiance;                             // LightIrradiance
   ReflectedRadiance unit;                             // of a light of colour 1

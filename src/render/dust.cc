@@ -69,9 +69,7 @@ class DustFinder {
     whole_.assign(triangle.begin(), triangle.end());
     const auto reached = [&](const Polygon& polygon, int axis, int from, int to) {
       const auto along = [&](const Vec2d& p) { return axis == 0 ? p.x : p.y; };
-      const auto [low, high] =
-          std::minmax_element(polygon.begin(), polygon.end(),
-                              [&](const Vec2d& a, const Vec2d& b) { return along(a) < along(b); });
+      const auto [low, high] = std::ranges::minmax_element(polygon, {}, along);
       return Reached(along(*low), along(*high), from, to);
     };
     const Range rows = reached(whole_, 1, cell_.y0, cell_.y1);
@@ -95,8 +93,7 @@ class DustFinder {
 
   // Stores the patches of the pixels, and the shares of the pixels that they cover.
   void Finish(CellDust* dust) {
-    std::stable_sort(all_.begin(), all_.end(),
-                     [](const auto& a, const auto& b) { return a.pixel < b.pixel; });
+    std::ranges::stable_sort(all_, {}, &PatchOfPixel::pixel);
     dust->patches.clear();
     size_t next = 0;
     for (uint32_t pixel = 0; pixel < kCellPixels; ++pixel) {

@@ -2,7 +2,6 @@
 #include "render/evidence.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -23,13 +22,13 @@ struct PixelEvidence {
   HitKind kind;
   double contrast;  // largest difference of its samples in any channel
   double single;    // the largest difference of one extreme sample from the next to it
-  bool isolated;    // the means of its neighbours do not explain the contrast
+  bool isolated;    // the contrast is more than twice that of the means around the pixel
 };
 
 // Whether a rare feature may be hidden in the pixel.
-bool MayHideFeatures(const CellDust& dust, const BlockEdges& edges, uint32_t pixel) {
-  if (dust.sampled_share[pixel] < 1) return dust.sampled_share[pixel] > 0;
-  return (edges.only_outlines >> pixel / kBlockPixels & 1) == 0;
+bool MayHideFeatures(const CellState& c, uint32_t pixel) {
+  if (c.dust.sampled_share[pixel] < 1) return c.dust.sampled_share[pixel] > 0;
+  return (c.edges.only_outlines >> pixel / kBlockPixels & 1) == 0;
 }
 
 double SamplesTaken(const CellSamples& samples, uint32_t pixel) {
@@ -51,10 +50,6 @@ HitKind Classify(const CellSamples& samples, uint32_t pixel) {
   return std::abs(hits - count) < 1e-6 * count ? kHits : kMixed;
 }
 
-double ToleranceOf(const CellIntervals& intervals, uint32_t pixel) {
-  return intervals[pixel / kBlockPixels].tolerance[pixel % kBlockPixels];
-}
-
 // The range of the means of the pixel and its neighbours in the cell.
 PixelRange RangeOfMeans(const CellSamples& samples, uint32_t pixel, size_t channel) {
   const FilmPixel at = PixelOf({}, pixel);
@@ -73,13 +68,6 @@ PixelRange RangeOfMeans(const CellSamples& samples, uint32_t pixel, size_t chann
   return range;
 }
 
-// Whether the contrast of the pixel's samples is more than twice that of the means around it. At an
-// edge between two areas of the picture it is not, because both sides appear among the neighbours.
-bool IsIsolated(const CellSamples& samples, uint32_t pixel, size_t channel, double contrast) {
-  const PixelRange means = RangeOfMeans(samples, pixel, channel);
-  return 2 * (means.high - means.low) < contrast;
-}
-
 PixelEvidence EvidenceOf(const CellSamples& samples, const CellEvidence& of, uint32_t pixel) {
   PixelEvidence evidence{pixel, Classify(samples, pixel), 0, 0, false};
   size_t widest = 0;
@@ -93,8 +81,10 @@ PixelEvidence EvidenceOf(const CellSamples& samples, const CellEvidence& of, uin
     evidence.contrast = highest - lowest;
     widest = channel;
   }
-  evidence.isolated =
-      evidence.contrast > 0 && IsIsolated(samples, pixel, widest, evidence.contrast);
+  if (!(evidence.contrast > 0)) return evidence;
+  // At an edge between two areas of the picture, both sides appear among the neighbours.
+  const PixelRange means = RangeOfMeans(samples, pixel, widest);
+  evidence.isolated = 2 * (means.high - means.low) < evidence.contrast;
   return evidence;
 }
 
@@ -111,8 +101,8 @@ bool IsInner(uint32_t pixel) {
 }
 
 // Whether all rare features of the pixel that matter are known beforehand.
-bool IsExplained(const KnownFeatures& known, const CellEvidence& evidence, uint32_t pixel) {
-  return evidence.required_samples[pixel] > 0 && !known.has_other_texels[pixel];
+bool IsExplained(const CellState& c, uint32_t pixel) {
+  return c.evidence.required_samples[pixel] > 0 && !c.known.has_other_texels[pixel];
 }
 
 // The error of the pixel's mean if no sample has hit this rare feature. It counts only as far as it
@@ -144,35 +134,33 @@ double SamplesForParts(std::span<const RarePart> of_pixel, const CellSamples& sa
 }
 
 // Sets required_samples of the pixels that have samples.
-void RequireKnownFeatures(const EvidenceInputs& from, const CellIntervals& intervals,
-                          double* required_samples) {
+void RequireKnownFeatures(CellState* c) {
+  double* const required_samples = c->evidence.required_samples;
   for (uint32_t pixel = 0; pixel < kCellPixels; ++pixel) {
-    const bool matters = 2 * from.known.radiance[pixel] > ToleranceOf(intervals, pixel);
-    required_samples[pixel] = matters ? from.known.samples[pixel] : 0;
+    const bool matters = 2 * c->known.radiance[pixel] > c->intervals.tolerance[pixel];
+    required_samples[pixel] = matters ? c->known.samples[pixel] : 0;
   }
-  const std::vector<RarePart>& all = from.known.parts;
+  const std::vector<RarePart>& all = c->known.parts;
   for (size_t first = 0, end = 0; first < all.size(); first = end) {
     const uint32_t pixel = all[first].pixel;
     while (end < all.size() && all[end].pixel == pixel) ++end;
-    if (from.samples.count[pixel] == 0) continue;
+    if (c->samples.count[pixel] == 0) continue;
     required_samples[pixel] =
         std::max(required_samples[pixel],
-                 SamplesForParts({all.data() + first, end - first}, from.samples,
-                                 from.dust.sampled_share[pixel], ToleranceOf(intervals, pixel)));
+                 SamplesForParts({all.data() + first, end - first}, c->samples,
+                                 c->dust.sampled_share[pixel], c->intervals.tolerance[pixel]));
   }
 }
 
 // Pools the evidence of all pixels except those of the kind `left_out` and those whose rare
 // features are known: a known feature is known in every pixel that has it.
-Pool MakePool(const KnownFeatures& known, const CellEvidence& evidence,
-              const CellIntervals& intervals, const std::vector<PixelEvidence>& all,
-              HitKind left_out) {
+Pool MakePool(const CellState& c, const std::vector<PixelEvidence>& all, HitKind left_out) {
   Pool pool;
   size_t inner = 0, witnesses = 0;
   for (const PixelEvidence& e : all) {
-    if (e.kind == left_out || !IsInner(e.pixel) || IsExplained(known, evidence, e.pixel)) continue;
+    if (e.kind == left_out || !IsInner(e.pixel) || IsExplained(c, e.pixel)) continue;
     ++inner;
-    if (!e.isolated || e.single <= ToleranceOf(intervals, e.pixel)) continue;
+    if (!e.isolated || e.single <= c.intervals.tolerance[e.pixel]) continue;
     pool.contrast += e.single;
     ++witnesses;
   }
@@ -192,10 +180,6 @@ double RequiredSamples(const Pool& pool, double tolerance, double samples) {
   return std::max(std::log(affected / kAllowedShare), 0.0) / least;
 }
 
-void RejectInterval(uint32_t pixel, CellIntervals* intervals) {
-  (*intervals)[pixel / kBlockPixels].narrow &= ~(1u << pixel % kBlockPixels);
-}
-
 }  // namespace
 
 void ClearEvidence(CellEvidence* evidence) {
@@ -206,30 +190,26 @@ void ClearEvidence(CellEvidence* evidence) {
     std::fill_n(&high[0][0], 3 * kCellPixels, -kInfinity);
 }
 
-void RequireEvidence(const EvidenceInputs& from, CellEvidence* evidence, CellIntervals* intervals) {
-  RequireKnownFeatures(from, *intervals, evidence->required_samples);
+void RequireEvidence(CellState* c) {
+  RequireKnownFeatures(c);
   std::vector<PixelEvidence> all;
-  for (const uint32_t pixel : from.active) {
-    if (!MayHideFeatures(from.dust, from.edges, pixel)) continue;
-    all.push_back(EvidenceOf(from.samples, *evidence, pixel));
+  for (const uint32_t pixel : c->active) {
+    if (MayHideFeatures(*c, pixel)) all.push_back(EvidenceOf(c->samples, c->evidence, pixel));
   }
   // Pixels that miss are judged by misses and mixed pixels, all others by hits and mixed pixels.
-  std::array<Pool, 3> pools;
-  pools[kMisses] = MakePool(from.known, *evidence, *intervals, all, kHits);
-  pools[kHits] = MakePool(from.known, *evidence, *intervals, all, kMisses);
-  pools[kMixed] = pools[kHits];
+  const Pool of_misses = MakePool(*c, all, kHits), of_hits = MakePool(*c, all, kMisses);
   for (const PixelEvidence& e : all) {
-    const Pool& pool = pools[e.kind];
-    const double tolerance = ToleranceOf(*intervals, e.pixel);
-    const double samples = SamplesTaken(from.samples, e.pixel);
+    const double tolerance = c->intervals.tolerance[e.pixel];
+    const double samples = SamplesTaken(c->samples, e.pixel);
     const bool enough_for_pixel =
-        from.outlines.coverage[e.pixel] >= 0 || samples * tolerance >= kByChance * e.contrast;
-    const bool enough_for_cell = samples >= RequiredSamples(pool, tolerance, samples);
-    if (!enough_for_pixel || !enough_for_cell) RejectInterval(e.pixel, intervals);
+        c->outlines.coverage[e.pixel] >= 0 || samples * tolerance >= kByChance * e.contrast;
+    const bool enough_for_cell =
+        samples >= RequiredSamples(e.kind == kMisses ? of_misses : of_hits, tolerance, samples);
+    if (!enough_for_pixel || !enough_for_cell) c->intervals.narrow[e.pixel] = false;
   }
-  for (const uint32_t pixel : from.active) {
-    if (SamplesTaken(from.samples, pixel) < evidence->required_samples[pixel]) {
-      RejectInterval(pixel, intervals);
+  for (const uint32_t pixel : c->active) {
+    if (SamplesTaken(c->samples, pixel) < c->evidence.required_samples[pixel]) {
+      c->intervals.narrow[pixel] = false;
     }
   }
 }

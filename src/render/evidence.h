@@ -26,7 +26,6 @@
 // region that is rendered.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "render/cell_film.h"
@@ -48,8 +47,8 @@ inline constexpr double kByChance = 1.80;
 // sum of the fourth powers of the Poisson probabilities).
 inline constexpr double kExpectedHits = 2 * kReplicates;
 
-// A rare feature of a pixel whose radiance is known: triangles of one material (rare_triangles.h),
-// or texels that look alike (rare_texels.h).
+// A rare feature of a pixel whose radiance is known: triangles of one material (rare_triangles.cc),
+// or texels that look alike (rare_texels.cc).
 struct RarePart {
   uint32_t pixel;
   double share;  // of the pixel's samples that hit it
@@ -77,18 +76,20 @@ struct CellEvidence {
 // Must be called before a cell's first sample.
 void ClearEvidence(CellEvidence* evidence);
 
-// What evidence is judged by.
-struct EvidenceInputs {
-  std::span<const uint32_t> active;  // pixels
-  const CellSamples& samples;
-  const BlockEdges& edges;
-  const OutlinePixels& outlines;
-  const CellDust& dust;
-  const KnownFeatures& known;
+// What adaptive sampling (adaptive.h) knows about the pixels of one cell.
+struct CellState {
+  std::vector<uint32_t> active;  // pixels that need more samples
+  CellSamples samples;
+  CellIntervals intervals;  // of blocks with active pixels
+  BlockEdges edges;
+  OutlinePixels outlines;
+  CellDust dust;
+  KnownFeatures known;
+  CellEvidence evidence;
 };
 
-// Must be called after a level: sets required_samples, and clears BlockIntervals::narrow of active
+// Must be called after a level: sets required_samples, and clears CellIntervals::narrow of active
 // pixels that do not have enough samples for it.
-void RequireEvidence(const EvidenceInputs& from, CellEvidence* evidence, CellIntervals* intervals);
+void RequireEvidence(CellState* cell);
 
 }  // namespace nacre

@@ -29,6 +29,10 @@ void UseBuffers(size_t pixels, std::vector<AlignedArray<T>>* buffers,
   }
 }
 
+size_t CountChannels(const FilmPlan& plan, ChannelKind kind) {
+  return static_cast<size_t>(std::ranges::count(plan.channels, kind, &PlannedChannel::kind));
+}
+
 }  // namespace
 
 std::vector<ChannelSpec> StripChannels(const std::vector<Layer>& layers, PixelType color_type) {
@@ -65,19 +69,21 @@ FilmPlan PlanFilm(const Scene& scene, const RenderSettings& settings, std::vecto
                   Explanation* why) {
   FilmPlan plan;
   plan.layers = std::move(layers);
-  for (const Layer& layer : plan.layers) {
-    for (const ChannelSpec& channel : LayerChannels(layer, PixelType::kFloat)) {
-      plan.channels.push_back(IsAveraged(layer.kind)             ? ChannelKind::kAveraged
-                              : channel.type == PixelType::kUint ? ChannelKind::kId
-                                                                 : ChannelKind::kNearest);
-    }
-  }
   plan.camera = camera;
   plan.spp = scene.image.spp;
   plan.weight = 0;
   for (int i = 0; i < plan.spp; ++i) plan.weight += SampleWeight(sampler, i);
   plan.background = lights.background;
   plan.sky = lights.sky.has_value();
+  for (const Layer& layer : plan.layers) {
+    const Rgb background = BackgroundOf(layer, plan);
+    const bool averaged = IsAveraged(layer.kind);
+    for (int c = 0; c < FloatChannels(layer.kind); ++c) {
+      plan.channels.push_back(
+          {averaged ? ChannelKind::kAveraged : ChannelKind::kNearest, background[c]});
+    }
+    if (FloatChannels(layer.kind) == 0) plan.channels.push_back({ChannelKind::kId, 0});
+  }
   const char* const reason = settings.max_error > 0  ? "pixels take as many samples as they need"
                              : plan.spp > 1          ? "a pixel takes several samples"
                              : settings.general_path ? "the general path is asked for"
@@ -92,8 +98,7 @@ FilmPlan PlanFilm(const Scene& scene, const RenderSettings& settings, std::vecto
 }
 
 void StartStrip(const FilmPlan& plan, const Window& window, Image* image, Strip* strip) {
-  size_t ids = 0;
-  for (const ChannelKind kind : plan.channels) ids += kind == ChannelKind::kId ? 1 : 0;
+  const size_t ids = CountChannels(plan, ChannelKind::kId);
   strip->window = window;
   strip->colors.resize(plan.channels.size() - ids);
   strip->ids.resize(ids);
@@ -108,18 +113,14 @@ void StartStrip(const FilmPlan& plan, const Window& window, Image* image, Strip*
 
 void StartTile(const FilmPlan& plan, const Window& tile, size_t capacity, TileFilm* film) {
   film->window = tile;
-  const auto count = [&](ChannelKind kind) {
-    return static_cast<size_t>(std::count(plan.channels.begin(), plan.channels.end(), kind));
+  const auto make_room = [&](ChannelKind kind, auto* channels) {
+    while (channels->size() < CountChannels(plan, kind)) channels->emplace_back(capacity);
   };
-  while (film->sums.size() < count(ChannelKind::kAveraged)) {
-    film->sums.emplace_back(capacity);
-  }
+  make_room(ChannelKind::kAveraged, &film->sums);
   const size_t pixels = tile.pixel_count();
   for (AlignedArray<double>& sums : film->sums) std::fill_n(sums.data(), pixels, 0.0);
-  while (film->nearest.size() < count(ChannelKind::kNearest)) {
-    film->nearest.emplace_back(capacity);
-  }
-  while (film->ids.size() < count(ChannelKind::kId)) film->ids.emplace_back(capacity);
+  make_room(ChannelKind::kNearest, &film->nearest);
+  make_room(ChannelKind::kId, &film->ids);
   if (film->nearest.empty() && film->ids.empty()) return;
   if (film->nearest_distance2.size() == 0) {
     film->nearest_distance2 = AlignedArray<double>(capacity);
@@ -147,13 +148,11 @@ Rgb BackgroundOf(const Layer& layer, const FilmPlan& plan) {
 
 void FillBackground(const FilmPlan& plan, const Window& tile, Strip* strip) {
   size_t color = 0;
-  for (const Layer& layer : plan.layers) {
-    const Rgb background = IsAveraged(layer.kind) ? BackgroundOf(layer, plan) : Rgb(0, 0, 0);
+  for (const PlannedChannel& channel : plan.channels) {
+    if (channel.kind == ChannelKind::kId) continue;
     // Computed as if from sums of 0, so that a background of -0 becomes 0.
-    const Rgb mean = (Rgb(0, 0, 0) + background * plan.weight) * (1.0 / plan.spp);
-    for (int c = 0; c < FloatChannels(layer.kind); ++c) {
-      FillPixels(static_cast<float>(mean[c]), RowsIn(strip->window, tile, strip->colors[color++]));
-    }
+    const double mean = (0.0 + channel.background * plan.weight) * (1.0 / plan.spp);
+    FillPixels(static_cast<float>(mean), RowsIn(strip->window, tile, strip->colors[color++]));
   }
   for (const std::span<uint32_t> channel : strip->ids) {
     const PixelRows<uint32_t> rows = RowsIn(strip->window, tile, channel);
@@ -169,16 +168,14 @@ void ResolveTile(const FilmPlan& plan, const TileFilm& film, Strip* strip) {
   if (pixels == 0) return;
   const double* const coverage = film.sums[kAlphaSum].data();
   size_t sum = 0, nearest = 0, color = 0;
-  for (const Layer& layer : plan.layers) {
-    const Rgb background = BackgroundOf(layer, plan);
-    for (int c = 0; c < FloatChannels(layer.kind); ++c) {
-      const PixelRows<float> rows = RowsIn(strip->window, film.window, strip->colors[color++]);
-      if (IsAveraged(layer.kind)) {
-        RoundSums(film.sums[sum++].data(), coverage, {background[c], plan.weight, 1.0 / plan.spp},
-                  film.runs, film.window, rows);
-      } else {
-        CopyTile(film.nearest[nearest++], rows);
-      }
+  for (const auto& [kind, background] : plan.channels) {
+    if (kind == ChannelKind::kId) continue;
+    const PixelRows<float> rows = RowsIn(strip->window, film.window, strip->colors[color++]);
+    if (kind == ChannelKind::kAveraged) {
+      RoundSums(film.sums[sum++].data(), coverage, {background, plan.weight, 1.0 / plan.spp},
+                film.runs, film.window, rows);
+    } else {
+      CopyTile(film.nearest[nearest++], rows);
     }
   }
   for (size_t id = 0; id < strip->ids.size(); ++id) {

@@ -19,9 +19,14 @@
 
 namespace nacre {
 
+struct PlannedChannel {
+  ChannelKind kind;
+  double background;  // BackgroundOf
+};
+
 struct FilmPlan {
-  std::vector<Layer> layers;          // beauty, alpha, then those of the settings
-  std::vector<ChannelKind> channels;  // of the layers, in their order
+  std::vector<Layer> layers;             // beauty, alpha, then those of the settings
+  std::vector<PlannedChannel> channels;  // of the layers, in their order
   CameraFrame camera{};
   int spp = 1;
   double weight = 1;        // sum of the weights of a pixel's samples
@@ -90,7 +95,7 @@ bool ShowsNearest(const std::vector<Layer>& layers);
 // film is used for, at most kBatchCapacity.
 void StartTile(const FilmPlan& plan, const Window& tile, size_t capacity, TileFilm* film);
 
-// The value of a layer where nothing is hit, representable in float.
+// The value of a layer where nothing is hit, representable in float. 0 if it is the sky's.
 Rgb BackgroundOf(const Layer& layer, const FilmPlan& plan);
 
 // Whether the layer shows the background.

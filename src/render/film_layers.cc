@@ -20,7 +20,7 @@ struct LayerValues {
   const Soa3<float>* emission = nullptr;
 };
 
-LayerValues ValuesShown(const Layer& layer, size_t light_layer, const ShadingMaterial& constants,
+LayerValues ValuesShown(const Layer& layer, const ShadingMaterial& constants,
                         const ShadedBatch& s) {
   // If not null, each hit has its own ambient, emission and albedo.
   const HitParameters* const maps =
@@ -57,7 +57,7 @@ LayerValues ValuesShown(const Layer& layer, size_t light_layer, const ShadingMat
       if (maps != nullptr) return {.values = &maps->albedo};
       return {.constant = RoundToFloat(constants.albedo)};
     case LayerKind::kLight:
-      return {.values = &s.radiance.per_light[light_layer]};
+      return {.values = &s.radiance.per_light[layer.number]};
     default:
       return {.values = &s.surfaces.surface.normal};
   }
@@ -108,17 +108,16 @@ int ChannelsWithCoverage(LayerKind kind) {
 }
 
 // Adds a layer of a batch whose only run has the spans in `room`.
-void AddRun(const Layer& layer, size_t light_layer, const ShadedBatch& batch, const LayerRoom& room,
+void AddRun(const Layer& layer, const ShadedBatch& batch, const LayerRoom& room,
             double* const* sums) {
-  const ShadingMaterial& constants = *batch.surfaces.runs[0].shading;
-  const LayerValues shown = ValuesShown(layer, light_layer, constants, batch);
+  const LayerValues shown = ValuesShown(layer, *batch.surfaces.runs[0].shading, batch);
   AddHits(ValuesOf(shown, ChannelsWithCoverage(layer.kind)), room.spans, sums);
 }
 
 // Adds a layer of any batch of a tile of `pixels` pixels.
-void AddRays(const FilmPlan& plan, const Layer& layer, size_t light_layer, size_t pixels,
-             const ShadedBatch& batch, LayerRoom* room, double* const* sums) {
-  Soa3<double>& values = GatherLayer(plan, layer, light_layer, Rgb(0, 0, 0), batch, room);
+void AddRays(const FilmPlan& plan, const Layer& layer, size_t pixels, const ShadedBatch& batch,
+             LayerRoom* room, double* const* sums) {
+  Soa3<double>& values = GatherLayer(plan, layer, Rgb(0, 0, 0), batch, room);
   const std::vector<double>& weights = batch.samples.weights;
   for (int c = 0; c < FloatChannels(layer.kind); ++c) {
     AddSamples(ChannelOf(values, c).data(), weights.data(), static_cast<int>(weights.size()),
@@ -178,14 +177,14 @@ void StoreNearest(const FilmPlan& plan, const ShadedBatch& batch, size_t hit, si
   }
 }
 
-Soa3<double>& GatherLayer(const FilmPlan& plan, const Layer& layer, size_t light_layer,
-                          const Rgb& background, const ShadedBatch& batch, LayerRoom* room) {
+Soa3<double>& GatherLayer(const FilmPlan& plan, const Layer& layer, const Rgb& background,
+                          const ShadedBatch& batch, LayerRoom* room) {
   const std::vector<MaterialRun>& runs = batch.surfaces.runs;
   const int channels = FloatChannels(layer.kind);
   const size_t hits = batch.hits().count;
   if (hits > 0) {
     for (const MaterialRun& run : runs) {
-      const LayerValues shown = ValuesShown(layer, light_layer, *run.shading, batch);
+      const LayerValues shown = ValuesShown(layer, *run.shading, batch);
       for (int c = 0; c < channels; ++c) {
         FillRun(shown, c, run, ChannelOf(room->hit_values, c).data());
       }
@@ -207,7 +206,6 @@ void AddToFilm(const FilmPlan& plan, const ShadedBatch& batch, LayerRoom* room, 
   const bool in_order = hits > 0 && runs.size() == 1 && HasConstants(runs[0]);
   if (in_order) FindRunSpans(runs[0], pixels, pixels, batch, room);
   size_t sum = 0;
-  size_t light_layer = 0;
   for (const Layer& layer : plan.layers) {
     if (!IsAveraged(layer.kind)) continue;
     double* sums[4] = {};
@@ -218,11 +216,10 @@ void AddToFilm(const FilmPlan& plan, const ShadedBatch& batch, LayerRoom* room, 
     const bool sees_sky = plan.sky && ShowsBackground(layer);
     if (in_order && !sees_sky) {
       const bool is_added = layer.kind == LayerKind::kAlpha && !plan.sky;
-      if (!is_added) AddRun(layer, light_layer, batch, *room, sums);
+      if (!is_added) AddRun(layer, batch, *room, sums);
     } else if (hits > 0 || sees_sky) {
-      AddRays(plan, layer, light_layer, pixels, batch, room, sums);
+      AddRays(plan, layer, pixels, batch, room, sums);
     }
-    if (layer.kind == LayerKind::kLight) ++light_layer;
   }
   AddNearest(
       plan, batch, [&](uint32_t ray) { return RowPixel(film->window, ray); }, room, film);
@@ -235,17 +232,16 @@ bool StoreOnlySamples(const FilmPlan& plan, const ShadedBatch& batch, const Wind
   if (batch.hits().count < batch.samples.film.count) FillBackground(plan, tile, strip);
   for (const MaterialRun& run : runs) {
     FindRunSpans(run, tile.pixel_count(), static_cast<size_t>(tile.width()), batch, room);
-    size_t color = 0, light_layer = 0;
+    size_t color = 0;
     for (const Layer& layer : plan.layers) {
       if (layer.kind == LayerKind::kAlpha) continue;  // written with the beauty
-      const LayerValues shown = ValuesShown(layer, light_layer, *run.shading, batch);
+      const LayerValues shown = ValuesShown(layer, *run.shading, batch);
       const int channels = ChannelsWithCoverage(layer.kind);
       PixelRows<float> rows[4] = {};
       for (int c = 0; c < channels; ++c) {
         rows[c] = RowsIn(strip->window, tile, strip->colors[color++]);
       }
       StoreHits(ValuesOf(shown, channels), room->spans, rows);
-      if (layer.kind == LayerKind::kLight) ++light_layer;
     }
   }
   return true;

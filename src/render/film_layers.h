@@ -30,10 +30,9 @@ struct LayerRoom {
 };
 
 // Returns the values of an averaged layer by ray of the batch, in a buffer of the room. Rays that
-// hit nothing have the value `background`, or the radiance of the sky. `light_layer` is the number
-// of the layer among the light layers, if it is one.
-Soa3<double>& GatherLayer(const FilmPlan& plan, const Layer& layer, size_t light_layer,
-                          const Rgb& background, const ShadedBatch& batch, LayerRoom* room);
+// hit nothing have the value `background`, or the radiance of the sky.
+Soa3<double>& GatherLayer(const FilmPlan& plan, const Layer& layer, const Rgb& background,
+                          const ShadedBatch& batch, LayerRoom* room);
 
 // Sets P, Z and ids of the film's entry `pixel` to those of a hit.
 void StoreNearest(const FilmPlan& plan, const ShadedBatch& batch, size_t hit, size_t pixel,

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/image.h"
+#include "render/cell.h"
 #include "sampling/pixel_filter.h"
 
 namespace nacre {
@@ -20,14 +20,8 @@ inline double ShareBetween(const PixelFilter& filter, double from, double to) {
   return std::abs(below(to) - below(from));
 }
 
-// A box on the film, in pixels.
-struct FilmBox {
-  double x, y;  // of its centre
-  double half_width, half_height;
-};
-
-// The pixels of the window whose samples may lie in the box.
-inline Window PixelsOver(const PixelFilter& filter, const Window& window, const FilmBox& box) {
+// The pixels of the cell whose samples may lie in the box.
+inline Window PixelsOver(const PixelFilter& filter, const Window& cell, const FilmBox& box) {
   const double radius = filter.width / 2;
   const auto first = [&](double at, double half, int from) {
     return std::max(static_cast<int>(std::floor(at - 0.5 - radius - half)), from);
@@ -35,17 +29,17 @@ inline Window PixelsOver(const PixelFilter& filter, const Window& window, const 
   const auto end = [&](double at, double half, int to) {
     return std::min(static_cast<int>(std::ceil(at - 0.5 + radius + half)) + 1, to);
   };
-  return {first(box.x, box.half_width, window.x0), first(box.y, box.half_height, window.y0),
-          end(box.x, box.half_width, window.x1), end(box.y, box.half_height, window.y1)};
+  return {first(box.x, box.half_width, cell.x0), first(box.y, box.half_height, cell.y0),
+          end(box.x, box.half_width, cell.x1), end(box.y, box.half_height, cell.y1)};
 }
 
-// Calls add(column, row, share) for each pixel of PixelsOver, with the share of its samples that
-// lies in the box. Columns and rows count from the window's corner.
+// Calls add(pixel, share) for each pixel of PixelsOver, with the share of its samples that lies in
+// the box.
 template <class Add>
-void ForEachShare(const PixelFilter& filter, const Window& window, const FilmBox& box,
+void ForEachShare(const PixelFilter& filter, const Window& cell, const FilmBox& box,
                   const Add& add) {
   constexpr int kMaxColumns = 32;  // filters are up to 16 pixels wide, boxes up to 2
-  const Window pixels = PixelsOver(filter, window, box);
+  const Window pixels = PixelsOver(filter, cell, box);
   double of_columns[kMaxColumns];
   for (int x = pixels.x0; x < pixels.x1; ++x) {
     const double across = box.x - (x + 0.5);
@@ -56,7 +50,7 @@ void ForEachShare(const PixelFilter& filter, const Window& window, const FilmBox
     const double down = box.y - (y + 0.5);
     const double of_row = ShareBetween(filter, down - box.half_height, down + box.half_height);
     for (int x = pixels.x0; x < pixels.x1; ++x) {
-      add(x - window.x0, y - window.y0, of_row * of_columns[x - pixels.x0]);
+      add(PixelAt(x - cell.x0, y - cell.y0), of_row * of_columns[x - pixels.x0]);
     }
   }
 }

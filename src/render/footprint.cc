@@ -6,17 +6,17 @@
 #include <cstddef>
 #include <vector>
 
+#include <Imath/ImathBox.h>
+
 namespace nacre {
 namespace {
 
 // The part of the film, in pixels, that the samples of a block lie in.
-struct Footprint {
-  double x0, y0, x1, y1;
-};
+using Footprint = Imath::Box2d;
 
 Footprint FootprintOf(const Window& block, double filter_radius) {
-  return {block.x0 + 0.5 - filter_radius, block.y0 + 0.5 - filter_radius,
-          block.x1 - 0.5 + filter_radius, block.y1 - 0.5 + filter_radius};
+  return {Vec2d(block.x0 + 0.5 - filter_radius, block.y0 + 0.5 - filter_radius),
+          Vec2d(block.x1 - 0.5 + filter_radius, block.y1 - 0.5 + filter_radius)};
 }
 
 // A cone around a footprint's rays. The film is flat, so the rays farthest from the axis go
@@ -30,10 +30,11 @@ FootprintCone BoundingCone(const CameraFrame& frame, const Footprint& f) {
   const auto direction = [&](double x, double y) {
     return (frame.corner + frame.step_x * x + frame.step_y * y).normalized();
   };
-  FootprintCone cone{direction((f.x0 + f.x1) / 2, (f.y0 + f.y1) / 2), 0};
+  FootprintCone cone{direction(f.center().x, f.center().y), 0};
   double cosine = 1;
-  for (const double x : {f.x0, f.x1}) {
-    for (const double y : {f.y0, f.y1}) cosine = std::min(cosine, cone.axis.dot(direction(x, y)));
+  for (const double x : {f.min.x, f.max.x}) {
+    for (const double y : {f.min.y, f.max.y})
+      cosine = std::min(cosine, cone.axis.dot(direction(x, y)));
   }
   // At small angles the cosine's rounding error becomes its square root in the angle.
   cone.half_angle = std::acos(cosine) + 1e-7;
@@ -44,7 +45,8 @@ FootprintCone BoundingCone(const CameraFrame& frame, const Footprint& f) {
 bool MissesSphere(const FramePlan& plan, const Footprint& f, const FootprintCone& cone,
                   const SphereProjection& projection) {
   const ProjectedBounds& b = projection.bounds;
-  if (!b.visible || f.x1 < b.x0 || b.x1 < f.x0 || f.y1 < b.y0 || b.y1 < f.y0) return true;
+  if (!b.visible || f.max.x < b.x0 || b.x1 < f.min.x || f.max.y < b.y0 || b.y1 < f.min.y)
+    return true;
   if (plan.camera.projection != Projection::kPerspective) return false;
   const double cosine = std::clamp(cone.axis.dot(projection.axis), -1.0, 1.0);
   return std::acos(cosine) > projection.half_angle + cone.half_angle + 1e-7;
@@ -52,27 +54,28 @@ bool MissesSphere(const FramePlan& plan, const Footprint& f, const FootprintCone
 
 // Counts, for each block, the corners of its footprint that hit. The projection of a sphere is
 // convex: if all four corners hit the same sphere, it covers the block.
-void CountCornerHits(const FramePlan& plan, const Window& cell, const TileCandidates& spheres,
-                     FootprintRoom* room, int (&counts)[kCellBlocks]) {
-  FilmBatch& corners = room->corners;
+void CountCornerHits(const FramePlan& plan, const Window& cell, TileWork* work,
+                     int (&counts)[kCellBlocks]) {
+  FilmBatch& corners = work->samples.film;
   for (size_t block = 0; block < kCellBlocks; ++block) {
     const Footprint f = FootprintOf(BlockWindow(cell, block), plan.adaptive.filter_radius);
-    const double x[4] = {f.x0, f.x1, f.x0, f.x1};
-    const double y[4] = {f.y0, f.y0, f.y1, f.y1};
+    const double x[4] = {f.min.x, f.max.x, f.min.x, f.max.x};
+    const double y[4] = {f.min.y, f.min.y, f.max.y, f.max.y};
     std::copy_n(x, 4, corners.x.data() + 4 * block);
     std::copy_n(y, 4, corners.y.data() + 4 * block);
   }
   corners.count = 4 * kCellBlocks;
-  HitBatch& hits = room->corner_hits.batch;
-  plan.hits.shapes.intersector->HitsInTile(spheres, corners,
-                                           {&hits, &room->corner_hits.directions, false, false});
+  HitBatch& hits = work->hits.batch;
+  plan.hits.shapes.intersector->HitsInTile(work->shapes.spheres, corners,
+                                           {&hits, &work->hits.directions, false, false});
   for (size_t i = 0; i < hits.count; ++i) ++counts[hits.ray[i] / 4];
 }
 
 // Whether no light's shadow can fall on the sphere.
 bool IsUnshadowed(const FramePlan& plan, uint32_t sphere) {
-  return std::all_of(plan.direct.shadows.punctual.begin(), plan.direct.shadows.punctual.end(),
-                     [&](const LightShadows& light) { return NeverShadowed(light, sphere); });
+  return std::ranges::all_of(plan.direct.shadows.punctual, [&](const LightShadows& light) {
+    return NeverShadowed(light, sphere);
+  });
 }
 
 // Whether the spheres may intersect, in a curve that is an edge but no outline.
@@ -143,15 +146,13 @@ bool ResolvesLobe(const Soa3<float>& normals, const uint32_t* hits, double width
 }  // namespace
 
 BlockEdges FindEdges(const FramePlan& plan, const Window& cell, uint32_t blocks,
-                     const TileCandidates& spheres, const CellProjections& projections,
-                     FootprintRoom* room) {
+                     const CellProjections& projections, TileWork* work) {
   BlockEdges edges;
   if (!plan.adaptive.footprints || !projections) return edges;
   int corners[kCellBlocks] = {};
-  CountCornerHits(plan, cell, spheres, room, corners);
+  CountCornerHits(plan, cell, work, corners);
   std::vector<const TileCandidate*> visible;
-  for (uint32_t left = blocks; left != 0; left &= left - 1) {
-    const auto block = static_cast<size_t>(__builtin_ctz(left));
+  ForEachBlock(blocks, [&](size_t block) {
     const uint32_t bit = 1u << block;
     const Footprint f = FootprintOf(BlockWindow(cell, block), plan.adaptive.filter_radius);
     const FootprintCone cone = BoundingCone(plan.camera, f);
@@ -159,11 +160,11 @@ BlockEdges FindEdges(const FramePlan& plan, const Window& cell, uint32_t blocks,
     for (const SphereProjection& projection : *projections) {
       if (!MissesSphere(plan, f, cone, projection)) visible.push_back(projection.candidate);
     }
-    if (!HasOnlyOutlines(plan, visible)) continue;
+    if (!HasOnlyOutlines(plan, visible)) return;
     edges.only_outlines |= bit;
     const bool covered = visible.size() == 1 && corners[block] == 4 && !visible[0]->around_camera;
     if ((visible.empty() && corners[block] == 0) || covered) edges.none |= bit;
-  }
+  });
   return edges;
 }
 

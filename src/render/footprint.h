@@ -14,16 +14,10 @@ struct BlockEdges {
   uint32_t only_outlines = 0;  // have no edges but outlines of spheres
 };
 
-// Buffers of FindEdges.
-struct FootprintRoom {
-  FilmBatch corners;
-  CameraHits corner_hits;
-};
-
-// Finds the edges of `blocks` among the cell's spheres.
+// Finds the edges of `blocks` among the cell's spheres, work->shapes.spheres. Traces rays through
+// the corners of blocks, before the cell's first sample.
 BlockEdges FindEdges(const FramePlan& plan, const Window& cell, uint32_t blocks,
-                     const TileCandidates& spheres, const CellProjections& projections,
-                     FootprintRoom* room);
+                     const CellProjections& projections, TileWork* work);
 
 // Whether, in a block without edges, the values at the centres of the pixels are within the
 // tolerance of the pixels' means: second differences are small, and no lobe is so narrow that it

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "base/printable.h"
-#include "render/brightest_object.h"
 #include "render/camera.h"
 #include "render/frame_window.h"
 #include "render/hit_positions.h"

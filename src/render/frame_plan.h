@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "render/adaptive_plan.h"
-#include "render/direct_plan.h"
+#include "render/direct_batch.h"
 #include "render/explanation.h"
 #include "render/film.h"
 #include "render/hits_plan.h"

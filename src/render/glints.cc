@@ -60,15 +60,11 @@ MirrorPoint FindMirrorPoint(double radius, double to_eye, double to_light, doubl
   return point;
 }
 
-PolarPoint LightFrom(const Vec3d& center, const HighlightLight& light) {
-  if (light.directional) return {light.position, kInfiniteDistance};
-  return PolarFrom(center, light.position);
-}
-
 void AddGlint(const FramePlan& plan, const Projector& projector, const TileCandidate& candidate,
               const HighlightLight& shown, double max_area, std::vector<Glint>* glints) {
   const TraceSphere& sphere = candidate.sphere;
-  const PolarPoint light = LightFrom(sphere.center, shown);
+  const PolarPoint light = shown.directional ? PolarPoint{shown.position, kInfiniteDistance}
+                                             : PolarFrom(sphere.center, shown.position);
   const PolarPoint eye = projector.perspective ? PolarFrom(sphere.center, {0, 0, 0})
                                                : PolarPoint{-projector.forward, kInfiniteDistance};
   if (!(light.distance > sphere.radius)) return;

@@ -31,9 +31,7 @@ void AddSuns(const ShadingSky& sky, std::vector<HighlightLight>* suns) {
     seen.push_back({sample.to_light, sample.texel.pdf * map.sum});
   }
   for (size_t i = 0; i < kMostSuns && !seen.empty(); ++i) {
-    const Seen brightest =
-        *std::max_element(seen.begin(), seen.end(),
-                          [](const Seen& a, const Seen& b) { return a.luminance < b.luminance; });
+    const Seen brightest = *std::ranges::max_element(seen, {}, &Seen::luminance);
     if (!(brightest.luminance * 4 * M_PI > kBrightness * map.sum)) return;
     Vec3d sum(0);
     size_t count = 0;
@@ -77,11 +75,9 @@ std::vector<HighlightLight> FindHighlightLights(const Scene& scene, const Lights
   }
   size_t number = lights.size();
   for (const PlannedSampledLight& planned : plan.sampled) {
-    const SampledLight& light = planned.light;
-    if (IsSky(light)) continue;
-    const Vec3d diagonal = light.edge_x + light.edge_y;  // of rectangles
-    lights.push_back(
-        {number++, false, light.place + diagonal / 2, light.radius + diagonal.length() / 2});
+    if (IsSky(planned.light)) continue;
+    const LightBall ball = BoundingBall(planned.light);
+    lights.push_back({number++, false, ball.center, ball.radius});
   }
   return lights;
 }

@@ -8,15 +8,13 @@
 namespace nacre {
 namespace {
 
-bool ReadsPositions(const PlannedPunctualLight& planned) {
-  return planned.light.form != LightForm::kDirectional && planned.light.from_spheres.empty();
-}
-
 // The reason why the positions of all hits are needed; null if there is none.
 const char* WhyAllPositions(const Scene& scene, const RenderSettings& settings,
                             const TracePlan& trace, const SurfacePlan& surfaces,
                             const LightsPlan& lights, const std::vector<Layer>& layers) {
-  const bool near = std::any_of(lights.punctual.begin(), lights.punctual.end(), ReadsPositions);
+  const bool near = std::ranges::any_of(lights.punctual, [](const PlannedPunctualLight& planned) {
+    return planned.light.form != LightForm::kDirectional && planned.light.from_spheres.empty();
+  });
   return settings.general_path            ? "the general path is asked for"
          : !trace.by_bins                 ? "camera rays go through a tree"
          : !scene.meshes.empty()          ? "spheres and triangles are sorted by depth"
@@ -48,12 +46,10 @@ HitArrays PlanHitArrays(const RenderSettings& settings, const TracePlan& trace,
   const std::vector<LightShadows>& lights = direct.shadows.punctual;
   plan.may_be_shadowed.resize(scene.spheres.size());
   for (uint32_t sphere = 0; sphere < scene.spheres.size(); ++sphere) {
-    plan.may_be_shadowed[sphere] =
-        std::any_of(lights.begin(), lights.end(),
-                    [&](const LightShadows& light) { return !NeverShadowed(light, sphere); });
+    plan.may_be_shadowed[sphere] = std::ranges::any_of(
+        lights, [&](const LightShadows& light) { return !NeverShadowed(light, sphere); });
   }
-  const auto count =
-      std::count(plan.may_be_shadowed.begin(), plan.may_be_shadowed.end(), uint8_t{1});
+  const auto count = std::ranges::count(plan.may_be_shadowed, 1);
   why->items.push_back({"positions of hits", count > 0,
                         count > 0 ? fmt::format("only shadow rays read them, of {} of {} spheres",
                                                 count, scene.spheres.size())

@@ -2,7 +2,7 @@
 // render/hit_positions.h: decides when hits need their positions and double directions.
 #pragma once
 
-#include "render/direct_plan.h"
+#include "render/direct_batch.h"
 #include "render/film.h"
 #include "render/hits_plan.h"
 #include "render/surfaces.h"

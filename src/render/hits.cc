@@ -27,7 +27,7 @@ RayDepth DepthOf(const RayBatch& rays, size_t ray, const Vec3d& position) {
 void TraceByTree(const HitsPlan& plan, const FilmBatch& film, bool positions, TraceRoom* room,
                  CameraHits* hits) {
   RayBatch& rays = room->rays;
-  MakeCameraRays(plan.shapes.camera, film.x.data(), film.y.data(), film.count, &rays);
+  MakeCameraRays(plan.shapes.camera, film, &rays);
   plan.shapes.intersector->Closest(rays, &room->closest);
   size_t count = 0;
   for (size_t ray = 0; ray < rays.count; ++ray) {
@@ -45,7 +45,7 @@ void TraceByTree(const HitsPlan& plan, const FilmBatch& film, bool positions, Tr
 // rounding error.
 void FindNearerTriangles(const HitsPlan& plan, const FilmBatch& film, const HitBatch& on_spheres,
                          TraceRoom* room) {
-  MakeCameraRays(plan.shapes.camera, film.x.data(), film.y.data(), film.count, &room->rays);
+  MakeCameraRays(plan.shapes.camera, film, &room->rays);
   std::fill(room->closest.t.begin(), room->closest.t.end(),
             std::numeric_limits<double>::infinity());
   for (size_t i = 0; i < on_spheres.count; ++i) {

@@ -2,6 +2,7 @@
 #include "render/hits_plan.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -34,16 +35,16 @@ bool IsOutside(const Scene& scene, const Vec3d& forward, const Sphere& sphere) {
 bool EyeIsOutside(const Scene& scene, int threads) {
   const Vec3d forward = (scene.camera.look_at - scene.camera.position).normalized();
   constexpr size_t kBlock = size_t{1} << 14;
-  const size_t blocks = (scene.spheres.size() + kBlock - 1) / kBlock;
-  std::vector<uint8_t> outside(blocks);
-  ParallelFor(blocks, threads, [&](size_t block) {
+  std::atomic<bool> outside = true;
+  ParallelFor((scene.spheres.size() + kBlock - 1) / kBlock, threads, [&](size_t block) {
     const Sphere* const spheres = scene.spheres.data();
     const size_t end = std::min((block + 1) * kBlock, scene.spheres.size());
-    outside[block] =
+    const bool all =
         std::all_of(spheres + block * kBlock, spheres + end,
                     [&](const Sphere& sphere) { return IsOutside(scene, forward, sphere); });
+    if (!all) outside = false;
   });
-  return std::all_of(outside.begin(), outside.end(), [](uint8_t all) { return all != 0; });
+  return outside;
 }
 
 std::string DescribeShapes(const Scene& scene) {

@@ -7,6 +7,12 @@
 namespace nacre {
 namespace {
 
+// The sum of the replicates' squared differences from their mean, times this factor, is the square
+// of the interval's half-width. 97.5 % of Student's t distribution with three degrees of freedom
+// lie below 3.182446305; its square is divided by n (n - 1), n being the number of replicates.
+constexpr double kSquaresToHalfWidth2 =
+    3.182446305 * 3.182446305 / ((kReplicates - 1) * kReplicates);
+
 // How much samples of an outline pixel may differ from `mean`: as much as those in `range`, as the
 // background if it is visible, or as black.
 double MaxDifference(const PixelRange& range, const double* background, double mean) {

@@ -15,8 +15,9 @@ namespace nacre {
 inline constexpr double kDarkest = 0.05;
 
 // The largest error that a pixel may have: `max_error` times its value, which is clamped to at
-// least kDarkest and at most `white` (WhiteLevel). Highlights may be a thousand times brighter than
-// white, and errors relative to them, in a few pixels, would dominate the error of the picture.
+// least kDarkest and at most `white` (WhiteLevel). Highlights may be a thousand
+// times brighter than white, and errors relative to them, in a few pixels, would dominate the error
+// of the picture.
 struct ErrorBound {
   double max_error;
   double white;
@@ -25,12 +26,6 @@ struct ErrorBound {
 inline double ToleranceAt(const ErrorBound& error, double mean) {
   return error.max_error * std::max(std::min(std::abs(mean), error.white), kDarkest);
 }
-
-// The sum of the replicates' squared differences from their mean, times this factor, is the square
-// of the interval's half-width. 97.5 % of Student's t distribution with three degrees of freedom
-// lie below 3.182446305; its square is divided by n (n - 1), n being the number of replicates.
-inline constexpr double kSquaresToHalfWidth2 =
-    3.182446305 * 3.182446305 / ((kReplicates - 1) * kReplicates);
 
 struct PixelRange {
   double low, high;  // empty if low > high
@@ -41,8 +36,7 @@ struct Interval {
   double half_width2;  // squared half-width
 };
 
-// Measures the interval from the mean of each replicate's samples. The SIMD twin, for blocks, is
-// interval_kernel.h.
+// Measures the interval from the mean of each replicate's samples.
 Interval MeasureSpread(const double (&values)[kReplicates]);
 
 // Measures the interval of a pixel that an outline crosses. All `samples` of the pixel may miss a

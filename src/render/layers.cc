@@ -2,6 +2,10 @@
 #include "render/layers.h"
 
 #include <algorithm>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/error.h"
 
@@ -31,26 +35,25 @@ std::vector<Layer> AllLayers(const Scene& scene) {
 std::vector<Layer> ParseLayers(const std::vector<std::string>& names, const Scene& scene) {
   const std::vector<Layer> all = AllLayers(scene);
   std::vector<Layer> layers(all.begin(), all.begin() + 2);
+  size_t lights = 0;
   const auto add = [&](const Layer& layer) {
-    const auto same = [&](const Layer& other) { return other.name == layer.name; };
-    if (std::none_of(layers.begin(), layers.end(), same)) layers.push_back(layer);
+    if (std::ranges::find(layers, layer.name, &Layer::name) != layers.end()) return;
+    layers.push_back(layer);
+    if (layer.kind == LayerKind::kLight) layers.back().number = lights++;
   };
   for (const std::string& name : names) {
     if (name == "all") {
-      std::for_each(all.begin(), all.end(), add);
+      std::ranges::for_each(all, add);
       continue;
     }
-    const auto found = std::find_if(all.begin(), all.end(),
-                                    [&](const Layer& layer) { return layer.name == name; });
+    const auto found = std::ranges::find(all, name, &Layer::name);
     if (found == all.end()) {
       std::vector<std::string> known = {"all"};
       for (const Layer& layer : all) known.push_back(layer.name);
       const std::string nearest = NearestName(name, known);
-      std::string choices;
-      for (const std::string& choice : known) choices += (choices.empty() ? "" : ", ") + choice;
-      throw Error(
-          ExitCode::kUsage, "--layers", "unknown layer \"" + name + "\"",
-          nearest.empty() ? "the scene has " + choices : "did you mean \"" + nearest + "\"?");
+      throw Error(ExitCode::kUsage, "--layers", "unknown layer \"" + name + "\"",
+                  nearest.empty() ? fmt::format("the scene has {}", fmt::join(known, ", "))
+                                  : "did you mean \"" + nearest + "\"?");
     }
     add(*found);
   }
@@ -58,13 +61,10 @@ std::vector<Layer> ParseLayers(const std::vector<std::string>& names, const Scen
 }
 
 int LightLayer(const std::vector<Layer>& layers, size_t light) {
-  int number = 0;
-  for (const Layer& layer : layers) {
-    if (layer.kind != LayerKind::kLight) continue;
-    if (layer.light == light) return number;
-    ++number;
-  }
-  return -1;
+  const auto found = std::ranges::find_if(layers, [&](const Layer& layer) {
+    return layer.kind == LayerKind::kLight && layer.light == light;
+  });
+  return found == layers.end() ? -1 : static_cast<int>(found->number);
 }
 
 bool IsAveraged(LayerKind kind) { return kind <= LayerKind::kNormal; }
@@ -83,26 +83,20 @@ int FloatChannels(LayerKind kind) {
 }
 
 std::vector<ChannelSpec> LayerChannels(const Layer& layer, PixelType color_type) {
-  const auto rgb = [&](const std::string& prefix) -> std::vector<ChannelSpec> {
-    return {{prefix + "R", color_type}, {prefix + "G", color_type}, {prefix + "B", color_type}};
-  };
-  switch (layer.kind) {
-    case LayerKind::kBeauty:
-      return rgb("");
-    case LayerKind::kAlpha:
-      return {{"A", color_type}};
-    case LayerKind::kNormal:
-      return {{"N.X", color_type}, {"N.Y", color_type}, {"N.Z", color_type}};
-    case LayerKind::kPosition:
-      return {{"P.X", PixelType::kFloat}, {"P.Y", PixelType::kFloat}, {"P.Z", PixelType::kFloat}};
-    case LayerKind::kDepth:
-      return {{"Z", PixelType::kFloat}};
-    case LayerKind::kObjectId:
-    case LayerKind::kMaterialId:
-      return {{layer.name, PixelType::kUint}};
-    default:
-      return rgb(layer.name + ".");
+  using enum LayerKind;
+  const LayerKind kind = layer.kind;
+  if (FloatChannels(kind) == 0) return {{layer.name, PixelType::kUint}};
+  const bool nameless = kind == kBeauty || kind == kAlpha || kind == kDepth;
+  const std::string prefix = nameless ? "" : layer.name + ".";
+  const std::string_view letters = kind == kAlpha                         ? "A"
+                                   : kind == kDepth                       ? "Z"
+                                   : kind == kNormal || kind == kPosition ? "XYZ"
+                                                                          : "RGB";
+  std::vector<ChannelSpec> channels;
+  for (const char letter : letters) {
+    channels.push_back({prefix + letter, IsAveraged(kind) ? color_type : PixelType::kFloat});
   }
+  return channels;
 }
 
 }  // namespace nacre

@@ -31,7 +31,8 @@ enum class LayerKind : uint8_t {
 struct Layer {
   LayerKind kind;
   std::string name;  // as --layers names it
-  size_t light = 0;  // kLight: index into Scene::lights
+  // kLight: its index in Scene::lights, and the layer's number among the layers of lights.
+  size_t light = 0, number = 0;
 };
 
 // Beauty and alpha, then the named layers, each once. "all" stands for every layer of the scene.
@@ -54,12 +55,13 @@ enum class ChannelKind : uint8_t {
   kId,        // integers of one sample
 };
 
-// The channels of a layer in the order in which its values are computed. Colours and normals are
-// stored as `color_type` (half or float), Z and P always as float, ids as uint.
 struct ChannelSpec {
   std::string name;
   PixelType type;
 };
+
+// The channels of a layer in the order in which its values are computed. Colours and normals are
+// stored as `color_type` (half or float), Z and P always as float, ids as uint.
 std::vector<ChannelSpec> LayerChannels(const Layer& layer, PixelType color_type);
 
 }  // namespace nacre

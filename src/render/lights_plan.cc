@@ -123,27 +123,17 @@ std::vector<PlannedSampledLight> PlanSampledLights(const Scene& scene,
 
 // Decides whether the diffuse and specular components are computed besides their sum.
 bool PlanComponents(const Scene& scene, const std::vector<Layer>& layers, Explanation* why) {
-  const auto shows_component = [](const Layer& layer) {
-    return layer.kind == LayerKind::kDiffuse || layer.kind == LayerKind::kSpecular;
+  const auto shows_component = [](LayerKind kind) {
+    return kind == LayerKind::kDiffuse || kind == LayerKind::kSpecular;
   };
-  const char* const reason =
-      std::any_of(layers.begin(), layers.end(), shows_component) ? "layers show them"
-      : std::any_of(scene.meshes.begin(), scene.meshes.end(), InterpolatesRadiance)
-          ? "the radiance of some meshes is interpolated"
-          : nullptr;
+  const char* const reason = std::ranges::any_of(layers, shows_component, &Layer::kind)
+                                 ? "layers show them"
+                             : std::ranges::any_of(scene.meshes, InterpolatesRadiance)
+                                 ? "the radiance of some meshes is interpolated"
+                                 : nullptr;
   why->items.push_back({"diffuse and specular components", reason != nullptr,
                         reason != nullptr ? reason : "no layer shows them: their sum is enough"});
   return reason != nullptr;
-}
-
-// Copies the scene's materials, which come before those of lights. `changed` are those that differ;
-// if it is nullopt, any may.
-void UpdateMaterials(const Scene& scene, const std::optional<std::span<const uint32_t>>& changed,
-                     Scene* with) {
-  if (!changed) std::copy(scene.materials.begin(), scene.materials.end(), with->materials.begin());
-  for (const uint32_t i : changed.value_or(std::span<const uint32_t>())) {
-    with->materials[i] = scene.materials[i];
-  }
 }
 
 }  // namespace
@@ -162,10 +152,11 @@ std::shared_ptr<const SceneWithLights> AddVisibleLights(const Scene& scene,
     shown.push_back(ball && (blocks_others || MayBeInView(scene, *ball)));
   }
   const bool any = std::find(shown.begin(), shown.end(), true) != shown.end();
-  ShapesKey key{prepared->versions.Of(ScenePart::kShapes), {}, 0};
+  ViewKey key{0, prepared->versions.Of(ScenePart::kShapes), {}};
   if (any) {
-    key = {prepared->versions.Of(ScenePart::kShapes | ScenePart::kLights), shown,
-           scene.materials.size()};
+    key.parts = prepared->versions.Of(ScenePart::kShapes | ScenePart::kLights);
+    key.numbers.assign(shown.begin(), shown.end());
+    key.numbers.push_back(static_cast<double>(scene.materials.size()));
   }
   // Tangents do not depend on the camera, so they are kept when it moves.
   const PartVersions meshes = prepared->versions.Of(ScenePart::kShapes);
@@ -177,8 +168,13 @@ std::shared_ptr<const SceneWithLights> AddVisibleLights(const Scene& scene,
     const std::shared_ptr<SceneWithLights>& with = prepared->with_lights.value;
     if (with) {
       UpdateAllButShapes(scene, with.get());
-      UpdateMaterials(scene, prepared->versions.MaterialsSince(prepared->materials_with_lights),
-                      &with->scene);
+      // The scene's materials come before those of lights.
+      std::vector<Material>& materials = with->scene.materials;
+      const auto changed = prepared->versions.MaterialsSince(prepared->materials_with_lights);
+      if (!changed) std::ranges::copy(scene.materials, materials.begin());
+      for (const uint32_t i : changed.value_or(std::span<const uint32_t>())) {
+        materials[i] = scene.materials[i];
+      }
     }
     prepared->materials_with_lights = prepared->versions.materials();
     return with;
@@ -189,6 +185,11 @@ std::shared_ptr<const SceneWithLights> AddVisibleLights(const Scene& scene,
     if (!any) return nullptr;
     return std::make_shared<SceneWithLights>(AddLightShapes(scene, shown));
   });
+}
+
+LightBall BoundingBall(const SampledLight& light) {
+  const Vec3d diagonal = light.edge_x + light.edge_y;  // of rectangles, whose radius is 0
+  return {light.place + diagonal / 2, light.radius + diagonal.length() / 2};
 }
 
 LightsPlan PlanLights(const Scene& scene, const RenderSettings& settings,
@@ -211,9 +212,7 @@ LightsPlan PlanLights(const Scene& scene, const RenderSettings& settings,
                                  kPairsPerLight * plan.sampled.size(), scene.image.seed);
   }
   plan.light_layer_count =
-      static_cast<size_t>(std::count_if(layers.begin(), layers.end(), [](const Layer& layer) {
-        return layer.kind == LayerKind::kLight;
-      }));
+      static_cast<size_t>(std::ranges::count(layers, LayerKind::kLight, &Layer::kind));
   plan.components = PlanComponents(scene, layers, why);
   plan.diffuse_light_layers = plan.components && settings.diffuse_light_layers;
   return plan;

@@ -59,6 +59,9 @@ struct LightsPlan {
 std::shared_ptr<const SceneWithLights> AddVisibleLights(const Scene& scene,
                                                         PreparedScene* prepared);
 
+// A ball around a light that is no sky, relative to the camera.
+LightBall BoundingBall(const SampledLight& light);
+
 // `shown` comes from AddVisibleLights and may be null.
 LightsPlan PlanLights(const Scene& scene, const RenderSettings& settings,
                       const std::vector<Layer>& layers, const SceneWithLights* shown,

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
+
+#include <Imath/ImathBox.h>
 
 #include "base/parallel.h"
 #include "scene/mesh.h"
@@ -127,17 +128,14 @@ bool MayHavePeak(const Projector& projector, const GlossyTriangle& t, const High
 // triangle that is not wholly in front of the camera.
 bool IsNearWindow(const Projector& projector, const std::array<Vec3d, 3>& corners,
                   const Window& window, double margin) {
-  double x0 = kInfiniteDistance, x1 = -kInfiniteDistance, y0 = x0, y1 = x1;
+  Imath::Box2d box;
   for (const Vec3d& corner : corners) {
     if (!(corner.dot(projector.forward) > 0)) return false;
     const FilmPoint place = ProjectPoint(projector, corner);
-    x0 = std::min(x0, place.x);
-    x1 = std::max(x1, place.x);
-    y0 = std::min(y0, place.y);
-    y1 = std::max(y1, place.y);
+    box.extendBy({place.x, place.y});
   }
-  return x1 > window.x0 - margin && x0 < window.x1 + margin && y1 > window.y0 - margin &&
-         y0 < window.y1 + margin;
+  return box.max.x > window.x0 - margin && box.min.x < window.x1 + margin &&
+         box.max.y > window.y0 - margin && box.min.y < window.y1 + margin;
 }
 
 class GlintFinder {
@@ -227,28 +225,26 @@ std::vector<Glint> FindMeshGlints(const Scene& scene, const SurfacePlan& surface
   std::vector<Glint> glints;
   if (causes.lights.empty()) return glints;
   const GlintFinder finder(surfaces, causes, camera);
-  auto first = static_cast<uint32_t>(scene.spheres.size());
   for (size_t number = 0; number < scene.meshes.size(); ++number) {
     const Mesh& mesh = scene.meshes[number];
+    if (InterpolatesRadiance(mesh)) continue;
+    const auto first = static_cast<uint32_t>(scene.spheres.size()) +
+                       surfaces.primitives.mesh_first_triangle[number];
     const size_t count = mesh.triangles.size() / 3;
-    if (!InterpolatesRadiance(mesh)) {
-      std::vector<std::vector<Glint>> found((count + kAtOnce - 1) / kAtOnce);
-      ParallelFor(found.size(), threads, [&](size_t piece) {
-        const size_t end = std::min(count, (piece + 1) * kAtOnce);
-        for (size_t i = piece * kAtOnce; i < end; ++i) {
-          const auto triangle = static_cast<uint32_t>(i);
-          finder.Find({&mesh, number, triangle}, first + triangle, window, margin, max_area,
-                      &found[piece]);
-        }
-      });
-      for (const std::vector<Glint>& some : found) {
-        glints.insert(glints.end(), some.begin(), some.end());
+    std::vector<std::vector<Glint>> found((count + kAtOnce - 1) / kAtOnce);
+    ParallelFor(found.size(), threads, [&](size_t piece) {
+      const size_t end = std::min(count, (piece + 1) * kAtOnce);
+      for (size_t i = piece * kAtOnce; i < end; ++i) {
+        const auto triangle = static_cast<uint32_t>(i);
+        finder.Find({&mesh, number, triangle}, first + triangle, window, margin, max_area,
+                    &found[piece]);
       }
+    });
+    for (const std::vector<Glint>& some : found) {
+      glints.insert(glints.end(), some.begin(), some.end());
     }
-    first += static_cast<uint32_t>(count);
   }
-  std::stable_sort(glints.begin(), glints.end(),
-                   [](const Glint& a, const Glint& b) { return a.y < b.y; });
+  std::ranges::stable_sort(glints, {}, &Glint::y);
   return glints;
 }
 

@@ -15,44 +15,21 @@ double VisibleSide(const CameraFrame& camera, const Corners& corners) {
   return normal.dot(parallel ? camera.forward : corners[0]) > 0 ? -1 : 1;
 }
 
-// Interpolates values of a SideRadiance between the corners of a triangle.
-class CornerInterpolator {
- public:
-  CornerInterpolator(const TriangleRef& triangle, const MeshRadiance& radiance,
-                     const std::array<uint32_t, 3>& sides, const Vec3d& weights)
-      : triangle_(triangle), radiance_(radiance), sides_(sides), weights_(weights) {}
-
-  template <class Value>
-  Vec3d At(const Value& value) const {
-    Vec3d mean(0);
-    for (int c = 0; c < 3; ++c) {
-      const auto corner = static_cast<size_t>(c);
-      const SideRadiance& side = radiance_.sides[sides_[corner]];
-      mean += value(side, triangle_.Vertex(corner)) * weights_[c];
-    }
-    return mean;
-  }
-
- private:
-  const TriangleRef& triangle_;
-  const MeshRadiance& radiance_;
-  const std::array<uint32_t, 3>& sides_;
-  const Vec3d& weights_;
-};
-
 // Calls set(value, to) for each array `to` of BatchRadiance, where value(side, i) is what entry i
 // of a SideRadiance contributes to it.
 template <class Set>
 void ForEachArray(BatchRadiance* radiance, const Set& set) {
+  const auto entry_of = [](size_t array) {
+    return [array](const SideRadiance& side, size_t i) { return Vec3d(side[array][i]); };
+  };
+  const auto diffuse = entry_of(kDiffuseArray), specular = entry_of(kSpecularArray);
   ReflectedRadiance& total = radiance->total;
-  set([](const SideRadiance& side, size_t i) { return Vec3d(side.diffuse[i]); }, &total.diffuse);
-  set([](const SideRadiance& side, size_t i) { return Vec3d(side.specular[i]); }, &total.specular);
-  set([](const SideRadiance& side,
-         size_t i) { return Vec3d(side.diffuse[i]) + Vec3d(side.specular[i]); },
+  set(diffuse, &total.diffuse);
+  set(specular, &total.specular);
+  set([&](const SideRadiance& side, size_t i) { return diffuse(side, i) + specular(side, i); },
       &total.sum);
   for (size_t l = 0; l < radiance->per_light.size(); ++l) {
-    set([l](const SideRadiance& side, size_t i) { return Vec3d(side.lights[l][i]); },
-        &radiance->per_light[l]);
+    set(entry_of(kFirstLightArray + l), &radiance->per_light[l]);
   }
 }
 
@@ -70,9 +47,13 @@ void InterpolateHit(const TracedShapes& shapes, const TriangleRef& triangle,
   const std::array<uint32_t, 3> sides = {SideOf(triangle, 0, normal), SideOf(triangle, 1, normal),
                                          SideOf(triangle, 2, normal)};
   const Vec3d weights = BarycentricsAt(corners, position);
-  const CornerInterpolator interpolator(triangle, radiance, sides, weights);
   ForEachArray(result, [&](const auto& value, Soa3<float>* to) {
-    SetVector(interpolator.At(value), hit, to);
+    Vec3d mean(0);
+    for (size_t c = 0; c < 3; ++c) {
+      const SideRadiance& side = radiance.sides[sides[c]];
+      mean += value(side, triangle.Vertex(c)) * weights[static_cast<int>(c)];
+    }
+    SetVector(mean, hit, to);
   });
 }
 
@@ -94,9 +75,7 @@ void InterpolateRadiance(const TracedShapes& shapes, const RadianceOfMeshes& mes
     for (size_t hit = run.begin; hit < run.end; ++hit) {
       const TriangleRef triangle = TriangleOf(shapes.primitives, surfaces.hits.primitive[hit]);
       const std::vector<MeshRadiance>& sets = meshes[triangle.number];
-      const auto found = std::find_if(sets.begin(), sets.end(), [&](const MeshRadiance& set) {
-        return set.material == run.material;
-      });
+      const auto found = std::ranges::find(sets, run.material, &MeshRadiance::material);
       if (found != sets.end()) {
         InterpolateHit(shapes, triangle, *found, VectorAt(surfaces.hits.position, hit), hit,
                        radiance);

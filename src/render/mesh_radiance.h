@@ -13,10 +13,10 @@ namespace nacre {
 
 // The reflected radiance of the vertices of a mesh under Gouraud interpolation, or of the triangles
 // of a flat-shaded one.
-struct SideRadiance {
-  std::vector<Vec3f> diffuse, specular;
-  std::vector<std::vector<Vec3f>> lights;  // of each light that has a layer of its own
-};
+using SideRadiance = std::vector<std::vector<Vec3f>>;
+// Its arrays: the components, then from kFirstLightArray on that of each light that has a layer of
+// its own.
+inline constexpr size_t kDiffuseArray = 0, kSpecularArray = 1, kFirstLightArray = 2;
 
 struct MeshRadiance {
   MaterialId material;  // a mesh with a split has a MeshRadiance for each of its materials

@@ -12,6 +12,7 @@
 #include "base/parallel.h"
 #include "hit/shading_normal.h"
 #include "render/direct.h"
+#include "render/samples.h"
 #include "sampling/hash.h"
 
 namespace nacre {
@@ -92,33 +93,13 @@ void MakeHits(const CameraFrame& camera, const Point* points, size_t count, Surf
   PrepareSurface(hits, &to->surface);
 }
 
-// Sums over the samples of a batch of points, in double.
-struct Sums {
-  std::vector<Vec3d> diffuse, specular;
-  std::vector<std::vector<Vec3d>> lights;
-
-  Sums(size_t count, size_t light_count)
-      : diffuse(count, Vec3d(0)),
-        specular(count, Vec3d(0)),
-        lights(light_count, std::vector<Vec3d>(count, Vec3d(0))) {}
-};
-
-void AddTo(const Soa3<float>& from, std::vector<Vec3d>* sums) {
-  for (size_t i = 0; i < sums->size(); ++i) (*sums)[i] += VectorAt(from, i);
+size_t ArraysPerSide(const LightsPlan& lights) {
+  return kFirstLightArray + lights.light_layer_count;
 }
 
 // How often each point is shaded: as often as a pixel if there are sampled lights, else once.
 int SamplesOf(const LightsPlan& plan) {
   return plan.sampled.empty() ? 1 : static_cast<int>(plan.pairs.samples);
-}
-
-void NumberPoints(const Point* points, size_t count, int sample, SampleNumbers* numbers) {
-  numbers->pixel_count = count;
-  for (uint32_t i = 0; i < count; ++i) {
-    numbers->number[i] = static_cast<uint32_t>(sample);
-    numbers->pixel[i] = i;
-    numbers->seeds[i] = HashCombine(points[i].primitive, points[i].index);
-  }
 }
 
 // The plans that the shading of points reads.
@@ -143,23 +124,25 @@ void ShadePoints(const MeshShading& plans, const Point* points, size_t count, Me
   MakeHits(plans.direct.shapes.camera, points, count, &surfaces);
   surfaces.runs = {{to->material, &plans.surfaces.materials[to->material.index], 0, count, false}};
   PrepareSurfaces(plans.surfaces, &surfaces);
-  Sums sums(count, plans.direct.lights.light_layer_count);
+  // Over the samples, in double, by array of a SideRadiance.
+  std::vector<std::vector<Vec3d>> sums(ArraysPerSide(plans.direct.lights),
+                                       std::vector<Vec3d>(count, Vec3d(0)));
   const int samples = SamplesOf(plans.direct.lights);
+  const auto seed_of = [&](size_t i) { return HashCombine(points[i].primitive, points[i].index); };
   for (int k = 0; k < samples; ++k) {
-    NumberPoints(points, count, k, &room->numbers);
+    NumberPixelByPixel(count, k, 1, seed_of, &room->numbers);
     ShadeDirect({plans.direct, surfaces, room->direct, room->radiance, clock, *stats},
                 &room->numbers);
-    AddTo(radiance.total.diffuse, &sums.diffuse);
-    AddTo(radiance.total.specular, &sums.specular);
-    for (size_t l = 0; l < sums.lights.size(); ++l) AddTo(radiance.per_light[l], &sums.lights[l]);
+    for (size_t a = 0; a < sums.size(); ++a) {
+      const Soa3<float>& from = a == kDiffuseArray    ? radiance.total.diffuse
+                                : a == kSpecularArray ? radiance.total.specular
+                                                      : radiance.per_light[a - kFirstLightArray];
+      for (size_t i = 0; i < count; ++i) sums[a][i] += VectorAt(from, i);
+    }
   }
-  for (size_t i = 0; i < count; ++i) {
-    SideRadiance& side = to->sides[points[i].side];
-    const auto mean = [&](const std::vector<Vec3d>& sum) { return Vec3f(sum[i] / samples); };
-    side.diffuse[points[i].index] = mean(sums.diffuse);
-    side.specular[points[i].index] = mean(sums.specular);
-    for (size_t l = 0; l < sums.lights.size(); ++l) {
-      side.lights[l][points[i].index] = mean(sums.lights[l]);
+  for (size_t a = 0; a < sums.size(); ++a) {
+    for (size_t i = 0; i < count; ++i) {
+      to->sides[points[i].side][a][points[i].index] = Vec3f(sums[a][i] / samples);
     }
   }
 }
@@ -170,13 +153,8 @@ MeshRadiance ShadeMesh(const MeshShading& plans, const RenderSettings& settings,
   MeshRadiance radiance;
   radiance.material = material;
   for (uint32_t side = 0; side < 2; ++side) {
-    const bool is_seen = std::any_of(points.begin(), points.end(),
-                                     [&](const Point& point) { return point.side == side; });
-    if (!is_seen) continue;
-    SideRadiance& seen = radiance.sides[side];
-    seen.diffuse.resize(size);
-    seen.specular.resize(size);
-    seen.lights.assign(plans.direct.lights.light_layer_count, std::vector<Vec3f>(size));
+    if (std::ranges::find(points, side, &Point::side) == points.end()) continue;  // not seen
+    radiance.sides[side].assign(ArraysPerSide(plans.direct.lights), std::vector<Vec3f>(size));
   }
   // A task takes several batches, because its buffers take longer to make than a batch to shade.
   constexpr size_t kTask = 16 * kBatchCapacity;

@@ -3,7 +3,6 @@
 // (mesh_radiance.h), once, while the plan is made.
 #pragma once
 
-#include "render/direct_plan.h"
 #include "render/mesh_radiance.h"
 #include "render/stats.h"
 #include "render/surfaces.h"

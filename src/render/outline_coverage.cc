@@ -32,25 +32,19 @@ double RootNearZero(double a, double b, double c) {
   return -c / (b + std::copysign(root, b));
 }
 
-// Positions along an axis, in ascending order.
+// Positions along an axis.
 struct Breakpoints {
   double at[6];
   int count = 0;
-
-  void Insert(double place) {
-    int i = count++;
-    for (; i > 0 && at[i - 1] > place; --i) at[i] = at[i - 1];
-    at[i] = place;
-  }
 };
 
-// Inserts the roots of a s^2 + 2 b s + c whose absolute values are less than `half_side`.
-void InsertRoots(double a, double b, double c, double half_side, Breakpoints* breakpoints) {
+// Adds the roots of a s^2 + 2 b s + c whose absolute values are less than `half_side`.
+void AddRoots(double a, double b, double c, double half_side, Breakpoints* breakpoints) {
   const double discriminant = b * b - a * c;
   if (!(discriminant > 0)) return;
   const double q = -(b + std::copysign(std::sqrt(discriminant), b));
   for (const double root : {q / a, c / q}) {
-    if (std::abs(root) < half_side) breakpoints->Insert(root);
+    if (std::abs(root) < half_side) breakpoints->at[breakpoints->count++] = root;
   }
 }
 
@@ -106,10 +100,11 @@ double CoveredShare(const OutlineForm& outline, double half_side) {
   // crossing to crossing.
   Breakpoints breakpoints;
   for (const double side : {-half_side, half_side}) {
-    breakpoints.Insert(side);
-    InsertRoots(f.xx, f.x + f.xy * side, f.one + side * (2 * f.y + f.yy * side), half_side,
-                &breakpoints);
+    breakpoints.at[breakpoints.count++] = side;
+    AddRoots(f.xx, f.x + f.xy * side, f.one + side * (2 * f.y + f.yy * side), half_side,
+             &breakpoints);
   }
+  std::sort(breakpoints.at, breakpoints.at + breakpoints.count);
   double area = 0;
   for (int i = 0; i + 1 < breakpoints.count; ++i) {
     const double half = (breakpoints.at[i + 1] - breakpoints.at[i]) / 2;
@@ -126,7 +121,7 @@ double CoveredShare(const OutlineForm& outline, double half_side) {
 
 // Half-way between the outline and the side of the square that is on the covered side of it, at the
 // position along that side that lies deepest inside the sphere.
-FilmOffset OffsetIntoCovered(const OutlineForm& outline, double half_side) {
+Vec2d OffsetIntoCovered(const OutlineForm& outline, double half_side) {
   const bool steep = IsSteep(outline);
   const OutlineForm f = steep ? Transposed(outline) : outline;
   const double side = std::copysign(half_side, f.y);
@@ -134,7 +129,7 @@ FilmOffset OffsetIntoCovered(const OutlineForm& outline, double half_side) {
   const double edge =
       RootNearZero(f.yy, f.y + f.xy * along, f.one + along * (2 * f.x + f.xx * along));
   const double across = (std::clamp(edge, -half_side, half_side) + side) / 2;
-  return steep ? FilmOffset{across, along} : FilmOffset{along, across};
+  return steep ? Vec2d(across, along) : Vec2d(along, across);
 }
 
 }  // namespace nacre

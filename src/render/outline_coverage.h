@@ -29,12 +29,8 @@ bool IsGentlyCurved(const OutlineForm& outline);
 // IsGentlyCurved, and is then accurate to 1e-8.
 double CoveredShare(const OutlineForm& outline, double half_side);
 
-// An offset on the film, in pixels.
-struct FilmOffset {
-  double dx, dy;
-};
-// The offset from the square's centre of a point in the covered part, away from the part's border
-// even if the part is small. Requires a share above 0.
-FilmOffset OffsetIntoCovered(const OutlineForm& outline, double half_side);
+// The offset on the film, in pixels, from the square's centre of a point in the covered part, away
+// from the part's border even if the part is small. Requires a share above 0.
+Vec2d OffsetIntoCovered(const OutlineForm& outline, double half_side);
 
 }  // namespace nacre

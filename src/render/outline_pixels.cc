@@ -18,8 +18,8 @@ void FindCoverage(const FramePlan& plan, const VisibleOutlines& seen, uint32_t p
     const OutlineForm outline = MakeOutlineForm(plan.camera, *seen.only_sphere, x, y);
     if (IsGentlyCurved(outline)) covered = CoveredShare(outline, half_side);
     if (covered > 0 && covered < 1) {
-      const FilmOffset step = OffsetIntoCovered(outline, half_side);
-      outlines->covered_points.push_back({pixel, x + step.dx, y + step.dy});
+      const Vec2d step = OffsetIntoCovered(outline, half_side);
+      outlines->covered_points.push_back({pixel, x + step.x, y + step.y});
     }
   }
   if (covered == 0 || covered == 1) return;  // the outline passes beside the pixel

@@ -46,15 +46,16 @@ double LobeRoughness(const Material& material) {
 }
 
 // Notes perfect mirrors where there are lights, but none with an extent: a mirror reflects only
-// what has an extent. `parameter` is the name of the roughness that makes materials of this trait
-// mirrors, and roughness_of(i) is its value.
-template <class RoughnessOf>
+// what has an extent. `parameter` is the name of the roughness that makes materials of this trait,
+// or their coats, mirrors.
 void NoteMirrors(const NotedMaterials& of, const char* parameter, MaterialTrait trait,
-                 const RoughnessOf& roughness_of, std::vector<std::string>* notes) {
+                 std::vector<std::string>* notes) {
   double greatest = 0;
   int count = 0;
   const std::string names = NameMaterials(of, trait, [&](size_t i) {
-    greatest = std::max(greatest, roughness_of(i));
+    const Material& material = of.scene.materials[i];
+    const bool of_coat = trait == MaterialTrait::kCoatMirror;
+    greatest = std::max(greatest, LobeRoughness(of_coat ? CoatsOf(material).front() : material));
     ++count;
     return true;
   });
@@ -64,16 +65,6 @@ void NoteMirrors(const NotedMaterials& of, const char* parameter, MaterialTrait 
       "directional lights have no highlight; a {} of 2^-20 or more gives them one",
       names, count > 1 ? "the greatest " : "", count > 1 ? std::string(parameter) + "," : parameter,
       greatest, count > 1 ? "," : "", kDeltaRoughness, parameter));
-}
-
-void NoteMirrors(const NotedMaterials& of, std::vector<std::string>* notes) {
-  const std::vector<Material>& materials = of.scene.materials;
-  NoteMirrors(
-      of, "roughness", MaterialTrait::kMirror,
-      [&](size_t i) { return LobeRoughness(materials[i]); }, notes);
-  NoteMirrors(
-      of, "coat_roughness", MaterialTrait::kCoatMirror,
-      [&](size_t i) { return LobeRoughness(CoatsOf(materials[i]).front()); }, notes);
 }
 
 void NoteGain(const NotedMaterials& of, std::vector<std::string>* notes) {
@@ -133,20 +124,21 @@ void NoteDarkness(const NotedMaterials& of, std::vector<std::string>* notes) {
 }
 
 void NotePhongGain(const NotedMaterials& of, std::vector<std::string>* notes) {
-  for (const auto& [trait, name] : {std::pair{MaterialTrait::kPhongGain, "phong"},
-                                    std::pair{MaterialTrait::kModifiedPhongGain, "modified_phong"},
-                                    std::pair{MaterialTrait::kBlinnPhongGain, "blinn_phong"}}) {
+  for (const auto& named : {std::pair{PhongModel::kPhong, "phong"},
+                            std::pair{PhongModel::kModifiedPhong, "modified_phong"},
+                            std::pair{PhongModel::kBlinnPhong, "blinn_phong"}}) {
     double most = 1;
-    const std::string names = NameMaterials(of, trait, [&](size_t i) {
+    const std::string names = NameMaterials(of, MaterialTrait::kPhongGain, [&](size_t i) {
+      if (std::get<PhongMaterial>(of.scene.materials[i].model).model != named.first) return false;
       most = std::max(most, of.prepared.phong_gains[i]);
       return true;
     });
     if (names.empty()) continue;
-    const bool modified = trait == MaterialTrait::kModifiedPhongGain;
+    const bool modified = named.first == PhongModel::kModifiedPhong;
     notes->push_back(fmt::format(
         "{}: {} reflects up to {:.2f} times the light from all around{}; {}kd + ks of 1 at most "
         "keeps energy",
-        names, name, most, modified ? "" : ", and of light that grazes it any multiple",
+        names, named.second, most, modified ? "" : ", and of light that grazes it any multiple",
         modified ? "" : "modified_phong with "));
   }
 }
@@ -167,7 +159,7 @@ std::vector<bool> FindUsedMaterials(const Scene& scene, bool splits) {
 
 void NoteNarrowLobes(const NotedMaterials& of, int max_samples, std::vector<std::string>* notes) {
   const Scene& scene = of.scene;
-  const bool surrounded = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& l) {
+  const bool surrounded = std::ranges::any_of(scene.lights, [](const Light& l) {
     return std::holds_alternative<EnvironmentLight>(l.kind);
   });
   if (!surrounded) return;
@@ -191,7 +183,10 @@ void NoteMaterials(const NotedMaterials& of, bool sampled_lights, std::vector<st
   NoteDarkness(of, notes);
   const std::vector<Light>& lights = of.scene.lights;
   const bool has_punctual = std::any_of(lights.begin(), lights.end(), IsPunctual);
-  if (!sampled_lights && has_punctual) NoteMirrors(of, notes);
+  if (!sampled_lights && has_punctual) {
+    NoteMirrors(of, "roughness", MaterialTrait::kMirror, notes);
+    NoteMirrors(of, "coat_roughness", MaterialTrait::kCoatMirror, notes);
+  }
   NoteGain(of, notes);
   NotePhongGain(of, notes);
 }

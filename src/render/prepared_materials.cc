@@ -39,12 +39,7 @@ MaterialTraits TraitsOf(const Material& material, const ShadingMaterial& prepare
   add(any_coat(HasDeltaLobe), MaterialTrait::kCoatMirror);
   add(std::holds_alternative<UserModel>(prepared.model), MaterialTrait::kUserModel);
   add(BurleyGain(prepared) > 1, MaterialTrait::kBurleyGain);
-  if (phong_gain >= kPrintedGain) {
-    const PhongModel model = std::get<PhongMaterial>(material.model).model;
-    add(model == PhongModel::kPhong, MaterialTrait::kPhongGain);
-    add(model == PhongModel::kModifiedPhong, MaterialTrait::kModifiedPhongGain);
-    add(model == PhongModel::kBlinnPhong, MaterialTrait::kBlinnPhongGain);
-  }
+  add(phong_gain >= kPrintedGain, MaterialTrait::kPhongGain);
   return traits;
 }
 
@@ -102,20 +97,20 @@ double BurleyGain(const ShadingMaterial& material) {
   const auto gain = [](const Rgb& diffuse, double roughness) {
     return LargestChannel(diffuse) * M_PI * BurleyGrazingAlbedo(roughness);
   };
-  return std::visit(
-      Overloaded{[&](const MatteModel& matte) {
-                   const bool burley = matte.form == DiffuseForm::kBurley;
-                   return burley ? gain(matte.diffuse, matte.roughness) : 0.0;
-                 },
-                 [&](const MicrofacetModel& model) {
-                   // If the term is scaled by what the lobe's albedo leaves, which vanishes at
-                   // grazing angles, it cannot reflect more light than it receives.
-                   const bool burley = model.base_form == DiffuseForm::kBurley &&
-                                       model.coupling == DiffuseCoupling::kNone;
-                   return burley ? gain(model.diffuse, model.base_roughness) : 0.0;
-                 },
-                 [](const PhongFamilyModel&) { return 0.0; }, [](const auto&) { return 0.0; }},
-      material.model);
+  return std::visit(Overloaded{[&](const MatteModel& matte) {
+                                 const bool burley = matte.form == DiffuseForm::kBurley;
+                                 return burley ? gain(matte.diffuse, matte.roughness) : 0.0;
+                               },
+                               [&](const MicrofacetModel& model) {
+                                 // If the term is scaled by what the lobe's albedo leaves, which
+                                 // vanishes at grazing angles, it cannot reflect more light than it
+                                 // receives.
+                                 const bool burley = model.base_form == DiffuseForm::kBurley &&
+                                                     model.coupling == DiffuseCoupling::kNone;
+                                 return burley ? gain(model.diffuse, model.base_roughness) : 0.0;
+                               },
+                               [](const auto&) { return 0.0; }},
+                    material.model);
 }
 
 double PhongGain(const Material& material) {

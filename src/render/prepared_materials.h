@@ -24,12 +24,9 @@ enum class MaterialTrait : uint32_t {
   kCoatMirror = 1 << 7,
   kUserModel = 1 << 8,
   kBurleyGain = 1 << 9,  // BurleyGain above 1
-  // PhongGain, by model, if it would not be printed as 1.00.
-  kPhongGain = 1 << 10,
-  kModifiedPhongGain = 1 << 11,
-  kBlinnPhongGain = 1 << 12,
+  kPhongGain = 1 << 10,  // PhongGain, if it would not be printed as 1.00
   // The form of Shadowing of the lobe: this bit and the three bits after it, in the enum's order.
-  kFirstShadowing = 1 << 13,
+  kFirstShadowing = 1 << 11,
 };
 
 // A set of traits, as bits.

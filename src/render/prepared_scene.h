@@ -52,15 +52,6 @@ class Kept {
   std::optional<Key> key_;
 };
 
-// The key of the scene's shapes with those of visible lights. Which lights are added depends on the
-// camera.
-struct ShapesKey {
-  PartVersions parts;       // kShapes, and kLights if the shape of any light is added
-  std::vector<bool> shown;  // by light, whether its shape is added
-  size_t materials = 0;
-  friend bool operator==(const ShapesKey&, const ShapesKey&) = default;
-};
-
 // The key of data that depends on the shapes and on other parts of the scene.
 struct ViewKey {
   uint64_t made = 0;  // PreparedScene::shapes_made or intersectors_made
@@ -84,7 +75,10 @@ struct PreparedScene {
   // scene.
   SceneVersions versions;
 
-  Kept<ShapesKey, std::shared_ptr<SceneWithLights>> with_lights;
+  // The scene's shapes with those of visible lights. Its key has the parts kShapes and, if the
+  // shape of any light is added, kLights, which lights these are (it depends on the camera), and
+  // the number of materials.
+  Kept<ViewKey, std::shared_ptr<SceneWithLights>> with_lights;
   uint64_t shapes_made = 0;            // how often with_lights was made
   uint64_t materials_with_lights = 0;  // versions.materials() of those in with_lights
 

@@ -12,31 +12,24 @@ namespace {
 // Samples of a probe if lights are sampled: one sample would be too noisy.
 constexpr size_t kSamplesPerProbe = 8;
 
-void NumberProbes(std::span<const Probe> probes, size_t each, SampleNumbers* numbers) {
-  numbers->pixel_count = probes.size();
-  for (size_t i = 0; i < probes.size(); ++i) {
-    numbers->seeds[i] = HashCombine(probes[i].seed, i);
-    for (size_t k = 0; k < each; ++k) {
-      numbers->number[each * i + k] = static_cast<uint32_t>(k);
-      numbers->pixel[each * i + k] = static_cast<uint32_t>(i);
-    }
-  }
-}
-
-void TraceBatch(const FramePlan& plan, std::span<Probe> probes, size_t each, TileWork* work) {
+void TraceBatch(const FramePlan& plan, bool alike, std::span<Probe> probes, size_t each,
+                TileWork* work) {
   TileWork& s = *work;
   for (size_t i = 0; i < probes.size(); ++i) {
     std::fill_n(s.samples.film.x.data() + each * i, each, probes[i].x);
     std::fill_n(s.samples.film.y.data() + each * i, each, probes[i].y);
   }
   s.samples.film.count = each * probes.size();
-  if (plan.sampling.numbered) NumberProbes(probes, each, &EnsureNumbers(&s.samples));
+  if (plan.sampling.numbered) {
+    const auto seed_of = [&](size_t i) { return alike ? 0 : HashCombine(probes[i].seed, i); };
+    NumberPixelByPixel(probes.size(), 0, each, seed_of, &EnsureNumbers(&s.samples));
+  }
   ShadeSamples(plan, &s);
   for (size_t hit = 0; hit < s.surfaces.hits.count; ++hit) {
     probes[s.surfaces.hits.ray[hit] / each].hit = s.surfaces.hits.primitive[hit];
   }
   const Layer& beauty = plan.film.layers[0];
-  Soa3<double>& values = GatherLayer(plan.film, beauty, 0, BackgroundOf(beauty, plan.film),
+  Soa3<double>& values = GatherLayer(plan.film, beauty, BackgroundOf(beauty, plan.film),
                                      BatchOf(plan, s), &s.layer_room);
   for (size_t i = 0; i < probes.size(); ++i) {
     for (int channel = 0; channel < 3; ++channel) {
@@ -50,12 +43,12 @@ void TraceBatch(const FramePlan& plan, std::span<Probe> probes, size_t each, Til
 
 }  // namespace
 
-void TraceProbes(const FramePlan& plan, std::vector<Probe>* probes, TileWork* work) {
-  const size_t each = plan.sampling.numbered ? kSamplesPerProbe : 1;
+void TraceProbes(const FramePlan& plan, bool alike, std::vector<Probe>* probes, TileWork* work) {
+  const size_t each = plan.sampling.numbered && !alike ? kSamplesPerProbe : 1;
   const size_t per_batch = kBatchCapacity / each;
   for (size_t first = 0; first < probes->size(); first += per_batch) {
     const size_t count = std::min(per_batch, probes->size() - first);
-    TraceBatch(plan, {probes->data() + first, count}, each, work);
+    TraceBatch(plan, alike, {probes->data() + first, count}, each, work);
   }
 }
 

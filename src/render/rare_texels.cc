@@ -1,6 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/rare_texels.h"
-
+// render/rare_texels.cc: finds the texels in a cell's pixels that are rare features: bright ones of
+// an emission map, holes of a cut-out, stars of a sky.
+//
+// One ray through the middle of a pixel finds the part of each map that lies in the pixel. The
+// texels there that differ most from the others (texture/texel_search.h) are probed by a ray each,
+// which measures how they look under the scene's lights, whatever the map controls. In a normal map
+// over a narrow lobe (roughness below 0.45) these are the texels that mirror a light, or the sun of
+// a sky, to the eye. Not found are texels of surfaces that the middle of a pixel does not show,
+// texels that are seen in mirrors, glints of bump maps, glints of normal maps on matte surfaces or
+// between texels that are interpolated, and normals where more than 256 x 256 texels lie in a
+// pixel.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -10,6 +19,7 @@
 #include "render/filter_shares.h"
 #include "render/highlights.h"
 #include "render/probes.h"
+#include "render/rare_features.h"
 #include "render/texel_maps.h"
 #include "scene/mesh.h"
 #include "scene/texture_mapping.h"
@@ -412,38 +422,34 @@ void FindRareTexels(const FramePlan& plan, const Window& cell, TileWork* work,
                       texels.y + 0.5 + texels.cluster.offset.y,
                       static_cast<uint32_t>(IndexIn(plan.frame, texels.x, texels.y))});
   }
-  TraceProbes(plan, &probes, work);
+  TraceProbes(plan, false, &probes, work);
   // Shares are computed as if texels that look alike were spread evenly over the pixel. Glints of
   // normal maps look much alike, so that those of several pixels are added up.
   struct Glints {
     double squares = 0;
     Rgb radiance{0, 0, 0};
   };
-  Glints glints[kCellSize][kCellSize];
+  Glints glints[kCellPixels];
   for (size_t i = 0; i < found.size(); ++i) {
     const FilmBox pixel{found[i].x + 0.5, found[i].y + 0.5, 0.5, 0.5};
     const Rgb& radiance = probes[i].radiance;
-    ForEachShare(plan.scene->image.filter, cell, pixel, [&](int column, int row, double share) {
+    ForEachShare(plan.scene->image.filter, cell, pixel, [&](uint32_t at, double share) {
       const double of_texels = share * found[i].cluster.share;
       if (of_texels == 0) return;
-      known->has_other_texels[PixelAt(column, row)] |= found[i].cluster.others;
+      known->has_other_texels[at] |= found[i].cluster.others;
       if (found[i].of_normals) {
         if (of_texels < 0) return;  // the filter has negative lobes
-        glints[row][column].squares += of_texels * radiance.length2();
-        glints[row][column].radiance += radiance * of_texels;
+        glints[at].squares += of_texels * radiance.length2();
+        glints[at].radiance += radiance * of_texels;
       } else {
-        known->parts.push_back({PixelAt(column, row), of_texels, radiance * of_texels});
+        known->parts.push_back({at, of_texels, radiance * of_texels});
       }
     });
   }
-  for (int row = 0; row < kCellSize; ++row) {
-    for (int column = 0; column < kCellSize; ++column) {
-      const auto& [squares, radiance] = glints[row][column];
-      // A single feature of this share and radiance has the same mean and variance.
-      if (squares > 0) {
-        known->parts.push_back({PixelAt(column, row), radiance.length2() / squares, radiance});
-      }
-    }
+  for (uint32_t pixel = 0; pixel < kCellPixels; ++pixel) {
+    const auto& [squares, radiance] = glints[pixel];
+    // A single feature of this share and radiance has the same mean and variance.
+    if (squares > 0) known->parts.push_back({pixel, radiance.length2() / squares, radiance});
   }
 }
 

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/rare_triangles.h"
-
+// render/rare_triangles.cc: finds those of a cell's small triangles (small_triangles.h) that are
+// rare features of its pixels, and measures their radiance.
+//
+// In a finely tessellated mesh all triangles are small and none is rare. Where triangles of one
+// material and side cover half of a pixel, or as much of the 3x3 pixels around it as the edge of a
+// large object would, samples find them like any large object. The others are probed by a ray
+// through the middle of each: hidden ones do not count, and those that look like their surroundings
+// do not matter (evidence.h).
 #include <algorithm>
+#include <array>
+#include <bitset>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -13,6 +20,7 @@
 #include "render/filter_shares.h"
 #include "render/interval.h"
 #include "render/probes.h"
+#include "render/rare_features.h"
 
 namespace nacre {
 namespace {
@@ -28,10 +36,16 @@ constexpr size_t kMaxProbes = 16;
 constexpr double kCommonShare = kExpectedHits / 16;
 constexpr double kCommonArea = 2.5;
 
+// Pieces of one material and one visible side look alike.
+using Appearance = std::pair<uint32_t, bool>;
+
 struct Candidate {
   TrianglePiece piece;
+  Appearance appearance;
   std::optional<Rgb> radiance;  // nullopt if it is hidden
 };
+
+uint32_t MaterialOf(const Candidate& candidate) { return candidate.appearance.first; }
 
 // The side of a cell with a border of one pixel.
 constexpr int kBorderedSide = kCellSize + 2;
@@ -44,17 +58,10 @@ template <class Add>
 void ForEachPieceShare(const PixelFilter& filter, const Window& cell, const TrianglePiece& piece,
                        const Add& add) {
   ForEachShare(filter, cell, piece.box,
-               [&](int column, int row, double share) { add(column, row, share * piece.fill); });
+               [&](uint32_t pixel, double share) { add(pixel, share * piece.fill); });
 }
 
-// A set of the cell's pixels, row by row.
-struct PixelSet {
-  bool has[kCellSize][kCellSize] = {};
-};
-
-struct SharesOfCell {
-  double share[kCellSize][kCellSize] = {};
-};
+using PixelSet = std::bitset<kCellPixels>;
 
 // A number for each pixel of a cell and its border. A piece belongs to the pixel that holds its
 // centroid, or to the nearest one.
@@ -82,27 +89,21 @@ PixelSet FindSparse(const CoveredArea& area) {
       for (int y = row; y < row + 3; ++y) {
         for (int x = column; x < column + 3; ++x) sum += area.numbers[y][x];
       }
-      sparse.has[row][column] = sum < kCommonArea;
+      sparse[PixelAt(column, row)] = sum < kCommonArea;
     }
   }
   return sparse;
 }
 
-// Calls work(piece) for the pieces of the cell's small triangles. Split materials are resolved.
-void ForEachCellPiece(const FramePlan& plan, const Window& cell,
-                      const std::function<void(const TrianglePiece&)>& work) {
+// Calls work(piece, appearance) for the pieces of the cell's small triangles.
+template <class Work>
+void ForEachCellPiece(const FramePlan& plan, const Window& cell, const Work& work) {
   ForEachPiece(plan.adaptive.small_triangles, plan.surfaces.primitives, MakeProjector(plan.camera),
                cell, [&](const TrianglePiece& piece) {
-                 if (!plan.surfaces.splits) return work(piece);
-                 TrianglePiece resolved = piece;
-                 resolved.material = MaterialAt(plan.surfaces, piece.primitive, piece.x).index;
-                 work(resolved);
+                 const MaterialId material = MaterialAt(plan.surfaces, piece.primitive, piece.x);
+                 work(piece, Appearance{material.index, piece.front});
                });
 }
-
-// Pieces of one material and one visible side look alike.
-using Appearance = std::pair<uint32_t, bool>;
-Appearance AppearanceOf(const TrianglePiece& piece) { return {piece.material, piece.front}; }
 
 // Whether samples of any pixel of the set may hit the piece.
 bool MayAppearIn(const PixelSet& pixels, const PixelFilter& filter, const Window& cell,
@@ -110,7 +111,7 @@ bool MayAppearIn(const PixelSet& pixels, const PixelFilter& filter, const Window
   const Window over = PixelsOver(filter, cell, piece.box);
   for (int y = over.y0; y < over.y1; ++y) {
     for (int x = over.x0; x < over.x1; ++x) {
-      if (pixels.has[y - cell.y0][x - cell.x0]) return true;
+      if (pixels[PixelAt(x - cell.x0, y - cell.y0)]) return true;
     }
   }
   return false;
@@ -121,36 +122,31 @@ bool MayAppearIn(const PixelSet& pixels, const PixelFilter& filter, const Window
 std::vector<Candidate> FindCandidates(const FramePlan& plan, const Window& cell) {
   const PixelFilter& filter = plan.scene->image.filter;
   std::map<Appearance, CoveredArea> areas;
-  ForEachCellPiece(plan, cell, [&](const TrianglePiece& piece) {
-    areas[AppearanceOf(piece)].At(WithBorder(cell), piece) += piece.Area();
+  ForEachCellPiece(plan, cell, [&](const TrianglePiece& piece, const Appearance& appearance) {
+    areas[appearance].At(WithBorder(cell), piece) += piece.Area();
   });
   std::vector<Candidate> candidates;
   if (areas.empty()) return candidates;
   std::map<Appearance, PixelSet> rare;
   for (const auto& [appearance, area] : areas) rare[appearance] = FindSparse(area);
-  std::map<Appearance, SharesOfCell> shares;
-  ForEachCellPiece(plan, cell, [&](const TrianglePiece& piece) {
-    if (!MayAppearIn(rare[AppearanceOf(piece)], filter, cell, piece)) return;
-    candidates.push_back({piece, std::nullopt});
-    SharesOfCell& sums = shares[AppearanceOf(piece)];
+  std::map<Appearance, std::array<double, kCellPixels>> shares;
+  ForEachCellPiece(plan, cell, [&](const TrianglePiece& piece, const Appearance& appearance) {
+    if (!MayAppearIn(rare[appearance], filter, cell, piece)) return;
+    candidates.push_back({piece, appearance, std::nullopt});
+    auto& sums = shares[appearance];
     ForEachPieceShare(filter, cell, piece,
-                      [&](int column, int row, double share) { sums.share[row][column] += share; });
+                      [&](uint32_t pixel, double share) { sums[pixel] += share; });
   });
   const double least = plan.adaptive.max_error * kDarkest / (2 * plan.adaptive.brightest);
   for (const auto& [appearance, sums] : shares) {
-    for (int row = 0; row < kCellSize; ++row) {
-      for (int column = 0; column < kCellSize; ++column) {
-        const double share = sums.share[row][column];
-        if (!(share > least && share < kCommonShare)) rare[appearance].has[row][column] = false;
-      }
+    for (size_t pixel = 0; pixel < kCellPixels; ++pixel) {
+      if (!(sums[pixel] > least && sums[pixel] < kCommonShare)) rare[appearance].reset(pixel);
     }
   }
   std::erase_if(candidates, [&](const Candidate& candidate) {
-    return !MayAppearIn(rare[AppearanceOf(candidate.piece)], filter, cell, candidate.piece);
+    return !MayAppearIn(rare[candidate.appearance], filter, cell, candidate.piece);
   });
-  std::stable_sort(
-      candidates.begin(), candidates.end(),
-      [](const Candidate& a, const Candidate& b) { return a.piece.material < b.piece.material; });
+  std::ranges::stable_sort(candidates, {}, MaterialOf);
   return candidates;
 }
 
@@ -159,14 +155,14 @@ std::vector<Candidate> FindCandidates(const FramePlan& plan, const Window& cell)
 void ThinOut(const Window& cell, std::vector<Candidate>* candidates) {
   std::map<Appearance, PieceCounts> counts, taken;
   for (const Candidate& candidate : *candidates) {
-    ++counts[AppearanceOf(candidate.piece)].At(WithBorder(cell), candidate.piece);
+    ++counts[candidate.appearance].At(WithBorder(cell), candidate.piece);
   }
   std::erase_if(*candidates, [&](Candidate& candidate) {
-    const TrianglePiece& piece = candidate.piece;
-    const size_t count = counts[AppearanceOf(piece)].At(WithBorder(cell), piece);
-    const size_t number = taken[AppearanceOf(piece)].At(WithBorder(cell), piece)++;
+    TrianglePiece& piece = candidate.piece;
+    const size_t count = counts[candidate.appearance].At(WithBorder(cell), piece);
+    const size_t number = taken[candidate.appearance].At(WithBorder(cell), piece)++;
     if (count <= kMaxProbes) return false;
-    candidate.piece.fill *= static_cast<double>(count) / kMaxProbes;
+    piece.fill *= static_cast<double>(count) / kMaxProbes;
     // Keeps the first of each of kMaxProbes equal parts.
     return number > 0 && number * kMaxProbes / count == (number - 1) * kMaxProbes / count;
   });
@@ -178,7 +174,7 @@ void ProbeAll(const FramePlan& plan, std::vector<Candidate>* candidates, TileWor
   for (const Candidate& candidate : *candidates) {
     probes.push_back({candidate.piece.x, candidate.piece.y, candidate.piece.primitive});
   }
-  TraceProbes(plan, &probes, work);
+  TraceProbes(plan, false, &probes, work);
   for (size_t i = 0; i < probes.size(); ++i) {
     Candidate& candidate = (*candidates)[i];
     if (probes[i].hit == candidate.piece.primitive) candidate.radiance = probes[i].radiance;
@@ -192,18 +188,17 @@ void AddRareTriangles(const PixelFilter& filter, const Window& cell,
     double share = 0;
     Rgb radiance{0, 0, 0};
   };
-  Sums sums[kCellSize][kCellSize];
+  Sums sums[kCellPixels];
   for (const Candidate& candidate : candidates) {
     if (!candidate.radiance) continue;
-    ForEachPieceShare(filter, cell, candidate.piece, [&](int column, int row, double share) {
-      sums[row][column].share += share;
-      sums[row][column].radiance += *candidate.radiance * share;
+    ForEachPieceShare(filter, cell, candidate.piece, [&](uint32_t pixel, double share) {
+      sums[pixel].share += share;
+      sums[pixel].radiance += *candidate.radiance * share;
     });
   }
   for (uint32_t pixel = 0; pixel < kCellPixels; ++pixel) {
-    const FilmPixel at = PixelOf(cell, pixel);
-    const Sums& of_pixel = sums[at.y - cell.y0][at.x - cell.x0];
-    if (of_pixel.share > 0) rare->push_back({pixel, of_pixel.share, of_pixel.radiance});
+    const auto& [share, radiance] = sums[pixel];
+    if (share > 0) rare->push_back({pixel, share, radiance});
   }
 }
 
@@ -216,8 +211,8 @@ void FindRareTriangles(const FramePlan& plan, const Window& cell, TileWork* work
   ThinOut(cell, &candidates);
   ProbeAll(plan, &candidates, work);
   for (size_t first = 0, end = 0; first < candidates.size(); first = end) {
-    const uint32_t material = candidates[first].piece.material;
-    while (end < candidates.size() && candidates[end].piece.material == material) ++end;
+    const uint32_t material = MaterialOf(candidates[first]);
+    while (end < candidates.size() && MaterialOf(candidates[end]) == material) ++end;
     AddRareTriangles(plan.scene->image.filter, cell, {candidates.data() + first, end - first},
                      parts);
   }

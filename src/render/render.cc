@@ -75,9 +75,7 @@ void StoreIds(const Strip& strip, Image* image) {
   const size_t first = IndexIn(image->data, strip.window.x0, strip.window.y0);
   for (size_t i = 0; i < strip.ids.size(); ++i) {
     std::vector<float>& to = image->channels[strip.colors.size() + i].samples;
-    std::transform(strip.ids[i].begin(), strip.ids[i].end(),
-                   to.begin() + static_cast<ptrdiff_t>(first),
-                   [](uint32_t id) { return static_cast<float>(id); });
+    std::ranges::copy(strip.ids[i], to.begin() + static_cast<ptrdiff_t>(first));
   }
 }
 

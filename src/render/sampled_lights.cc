@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "render/sampled_kernel.h"
+#include "render/lighting_kernel.h"
 #include "render/sampled_shadows.h"
 
 namespace nacre {
@@ -26,16 +26,6 @@ struct LitBatch {
   ReflectedRadiance& single() const { return batch.room.single; }
   std::span<const MaterialRun> runs() const { return LitRuns(batch.surfaces); }
   MaterialHits HitsOf(const MaterialRun& run) const { return nacre::HitsOf(batch.surfaces, run); }
-  BsdfRoom* bsdf_room() const { return &batch.room.bsdf; }
-};
-
-// The sampling strategies that are combined by multiple importance sampling (the balance
-// heuristic): the pdf of a component's directions is the sum of theirs. The components are sampled
-// apart (SampleLobes of one kind), not by one direction for both: where diffuse reflection has a
-// closed form, or light samples alone serve it as well, no directions are spent on it.
-struct SamplingStrategies {
-  bool light;  // SampleLight
-  bool bsdf;   // SampleLobes
 };
 
 // What directions are sampled for, by component.
@@ -109,7 +99,8 @@ void ApplyShadows(const LitBatch& lit) {
 void EvaluateUnitLight(const LitBatch& lit, const LobePdfs& pdfs) {
   static const ShadingLight kUnit{.form = LightForm::kGiven, .color = Rgb(1, 1, 1)};
   for (const MaterialRun& run : lit.runs()) {
-    EvaluateBsdf({lit.HitsOf(run), kUnit, &lit.light(), &lit.room.unit}, lit.bsdf_room(), pdfs);
+    EvaluateBsdf({lit.HitsOf(run), kUnit, &lit.light(), &lit.room.unit}, &lit.batch.room.bsdf,
+                 pdfs);
   }
 }
 
@@ -126,35 +117,35 @@ void AddWeightedRadiance(const LitBatch& lit, const Soa3<float>& part, const Soa
   if (lit.batch.plan.lights.components) add_to(component);
 }
 
-// Sets room.weight to 1 over the sum of the strategies' pdfs for lobes of one kind. It is 0 at hits
-// without such lobes: a batch is sampled if any of its hits has one, and a pixel must not depend on
-// the other pixels of its tile.
-void WeightByPdf(const LitBatch& lit, const SamplingStrategies& strategies, LobeKind kind) {
-  const float* const by_light = strategies.light ? lit.room.directions.pdf.data() : nullptr;
-  const bool diffuse = kind == LobeKind::kDiffuse;
-  const float* const of_kind = diffuse ? lit.room.diffuse_pdf.data() : lit.room.glossy_pdf.data();
-  const float* const by_bsdf = strategies.bsdf ? of_kind : nullptr;
-  float* const pdf = lit.room.pdf.data();
-  AddPdfs(by_light, by_bsdf, lit.count(), pdf);
+// Sets room.weight to 1 over the sum of the strategies' pdfs for lobes of one kind, where by_lobes
+// is null if they are not sampled. It is 0 at hits without such lobes: a batch is sampled if any of
+// its hits has one, and a pixel must not depend on the other pixels of its tile.
+void WeightByPdf(const LitBatch& lit, const float* by_lobes, LobeKind kind) {
+  const SampledLight& light = lit.planned.light;
+  const float* const by_light = HasSampler(light) ? lit.room.directions.pdf.data() : nullptr;
+  float* const weight = lit.room.weight.data();
+  ComputeWeights(lit.light().irradiance.data(), by_light, by_lobes, lit.count(), weight);
   for (const MaterialRun& run : lit.runs()) {
     if (HasLobes(*run.shading, kind)) continue;
-    std::fill(pdf + run.begin, pdf + run.end, 0.0f);
+    std::fill(weight + run.begin, weight + run.end, 0.0f);
   }
-  ComputeWeights(lit.light().irradiance.data(), pdf, lit.count(), lit.room.weight.data());
 }
 
 // Adds the light reflected along the directions, which were sampled by one of the strategies and
-// passed to Illuminate.
-void AddSampledLight(const LitBatch& lit, const SamplingStrategies& of_diffuse,
-                     const SamplingStrategies& of_specular, const Components& components) {
+// passed to Illuminate. The strategies, SampleLight and SampleLobes, are combined by multiple
+// importance sampling (the balance heuristic): the pdf of a component's directions is the sum of
+// theirs. The components are sampled apart (SampleLobes of one kind), not by one direction for
+// both: where diffuse reflection has a closed form, or light samples alone serve it as well, as
+// under an area light, no directions are spent on it.
+void AddSampledLight(const LitBatch& lit, const Components& components) {
   const Soa3<float>& radiance = lit.room.directions.radiance;
   LobePdfs pdfs;
-  if (components.diffuse && of_diffuse.bsdf) pdfs.diffuse = lit.room.diffuse_pdf.data();
-  if (components.specular && of_specular.bsdf) pdfs.glossy = lit.room.glossy_pdf.data();
+  if (components.diffuse && IsSky(lit.planned.light)) pdfs.diffuse = lit.room.diffuse_pdf.data();
+  if (components.specular) pdfs.glossy = lit.room.glossy_pdf.data();
   ApplyShadows(lit);
   EvaluateUnitLight(lit, pdfs);
   if (components.diffuse) {
-    WeightByPdf(lit, of_diffuse, LobeKind::kDiffuse);
+    WeightByPdf(lit, pdfs.diffuse, LobeKind::kDiffuse);
     if (lit.planned.closed_form) {
       for (size_t i = 0; i < lit.count(); ++i) {
         if (lit.room.closed_form[i] != 0) lit.room.weight[i] = 0;
@@ -163,19 +154,11 @@ void AddSampledLight(const LitBatch& lit, const SamplingStrategies& of_diffuse,
     AddWeightedRadiance(lit, lit.room.unit.diffuse, radiance, &lit.single().diffuse);
   }
   if (components.specular) {
-    WeightByPdf(lit, of_specular, LobeKind::kGlossy);
+    WeightByPdf(lit, pdfs.glossy, LobeKind::kGlossy);
     AddWeightedRadiance(lit, lit.room.unit.specular, radiance, &lit.single().specular);
   }
   lit.batch.stats.shades += lit.count();
   lit.batch.clock.Charge(Stage::kShade);
-}
-
-// The strategies for diffuse reflection. Under an area light the light's samples alone are as good.
-SamplingStrategies DiffuseStrategies(const SampledLight& light) {
-  return {HasSampler(light), IsSky(light)};
-}
-SamplingStrategies SpecularStrategies(const SampledLight& light) {
-  return {HasSampler(light), true};
 }
 
 // How many hits reflect diffusely in closed form, and how many are left to samples.
@@ -226,11 +209,10 @@ void DrawPoints(const LitBatch& lit, size_t pair) {
 }
 
 void AddLightSamples(const LitBatch& lit, const Components& components) {
-  const SampledLight& light = lit.planned.light;
   DrawPoints(lit, 0);
-  SampleLight(light, lit.hits(), lit.room.points, &lit.room.directions);
+  SampleLight(lit.planned.light, lit.hits(), lit.room.points, &lit.room.directions);
   Illuminate(lit);
-  AddSampledLight(lit, DiffuseStrategies(light), SpecularStrategies(light), components);
+  AddSampledLight(lit, components);
 }
 
 // The normals of all hits: hits without a lobe to sample get these as directions, and a weight of
@@ -240,31 +222,27 @@ void SetDirectionsToNormals(const LitBatch& lit) {
 }
 
 void AddBsdfSamples(const LitBatch& lit, LobeKind kind) {
-  const SampledLight& light = lit.planned.light;
   const bool diffuse = kind == LobeKind::kDiffuse;
   DrawPoints(lit, diffuse ? 1 : 2);
   SetDirectionsToNormals(lit);
   for (const MaterialRun& run : lit.runs()) {
     SampleLobes(lit.HitsOf(run), kind, lit.room.points.u.data(), lit.room.points.v.data(),
-                lit.bsdf_room(), &lit.room.directions.to_light);
+                &lit.batch.room.bsdf, &lit.room.directions.to_light);
   }
-  FindLight(light, lit.hits(), &lit.room.directions);
+  FindLight(lit.planned.light, lit.hits(), &lit.room.directions);
   Illuminate(lit);
-  AddSampledLight(lit, DiffuseStrategies(light), SpecularStrategies(light), {diffuse, !diffuse});
+  AddSampledLight(lit, {diffuse, !diffuse});
 }
 
 // Adds the light that the perfect mirrors at one level of stacks reflect, which comes from one
 // direction.
 void AddMirrorReflection(const LitBatch& lit, size_t level) {
-  const auto runs = lit.runs();
-  if (std::none_of(runs.begin(), runs.end(),
-                   [&](const MaterialRun& run) { return AnyMirror(lit.HitsOf(run), level); })) {
-    return;
-  }
+  const auto is_mirror = [&](const MaterialRun& run) { return AnyMirror(lit.HitsOf(run), level); };
+  if (std::ranges::none_of(lit.runs(), is_mirror)) return;
   Soa3<float>& reflectance = lit.room.unit.specular;
   ClearSoa(lit.count(), &reflectance);
   SetDirectionsToNormals(lit);
-  for (const MaterialRun& run : runs) {
+  for (const MaterialRun& run : lit.runs()) {
     SampleMirror(lit.HitsOf(run), level, &lit.room.directions.to_light, &reflectance);
   }
   FindLight(lit.planned.light, lit.hits(), &lit.room.directions);
@@ -281,9 +259,8 @@ void AddMirrorReflection(const LitBatch& lit, size_t level) {
 }
 
 void ShadeBySampledLight(const LitBatch& lit) {
-  const bool lobes = std::any_of(lit.runs().begin(), lit.runs().end(), [](const MaterialRun& run) {
-    return HasLobes(*run.shading, LobeKind::kGlossy);
-  });
+  const bool lobes = std::ranges::any_of(
+      lit.runs(), [](const MaterialRun& run) { return HasLobes(*run.shading, LobeKind::kGlossy); });
   const DiffuseHits diffuse = FindClosedForm(lit);
   const bool sampled_diffuse = diffuse.sampled > 0;
   if (diffuse.closed_form > 0) AddClosedForm(lit);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/sampled_kernel.h"
+#include "render/lighting_kernel.h"
 
 namespace nacre {
 namespace {

@@ -84,6 +84,11 @@ SamplingPlan PlanSampling(const Scene& scene, const RenderSettings& settings, Pi
   return plan;
 }
 
+void SetWeights(const PixelSampler& sampler, int first, int count, CameraSamples* samples) {
+  samples->weights.clear();
+  for (int i = first; i < first + count; ++i) samples->weights.push_back(SampleWeight(sampler, i));
+}
+
 void EnterPixels(const SamplingPlan& plan, const Window& tile, const TileShapes& shapes,
                  CameraSamples* samples) {
   std::vector<PixelRun>& runs = samples->runs;
@@ -107,10 +112,7 @@ void MakeSamples(const SamplingPlan& plan, const Window& tile, int first, int co
     SamplePixels(plan.sampler, samples->pixels, first, count, film.x.data(), film.y.data());
   }
   film.count = film.pixels * static_cast<size_t>(count);
-  samples->weights.resize(static_cast<size_t>(count));
-  for (int i = 0; i < count; ++i) {
-    samples->weights[static_cast<size_t>(i)] = SampleWeight(plan.sampler, first + i);
-  }
+  SetWeights(plan.sampler, first, count, samples);
   if (plan.numbered) NumberSamples(first, count, &EnsureNumbers(samples));
 }
 

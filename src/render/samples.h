@@ -3,6 +3,7 @@
 // and their numbers in the random sequences of their pixels.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -53,6 +54,25 @@ struct CameraSamples {
 inline SampleNumbers& EnsureNumbers(CameraSamples* samples) {
   if (!samples->numbers) samples->numbers.emplace(kBatchCapacity);
   return *samples->numbers;
+}
+
+// Sets the weights to those of samples [first, first + count) of a pixel.
+void SetWeights(const PixelSampler& sampler, int first, int count, CameraSamples* samples);
+
+// Numbers samples [first, first + count) of each of `pixels` pixels, pixel by pixel. Pixel i has
+// the seed seed_of(i).
+template <class SeedOf>
+void NumberPixelByPixel(size_t pixels, int first, size_t count, const SeedOf& seed_of,
+                        SampleNumbers* numbers) {
+  numbers->pixel_count = pixels;
+  size_t ray = 0;
+  for (uint32_t i = 0; i < pixels; ++i) {
+    numbers->seeds[i] = seed_of(i);
+    for (uint32_t k = 0; k < count; ++k, ++ray) {
+      numbers->number[ray] = static_cast<uint32_t>(first) + k;
+      numbers->pixel[ray] = i;
+    }
+  }
 }
 
 // Chooses the pixels of a tile that are sampled, before its first round: all of them, or those

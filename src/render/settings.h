@@ -35,11 +35,11 @@ struct FrameBand {
 };
 
 struct RenderSettings {
-  int threads = 0;                  // 0: as many as the machine has
-  Window region;                    // pixels to render; empty: the whole frame
-  FrameBand band;                   // if its count is above 0: the pixels to render, not `region`
-  int band_rows = kStripRows;       // bands begin at multiples of this; a multiple of kStripRows
-  std::vector<std::string> layers;  // besides R G B A; names as in render/layers.h
+  int threads = 0;                    // 0: as many as the machine has
+  Window region{};                    // pixels to render; empty: the whole frame
+  FrameBand band{};                   // if its count is above 0: the pixels to render, not `region`
+  int band_rows = kStripRows;         // bands begin at multiples of this; a multiple of kStripRows
+  std::vector<std::string> layers{};  // besides R G B A; names as in render/layers.h
   int tile_size = 0;  // width of tiles in pixels, [1, 64]; 0: the plan chooses. Changes no bit
   IntersectorChoice intersector = IntersectorChoice::kAuto;
   // Adaptive sampling (adaptive.h) if max_error is above 0: the largest error of a pixel relative
@@ -69,9 +69,9 @@ struct RenderSettings {
   CancelPointer cancel = nullptr;
   // Called after every strip, from any thread, one call at a time, with the share of the work that
   // is done, in (0, 1]. An exception from it ends the render.
-  std::function<void(double)> on_progress;
+  std::function<void(double)> on_progress{};
   // Called in the same way while the plan is made, between its large steps.
-  std::function<void(double)> on_plan_progress;
+  std::function<void(double)> on_plan_progress{};
 };
 
 // ---- The settings by name -----------------------------------------------------------------------

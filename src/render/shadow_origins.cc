@@ -46,8 +46,7 @@ bool PlanShadowOrigins(const Scene& scene, const TracedShapes& shapes, const Sha
                        Explanation* why) {
   if (scene.meshes.empty() || shapes.intersector == nullptr) return false;
   const auto any = [](const std::vector<LightShadows>& lights) {
-    return std::any_of(lights.begin(), lights.end(),
-                       [](const LightShadows& light) { return light.rays; });
+    return std::ranges::any_of(lights, &LightShadows::rays);
   };
   const bool rays = any(shadows.punctual) || any(shadows.sampled);
   const bool offset = rays && std::any_of(scene.meshes.begin(), scene.meshes.end(), OffsetsOrigins);

@@ -25,29 +25,20 @@ void AddItems(std::vector<PlanItem> items, Explanation* why) {
   }
 }
 
-// By sphere: 1 if anything can occlude the light from it.
-std::vector<uint8_t> FindShadowed(const OccluderLists& lists) {
-  std::vector<uint8_t> shadowed(lists.end.size());
-  for (size_t i = 0; i < shadowed.size(); ++i) shadowed[i] = lists.Begin(i) < lists.end[i] ? 1 : 0;
-  return shadowed;
-}
-
-// Turns off the light's shadow rays on spheres from which nothing can occlude it. Explains it in
-// `item`.
+// Finds the spheres from which something can occlude the light, by lists. If there is none, turns
+// off the light's shadow rays, unless light->trace_all. Explains it in `item`.
 void SkipUnshadowed(const OccluderLists& lists, LightShadows* light, PlanItem* item) {
-  std::vector<uint8_t> shadowed = FindShadowed(lists);
-  const auto count = std::count(shadowed.begin(), shadowed.end(), uint8_t{1});
-  const size_t spheres = shadowed.size();
-  if (count == 0) {
+  const size_t spheres = lists.end.size();
+  std::vector<uint8_t> shadowed(spheres);
+  for (size_t i = 0; i < spheres; ++i) shadowed[i] = lists.Begin(i) < lists.end[i] ? 1 : 0;
+  const auto count = static_cast<size_t>(std::ranges::count(shadowed, 1));
+  item->reason = fmt::format("{} of {} spheres can lie in another's shadow", count, spheres);
+  if (count == 0 && !light->trace_all) {
     light->rays = item->used = false;
     item->reason = spheres == 1 ? "a sphere alone, seen from outside, is convex"
                                 : "no sphere is between another and the light";
-    return;
   }
-  item->reason = fmt::format("{} of {} spheres can lie in another's shadow", count, spheres);
-  if (static_cast<size_t>(count) == spheres) return;
-  item->reason = "only " + item->reason;
-  light->shadowed = std::move(shadowed);
+  if (count < spheres) light->shadowed = std::move(shadowed);
 }
 
 // Why a BVH is better than these bins; empty if it is not.
@@ -76,9 +67,7 @@ std::string WhyTree(const Scene& scene, const RenderSettings& settings, const Tr
   if (settings.intersector == IntersectorChoice::kTiles) return {};
   // Measured: above this, one BVH is built faster than the bins of all lights, and is smaller.
   constexpr double kMaxPairs = 8e6;
-  const auto lights =
-      std::count_if(punctual.begin(), punctual.end(),
-                    [](const PlannedPunctualLight& light) { return light.casts_shadows; });
+  const auto lights = std::ranges::count(punctual, true, &PlannedPunctualLight::casts_shadows);
   if (static_cast<double>(lights) * static_cast<double>(scene.spheres.size()) > kMaxPairs &&
       lights > 1) {
     return fmt::format("one tree is less work than bins for {} lights", lights);
@@ -144,6 +133,7 @@ std::vector<LightShadows> PlanPunctualShadows(const std::vector<PlannedPunctualL
     if (light.occluders != kAnyLight) {
       const LightOccluders& found = shapes.intersector->Occluders(light.occluders);
       if (few) SkipUnshadowed(found.lists, &light, &item);
+      if (light.rays && !light.shadowed.empty()) item.reason = "only " + item.reason;
       bins = light.rays && found.bins.has_value();
       std::string why_not_bins;
       if (bins && (settings.intersector == IntersectorChoice::kAuto || found.bins->overfull)) {
@@ -173,16 +163,6 @@ std::vector<LightShadows> PlanPunctualShadows(const std::vector<PlannedPunctualL
   return plan;
 }
 
-LightBall BoundingBall(const SampledLight& light) {
-  switch (light.form) {
-    case SampledForm::kRectangle:
-      return {light.place + (light.edge_x + light.edge_y) / 2,
-              (light.edge_x + light.edge_y).length() / 2};
-    default:  // spheres, disks and meshes
-      return {light.place, light.radius};
-  }
-}
-
 // The spheres that can occlude the light, by the sphere that is shaded.
 const OccluderLists& ListKnownOccluders(const PlannedSampledLight& light, OccluderSearch* search,
                                         LightShadows* plan) {
@@ -196,58 +176,34 @@ const OccluderLists& ListKnownOccluders(const PlannedSampledLight& light, Occlud
   return shapes.intersector->Occluders(plan->occluders).lists;
 }
 
-bool NeedsTree(const RenderSettings& settings, const OccluderLists& lists) {
-  return settings.general_path || TreeAskedFor(settings.intersector) != nullptr ||
-         lists.longest > kMaxSampledListLength;
-}
-
 // Whether all triangles of the scene are the light's own shape, which casts no shadow of its light.
 bool OwnsTriangles(const Scene& scene, const PlannedSampledLight& light) {
   return light.primitives.begin == scene.spheres.size() &&
          light.primitives.end == scene.spheres.size() + CountTriangles(scene);
 }
 
-// For scenes of few spheres and no triangles but the light's: plans lists instead of a BVH, in
-// which rays would visit all triangles around their ends.
-PlanItem PlanOccludingSpheres(const PlannedSampledLight& light, OccluderSearch* search,
-                              LightShadows* plan) {
+// For scenes of few spheres, and no triangles but the light's: plans lists of spheres instead of a
+// BVH, in which rays would visit all triangles around their ends. Without any triangles, the lists
+// tell on which spheres the light can be occluded. This decides where diffuse reflection is in
+// closed form, so it must be the same for all intersectors, even if they then use a BVH.
+void PlanOccludingSpheres(const PlannedSampledLight& light, OccluderSearch* search,
+                          LightShadows* plan, PlanItem* item) {
   const RenderSettings& settings = search->settings;
   const OccluderLists& lists = ListKnownOccluders(light, search, plan);
-  PlanItem item{"", true, "something may lie between a surface and the light"};
-  if (NeedsTree(settings, lists)) {
+  const bool triangles = !search->scene.meshes.empty();
+  if (!triangles) {
+    plan->trace_all = settings.general_path;
+    SkipUnshadowed(lists, plan, item);
+  }
+  if (settings.general_path || TreeAskedFor(settings.intersector) != nullptr ||
+      lists.longest > kMaxSampledListLength) {
     plan->occluders = kAnyLight;
-  } else {
-    item.reason =
+  } else if (triangles) {
+    item->reason =
         fmt::format("spheres alone, {} at most, lie in the light's way: no tree", lists.longest);
-  }
-  return item;
-}
-
-// For scenes of few spheres: finds by lists on which spheres the light can be occluded. This
-// decides where diffuse reflection is in closed form, so it must be the same for all intersectors,
-// even if they then use a BVH.
-PlanItem PlanSampledLightLists(const PlannedSampledLight& light, OccluderSearch* search,
-                               LightShadows* plan) {
-  const RenderSettings& settings = search->settings;
-  const OccluderLists& lists = ListKnownOccluders(light, search, plan);
-  plan->shadowed = FindShadowed(lists);
-  plan->trace_all = settings.general_path;
-  const size_t spheres = plan->shadowed.size();
-  const auto count = std::count(plan->shadowed.begin(), plan->shadowed.end(), uint8_t{1});
-  PlanItem item{"", true,
-                fmt::format("{} of {} spheres can lie in another's shadow", count, spheres)};
-  if (count == 0 && !plan->trace_all) {
-    plan->rays = item.used = false;
-    item.reason = spheres == 1 ? "a sphere alone, seen from outside, is convex"
-                               : "no sphere is between another and the light";
-  }
-  if (NeedsTree(settings, lists)) {
-    plan->occluders = kAnyLight;
   } else if (plan->rays) {
-    item.reason += fmt::format(", each by {} others at most: no tree", lists.longest);
+    item->reason += fmt::format(", each by {} others at most: no tree", lists.longest);
   }
-  if (static_cast<size_t>(count) == spheres) plan->shadowed.clear();
-  return item;
 }
 
 std::vector<LightShadows> PlanSampledShadows(const std::vector<PlannedSampledLight>& sampled,
@@ -257,16 +213,13 @@ std::vector<LightShadows> PlanSampledShadows(const std::vector<PlannedSampledLig
   std::vector<LightShadows> plan = ShadowsOf(sampled);
   for (size_t i = 0; i < sampled.size(); ++i) {
     const PlannedSampledLight& light = sampled[i];
-    PlanItem item{"", true, "something may lie between a surface and the light"};
+    PlanItem item{fmt::format("light \"{}\" shadow rays", scene.lights[light.index].name),
+                  light.casts_shadows, "something may lie between a surface and the light"};
     if (!light.casts_shadows) {
-      item.used = false;
       item.reason = scene.image.shadows ? "the light casts none" : "the scene turns shadows off";
-    } else if (few && scene.meshes.empty()) {
-      item = PlanSampledLightLists(light, search, &plan[i]);
-    } else if (few && OwnsTriangles(scene, light)) {
-      item = PlanOccludingSpheres(light, search, &plan[i]);
+    } else if (few && (scene.meshes.empty() || OwnsTriangles(scene, light))) {
+      PlanOccludingSpheres(light, search, &plan[i], &item);
     }
-    item.what = fmt::format("light \"{}\" shadow rays", scene.lights[light.index].name);
     why->items.push_back(std::move(item));
   }
   return plan;

@@ -7,7 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <span>
+
+#include <Imath/ImathBox.h>
 
 #include "scene/scene.h"
 #include "visibility/cell_lists.h"
@@ -20,22 +21,12 @@ namespace {
 constexpr double kMaxFilmPosition = 1e9;
 
 // A bounding rectangle on the film, in pixels.
-struct FilmBounds {
-  double x0, y0, x1, y1;
-};
+using FilmBounds = Imath::Box2d;
 
 FilmBounds BoundsOf(const FilmTriangle& t) {
-  const auto [x0, x1] = std::minmax({t[0].x, t[1].x, t[2].x});
-  const auto [y0, y1] = std::minmax({t[0].y, t[1].y, t[2].y});
-  return {x0, y0, x1, y1};
-}
-
-FilmBounds BoundsAround(const Window& window, double margin) {
-  return {window.x0 - margin, window.y0 - margin, window.x1 + margin, window.y1 + margin};
-}
-
-bool Overlap(const FilmBounds& a, const FilmBounds& b) {
-  return a.x0 <= b.x1 && b.x0 <= a.x1 && a.y0 <= b.y1 && b.y0 <= a.y1;
+  FilmBounds bounds;
+  for (const Vec2d& corner : t) bounds.extendBy(corner);
+  return bounds;
 }
 
 // Twice the area, positive if the corners are seen in counter-clockwise order. The film's y axis
@@ -108,10 +99,10 @@ void ForEachCellNear(const SmallTriangles& triangles, const NarrowTriangle& narr
     return static_cast<int>(std::clamp(std::floor((at - from) / kCellSize), -1.0, double(count)));
   };
   const int columns = Columns(cells), rows = cells.height() / kCellSize;
-  const int column0 = std::max(place(box.x0 - triangles.margin, cells.x0, columns), 0);
-  const int column1 = std::min(place(box.x1 + triangles.margin, cells.x0, columns), columns - 1);
-  const int row0 = std::max(place(box.y0 - triangles.margin, cells.y0, rows), 0);
-  const int row1 = std::min(place(box.y1 + triangles.margin, cells.y0, rows), rows - 1);
+  const int column0 = std::max(place(box.min.x - triangles.margin, cells.x0, columns), 0);
+  const int column1 = std::min(place(box.max.x + triangles.margin, cells.x0, columns), columns - 1);
+  const int row0 = std::max(place(box.min.y - triangles.margin, cells.y0, rows), 0);
+  const int row1 = std::min(place(box.max.y + triangles.margin, cells.y0, rows), rows - 1);
   const Vec2d& from = narrow.corners[narrow.longest];
   const Vec2d along = (narrow.corners[(narrow.longest + 1) % 3] - from).normalized();
   const double nearby = narrow.height + std::sqrt(2.0) * (kCellSize / 2.0 + triangles.margin);
@@ -123,36 +114,29 @@ void ForEachCellNear(const SmallTriangles& triangles, const NarrowTriangle& narr
   }
 }
 
-// The triangle that a piece is part of.
-struct PieceSource {
-  uint32_t primitive;
-  MaterialId material;
-};
-
-TrianglePiece PieceOf(const PieceSource& source, const FilmTriangle& t, const FilmBounds& bounds) {
+TrianglePiece PieceOf(uint32_t primitive, const FilmTriangle& t, const FilmBounds& bounds) {
   const double area2 = SignedArea2(t);
-  const double width = bounds.x1 - bounds.x0, height = bounds.y1 - bounds.y0;
+  const Vec2d size = bounds.size();
   TrianglePiece piece{};
-  piece.primitive = source.primitive;
-  piece.material = source.material.index;
+  piece.primitive = primitive;
   piece.front = area2 > 0;
   piece.x = (t[0].x + t[1].x + t[2].x) / 3;
   piece.y = (t[0].y + t[1].y + t[2].y) / 3;
-  piece.box = {(bounds.x0 + bounds.x1) / 2, (bounds.y0 + bounds.y1) / 2, width / 2, height / 2};
-  piece.fill = std::abs(area2) / 2 / (width * height);
+  piece.box = {bounds.center().x, bounds.center().y, size.x / 2, size.y / 2};
+  piece.fill = std::abs(area2) / 2 / (size.x * size.y);
   return piece;
 }
 
 // Bisects the longest edge until the pieces are narrow in both axes.
 template <class Work>
-void CutToPieces(const PieceSource& source, const FilmTriangle& t, const FilmBounds& around,
+void CutToPieces(uint32_t primitive, const FilmTriangle& t, const FilmBounds& around,
                  const Work& work) {
   const FilmBounds bounds = BoundsOf(t);
-  if (!Overlap(bounds, around)) return;
-  const double width = bounds.x1 - bounds.x0, height = bounds.y1 - bounds.y0;
-  if (width < kMaxRareWidth && height < kMaxRareWidth) {
+  if (!bounds.intersects(around)) return;
+  const Vec2d size = bounds.size();
+  if (size.x < kMaxRareWidth && size.y < kMaxRareWidth) {
     // Halves of extremely thin triangles may be rounded to no area.
-    if (width * height > 0) work(PieceOf(source, t, bounds));
+    if (size.x * size.y > 0) work(PieceOf(primitive, t, bounds));
     return;
   }
   const size_t from = LongestEdge(t), to = (from + 1) % 3;
@@ -160,7 +144,7 @@ void CutToPieces(const PieceSource& source, const FilmTriangle& t, const FilmBou
   for (const size_t moved : {to, from}) {
     FilmTriangle half = t;
     half[moved] = middle;
-    CutToPieces(source, half, around, work);
+    CutToPieces(primitive, half, around, work);
   }
 }
 
@@ -217,11 +201,11 @@ void ForEachNarrowTriangle(const SmallTriangles& triangles, const PrimitiveNumbe
 void ForEachPiece(const SmallTriangles& triangles, const PrimitiveNumbers& numbers,
                   const Projector& projector, const Window& cell,
                   const std::function<void(const TrianglePiece&)>& work) {
-  const FilmBounds around = BoundsAround(cell, triangles.margin);
+  const Vec2d margin(triangles.margin, triangles.margin);
+  const FilmBounds around(Vec2d(cell.x0, cell.y0) - margin, Vec2d(cell.x1, cell.y1) + margin);
   ForEachNarrowTriangle(triangles, numbers, projector, cell,
                         [&](uint32_t primitive, const FilmTriangle& corners) {
-                          const PieceSource source{primitive, ShapeMaterial(numbers, primitive)};
-                          CutToPieces(source, corners, around, work);
+                          CutToPieces(primitive, corners, around, work);
                         });
 }
 

@@ -11,7 +11,6 @@
 #include "base/huge_pages.h"
 #include "base/image.h"
 #include "base/vec.h"
-#include "render/filter_shares.h"
 #include "scene/primitives.h"
 #include "visibility/sphere_bins.h"
 
@@ -43,13 +42,18 @@ void ForEachNarrowTriangle(const SmallTriangles& triangles, const PrimitiveNumbe
                            const Projector& projector, const Window& cell,
                            const std::function<void(uint32_t, const FilmTriangle&)>& work);
 
+// A box on the film, in pixels.
+struct FilmBox {
+  double x, y;  // of its centre
+  double half_width, half_height;
+};
+
 // A piece of the projection of a narrow triangle. Film positions and sizes are in pixels. The piece
 // covers the share `fill` of a box of at most kMaxRareWidth by kMaxRareWidth.
 struct TrianglePiece {
   uint32_t primitive;
-  bool front;         // the camera sees its corners in counter-clockwise order
-  uint32_t material;  // of its mesh; may be a split
-  double x, y;        // of its centroid
+  bool front;   // the camera sees its corners in counter-clockwise order
+  double x, y;  // of its centroid
   FilmBox box;
   double fill;
 

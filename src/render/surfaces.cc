@@ -31,21 +31,19 @@ struct MaterialBand {
   double from, to;  // film_x / frame_width
 };
 
-double FrameFraction(const SurfacePlan& plan, double film_x) { return film_x / plan.frame_width; }
-
 MaterialBand BandAt(const SurfacePlan& plan, uint32_t primitive, double film_x) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const MaterialId id = ShapeMaterial(plan.primitives, primitive);
   const auto* split = std::get_if<SplitMaterial>(&plan.primitives.scene->materials[id.index].model);
   if (split == nullptr) return {id, -kInfinity, kInfinity};
   const auto& at = split->at;
-  const auto to = std::upper_bound(at.begin(), at.end(), FrameFraction(plan, film_x));
+  const auto to = std::upper_bound(at.begin(), at.end(), film_x / plan.frame_width);
   return {split->materials[static_cast<size_t>(to - at.begin())],
           to == at.begin() ? -kInfinity : to[-1], to == at.end() ? kInfinity : *to};
 }
 
 bool IsIn(const SurfacePlan& plan, const MaterialBand& band, double film_x) {
-  const double fraction = FrameFraction(plan, film_x);
+  const double fraction = film_x / plan.frame_width;
   return band.from <= fraction && fraction < band.to;
 }
 
@@ -67,28 +65,18 @@ void Permute(const AlignedArray<uint32_t>& order, size_t count, const Soa3<T>& f
   Permute(order, count, from.z, &to->z);
 }
 
-struct HitsFrom {
-  const HitBatch* batch;
-  const HitDirections* directions;
-};
-
-// Which optional arrays the hits have.
-struct HitFields {
-  bool positions, exact_directions;
-};
-
 // Hit i of `to` becomes hit order[i] of `from`. `count` includes the padding.
-void PermuteHits(const HitsFrom& from, const HitFields& fields, size_t count,
-                 const AlignedArray<uint32_t>& order, Surfaces* to) {
-  to->hits.one_primitive = from.batch->one_primitive;
-  Permute(order, count, from.batch->ray, &to->hits.ray);
-  Permute(order, count, from.batch->primitive, &to->hits.primitive);
-  if (fields.positions) Permute(order, count, from.batch->position, &to->hits.position);
-  Permute(order, count, from.directions->normal, &to->surface.normal);
-  Permute(order, count, from.directions->to_view, &to->surface.to_view);
-  if (!fields.exact_directions) return;
-  Permute(order, count, from.batch->normal, &to->hits.normal);
-  Permute(order, count, from.batch->to_view, &to->hits.to_view);
+void PermuteHits(const CameraHits& from, size_t count, const AlignedArray<uint32_t>& order,
+                 Surfaces* to) {
+  to->hits.one_primitive = from.batch.one_primitive;
+  Permute(order, count, from.batch.ray, &to->hits.ray);
+  Permute(order, count, from.batch.primitive, &to->hits.primitive);
+  if (from.has_positions) Permute(order, count, from.batch.position, &to->hits.position);
+  Permute(order, count, from.directions.normal, &to->surface.normal);
+  Permute(order, count, from.directions.to_view, &to->surface.to_view);
+  if (!from.has_exact_directions) return;
+  Permute(order, count, from.batch.normal, &to->hits.normal);
+  Permute(order, count, from.batch.to_view, &to->hits.to_view);
 }
 
 // Moves the hits to `to`, in the same order.
@@ -174,15 +162,13 @@ void SortHits(const SurfacePlan& plan, const double* film_x, CameraHits* hits, S
   }
   const size_t count = hits->batch.count, padded = RoundUp(count, kBatchPadding);
   for (size_t i = count; i < padded; ++i) room->order[i] = room->order[count - 1];
-  PermuteHits({&hits->batch, &hits->directions}, {hits->has_positions, hits->has_exact_directions},
-              padded, room->order, to);
+  PermuteHits(*hits, padded, room->order, to);
   to->hits.count = count;
 }
 
 // Makes the hits of the lit runs' coats. A coat's shading normal is the one before the normal maps
 // of what is below it, so this must precede their look-up. Returns the most coats of any run.
-size_t CopyCoats(const SurfacePlan& plan, Surfaces* s) {
-  if (!plan.coated) return 0;
+size_t CopyCoats(Surfaces* s) {
   size_t most = 0;
   for (const MaterialRun& run : LitRuns(*s)) most = std::max(most, run.shading->coats.size());
   if (s->coats.size() < most) s->coats.resize(most);
@@ -200,14 +186,13 @@ void LookUpMaps(const SurfacePlan& plan, const ShadingMaterial& material, const 
 
 bool MapsNormals(const ShadingMaterial& material) {
   return material.by_hit.normal ||
-         std::any_of(material.coats.begin(), material.coats.end(),
-                     [](const auto& coat) { return coat->by_hit.normal; });
+         std::ranges::any_of(material.coats, [](const auto& c) { return c->by_hit.normal; });
 }
 
 // Looks up the maps of the runs' materials and of their coats, `coats` of which are in use.
 void LookUpMaps(const SurfacePlan& plan, size_t coats, Surfaces* s) {
   s->surface.normal_mapped =
-      plan.textured && std::any_of(s->runs.begin(), s->runs.end(), [](const MaterialRun& run) {
+      plan.textured && std::ranges::any_of(s->runs, [](const MaterialRun& run) {
         return MapsNormals(*run.shading);
       });
   if (s->surface.normal_mapped) {
@@ -239,12 +224,11 @@ void PlanTextures(const Scene& scene, const RenderSettings& settings, const Came
   size_t count = 0;
   const bool any = Has(plan->prepared->any, MaterialTrait::kTextured);
   for (size_t i = 0; any && i < traits.size(); ++i) {
-    if (used[i] && Has(traits[i], MaterialTrait::kTextured)) ++count;
+    count += used[i] && Has(traits[i], MaterialTrait::kTextured) ? 1 : 0;
   }
   plan->textured = count > 0;
   if (!plan->textured) {
-    why->items.push_back({"textures", false, "no shape's material has a map"});
-    return;
+    return why->items.push_back({"textures", false, "no shape's material has a map"});
   }
   // The footprint of a sample is its share of the pixel. For adaptive sampling 64 samples are
   // assumed.
@@ -286,12 +270,12 @@ SurfacePlan PlanSurfaces(const Scene& scene, const RenderSettings& settings,
                             : "a constant per material without maps, coats and layers"});
   plan.prepared = std::move(materials);
   plan.materials = plan.prepared->all;
-  plan.coated = Has(plan.prepared->any, MaterialTrait::kCoated);
   plan.splits = Has(plan.prepared->any, MaterialTrait::kSplit);
   plan.emits_in_front_only = Has(plan.prepared->any, MaterialTrait::kEmitsInFrontOnly);
+  const bool coated = Has(plan.prepared->any, MaterialTrait::kCoated);
   why->items.push_back(
-      {"coats", plan.coated,
-       plan.coated ? "over some materials, each with a lobe of its own" : "no material has any"});
+      {"coats", coated,
+       coated ? "over some materials, each with a lobe of its own" : "no material has any"});
   plan.interpolates = std::any_of(scene.meshes.begin(), scene.meshes.end(), InterpolatesRadiance);
   PlanTextures(scene, settings, camera, used, tables, &plan, why);
   plan.textures.ambient = ambient;
@@ -343,7 +327,7 @@ void PrepareSurfaces(const SurfacePlan& plan, Surfaces* surfaces) {
       s.runs.begin(), s.runs.end(), [](const MaterialRun& run) { return !run.interpolated; });
   s.lit_runs = static_cast<size_t>(interpolated - s.runs.begin());
   s.lit = s.lit_runs == 0 ? 0 : s.runs[s.lit_runs - 1].end;
-  LookUpMaps(plan, CopyCoats(plan, &s), &s);
+  LookUpMaps(plan, CopyCoats(&s), &s);
   for (const MaterialRun& run : LitRuns(s)) {
     PrepareBsdf(*run.shading, run.begin, run.end, s.textures.get(), &s.surface, s.coats);
     if (!run.shading->by_hit.parameters) continue;

@@ -24,7 +24,6 @@ struct SurfacePlan {
   int frame_width = 0;  // in pixels, for split materials
   std::shared_ptr<const PreparedMaterials> prepared;
   std::span<const ShadingMaterial> materials;  // PreparedMaterials::all
-  bool coated = false;                         // some material has a coat
   bool splits = false;                         // some material depends on the film position
   bool emits_in_front_only = false;            // some material does
   bool interpolates = false;  // some mesh interpolates radiance, not normals (mesh_radiance.h)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/texel_maps.h: the images in which adaptive sampling looks for rare texels (rare_texels.h):
-// the maps of each material, and the sky behind the shapes.
+// render/texel_maps.h: the images in which adaptive sampling looks for rare texels
+// (rare_texels.cc): the maps of each material, and the sky behind the shapes.
 #pragma once
 
 #include <memory>

@@ -11,7 +11,7 @@
 #include "render/frame_plan.h"
 #include "render/hits.h"
 #include "render/samples.h"
-#include "render/stage_clock.h"
+#include "render/stats.h"
 #include "render/surfaces.h"
 #include "render/tile_shapes.h"
 

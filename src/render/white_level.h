@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/white_level.h: the radiance of white, above which a pixel counts as a highlight.
+// render/white_level.h: the radiance of white, above which a pixel counts as a highlight, and an
+// upper bound of that of small objects, which tells adaptive sampling which of them are too small
+// to matter if all samples miss them.
 #pragma once
 
-#include "scene/scene.h"
+#include "render/lights_plan.h"
 
 namespace nacre {
 
@@ -13,10 +15,8 @@ namespace nacre {
 // from a part of them.
 double WhiteLevel(const Scene& scene);
 
-// The largest radiance, in any channel, that a material of the scene emits, with its map.
-double LargestEmission(const Scene& scene);
-
-// Whether a material has the classic convention, which leaves out the factor 1/pi.
-bool IsClassic(const Material& material);
+// An upper bound of the mean radiance of an object that is seen whole: `white` (WhiteLevel) if that
+// is finite, else a bound from the area lights and skies. Infinite if no bound is known.
+double BrightestObject(const Scene& scene, const LightsPlan& lights, double white);
 
 }  // namespace nacre

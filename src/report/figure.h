@@ -66,10 +66,10 @@ struct Plot {
 
 // Panels from left to right, `columns` per row.
 struct Figure {
-  std::vector<Plot> panels;
+  std::vector<Plot> panels{};
   int columns = 1;
   int width = 1280, height = 800;  // pixels
-  std::string title;               // above several panels
+  std::string title{};             // above several panels
 };
 
 }  // namespace nacre

@@ -89,19 +89,11 @@ Curve MakeCurve(const std::string& title, std::vector<double> x,
   return {title, std::move(x), std::move(y)};
 }
 
-Figure MakeFigure(Plot plot) {
-  Figure figure;
-  figure.panels.push_back(std::move(plot));
-  return figure;
-}
+Figure MakeFigure(Plot plot) { return {.panels = {std::move(plot)}}; }
 
 Figure MakeRow(std::vector<Plot> plots) {
-  Figure figure;
-  figure.panels = std::move(plots);
-  figure.columns = static_cast<int>(figure.panels.size());
-  figure.width = 1700;
-  figure.height = 760;
-  return figure;
+  const auto columns = static_cast<int>(plots.size());
+  return {.panels = std::move(plots), .columns = columns, .width = 1700, .height = 760};
 }
 
 std::string CsvText(const std::string& text) {

@@ -23,20 +23,15 @@ void AppendPoints(int count, uint32_t pair, PixelSampler* sampler) {
 
 PixelSampler MakePixelSampler(const PixelFilter& filter, int samples_per_pixel, uint32_t seed) {
   if (samples_per_pixel > 1) return MakeReplicateSampler(filter, samples_per_pixel, seed);
-  PixelSampler sampler;
-  sampler.filter = MakeFilterSampler(filter);
-  sampler.seed = seed;
-  sampler.centered = true;
+  PixelSampler sampler{.filter = MakeFilterSampler(filter), .seed = seed, .centered = true};
   sampler.points_x.resize(kBatchPadding);
   sampler.points_y.resize(kBatchPadding);
   return sampler;
 }
 
 PixelSampler MakeReplicateSampler(const PixelFilter& filter, int samples_per_pixel, uint32_t seed) {
-  PixelSampler sampler;
-  sampler.filter = MakeFilterSampler(filter);
-  sampler.seed = seed;
-  sampler.samples_per_pixel = samples_per_pixel;
+  PixelSampler sampler{
+      .filter = MakeFilterSampler(filter), .seed = seed, .samples_per_pixel = samples_per_pixel};
   const double positive = PartMass(sampler.filter, FilterPart::kPositive);
   const double negative = PartMass(sampler.filter, FilterPart::kNegative);
   int negative_count = 0;

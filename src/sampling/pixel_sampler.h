@@ -16,7 +16,7 @@ namespace nacre {
 // shifts by a random number of its own (Kollig and Keller 2002). That costs one exclusive or, keeps
 // the points' (t,m,s)-nets, and makes the errors of pixels independent.
 struct PixelSampler {
-  FilterSampler filter;
+  FilterSampler filter{};
   uint32_t seed = 0;
   int samples_per_pixel = 1;
   bool centered = false;  // the only sample is the pixel's centre
@@ -27,7 +27,7 @@ struct PixelSampler {
   double positive_weight = 1;
   double negative_weight = 0;
   // The point of each sample, as 32-bit binary fractions; padded for whole vectors.
-  std::vector<uint32_t> points_x, points_y;
+  std::vector<uint32_t> points_x{}, points_y{};
 };
 
 // samples_per_pixel is in [1, 65536]. A single sample is the pixel's centre.

@@ -7,26 +7,20 @@
 #include "base/error.h"
 #include "base/huge_pages.h"
 #include "base/parallel.h"
+#include "sampling/hash.h"
 #include "scene/generators.h"
 #include "scene/limits.h"
 
 namespace nacre {
 namespace {
 
-// The output function of SplitMix64 (Steele, Lea and Flood 2014): a bijection that mixes well.
-uint64_t Mix(uint64_t x) {
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
-
-// One SplitMix64 stream for each sphere. The standard library's distributions would differ from
-// one implementation to the next.
+// One SplitMix64 stream (Steele, Lea and Flood 2014) for each sphere. The standard library's
+// distributions would differ from one implementation to the next.
 class Stream {
  public:
-  Stream(uint64_t seed, uint64_t index) : state_(Mix(Mix(seed + kStep) + index)) {}
+  Stream(uint64_t seed, uint64_t index) : state_(Mix64(MixFirst(seed) + index)) {}
 
-  uint64_t Next() { return Mix(state_ += kStep); }
+  uint64_t Next() { return Mix64(state_ += kStep); }
   // Uniform in [0, 1), a multiple of 2^-53.
   double NextUnit() { return static_cast<double>(Next() >> 11) * 0x1p-53; }
   double NextBetween(double min, double max) { return min + NextUnit() * (max - min); }
@@ -70,15 +64,14 @@ void CheckCloud(const Cloud& cloud) {
 
 void AddCloud(const Cloud& cloud, int threads, Scene* scene) {
   CheckCloud(cloud);
-  constexpr uint64_t kBlock = 1 << 16;
+  constexpr size_t kBlock = size_t{1} << 16;
   const size_t first = scene->spheres.size();
   scene->spheres.reserve(first + cloud.count);
   AdviseHugePages(scene->spheres.data() + first, cloud.count * sizeof(Sphere));
   scene->spheres.resize(first + cloud.count);
   Sphere* const spheres = scene->spheres.data() + first;
-  ParallelFor((cloud.count + kBlock - 1) / kBlock, threads, [&](size_t block) {
-    const uint64_t end = std::min(cloud.count, (block + 1) * kBlock);
-    for (uint64_t i = block * kBlock; i < end; ++i) spheres[i] = CloudSphere(cloud, i);
+  ParallelForBlocks(cloud.count, kBlock, threads, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) spheres[i] = CloudSphere(cloud, i);
   });
 }
 

@@ -38,11 +38,7 @@ std::vector<Material> CoatsOf(const Material& material) {
   // Most of the light that the coat's microfacets block after one bounce is transmitted at the next
   // bounce, so the layers below get all that the coat does not reflect in one bounce.
   model.compensation = Compensation::kNone;
-  Material coat;
-  coat.name = material.name;
-  coat.model = model;
-  coat.normal_map = below->coat_normal_map;
-  return {coat};
+  return {Material{.name = material.name, .model = model, .normal_map = below->coat_normal_map}};
 }
 
 bool RemoveCoats(Material* material) {

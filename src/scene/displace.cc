@@ -23,9 +23,7 @@ Vec3d SphereDirection(double u, double v) {
 // The positions and triangles of `mesh`, with each index replaced by its twin's, so that the
 // surface is closed where positions coincide.
 Mesh Welded(const Mesh& mesh, const std::vector<uint32_t>& twins) {
-  Mesh welded;
-  welded.positions = mesh.positions;
-  welded.triangles = mesh.triangles;
+  Mesh welded{.positions = mesh.positions, .triangles = mesh.triangles};
   for (uint32_t& index : welded.triangles) index = twins[index];
   return welded;
 }
@@ -51,8 +49,7 @@ std::vector<Vec3d> NormalsOf(Mesh mesh) {
 
 Mesh TessellateSphere(const Sphere& sphere, int segments) {
   const int rows = std::max(segments / 2, 2);
-  Mesh mesh;
-  mesh.material = sphere.material;
+  Mesh mesh{.material = sphere.material};
   const auto columns = static_cast<size_t>(segments) + 1;
   mesh.positions.reserve(columns * (static_cast<size_t>(rows) + 1));
   for (int row = 0; row <= rows; ++row) {

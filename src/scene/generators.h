@@ -20,8 +20,8 @@ namespace nacre {
 // named parameter of the base material (scene/material_parameters.h).
 struct GridAxis {
   int count = 1;
-  std::string parameter;    // empty: nothing varies
-  std::vector<Rgb> values;  // `count` of them; a number has three equal components
+  std::string parameter{};    // empty: nothing varies
+  std::vector<Rgb> values{};  // `count` of them; a number has three equal components
 };
 
 // Makes an axis of `count` evenly spaced values, from `from` to `to`, both included.
@@ -36,9 +36,9 @@ struct Grid {
   Vec3d center{0, 0, 0};
   Vec2d spacing{1, 1};  // between the centres of neighbours in x and y, > 0
   double radius = 0.4;  // > 0
-  Material material;    // gives the parameters that no axis varies
-  GridAxis rows;
-  GridAxis columns;
+  Material material{};  // gives the parameters that no axis varies
+  GridAxis rows{};
+  GridAxis columns{};
 };
 
 // Adds the grid's spheres row by row, a material for each ("grid roughness=0.1 metallic=0.25") and

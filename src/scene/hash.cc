@@ -28,18 +28,21 @@ class Hasher {
     state_ *= 0xc4ceb9fe1a85ec53u;
     state_ ^= state_ >> 29;
   }
+  template <class... Words>
+  void AddWords(Words... words) {
+    (Word(static_cast<uint64_t>(words)), ...);
+  }
   void Add(double value) { Word(std::bit_cast<uint64_t>(value)); }
-  void Add(const Vec3d& v) {
-    Add(v.x);
-    Add(v.y);
-    Add(v.z);
+  void Add(const Vec3d& v) { AddAll(v.x, v.y, v.z); }
+  void Add(const Vec2d& v) { AddAll(v.x, v.y); }
+  template <class Tag>
+  void Add(Handle<Tag> id) {
+    Word(id.index);
   }
-  void Add(const Vec2d& v) {
-    Add(v.x);
-    Add(v.y);
+  template <class... Values>
+  void AddAll(const Values&... values) {
+    (Add(values), ...);
   }
-  void Add(MaterialId id) { Word(id.index); }
-  void Add(TextureId id) { Word(id.index); }
   void Add(std::string_view text) {
     Word(text.size());
     for (const char c : text) Word(static_cast<unsigned char>(c));
@@ -161,10 +164,8 @@ class SharedHashes {
 // Hashes the contents of an image; its file name does not count.
 void Add(const SceneImage& image, SharedHashes* shared, Hasher* hash) {
   const MipLevel& whole = image.texels->levels[0];
-  hash->Word(static_cast<uint64_t>(whole.width));
-  hash->Word(static_cast<uint64_t>(whole.height));
-  hash->Word(static_cast<uint64_t>(image.texels->channels));
-  hash->Word(std::bit_cast<uint32_t>(image.middle));
+  hash->AddWords(whole.width, whole.height, image.texels->channels,
+                 std::bit_cast<uint32_t>(image.middle));
   hash->Word(shared->Of(image.texels, [&](Hasher* own) {
     const TexelView texels = image.texels->Level(0);
     AddPieces(texels.size(), kPiece / sizeof(float), own, [&](size_t first, size_t end) {
@@ -176,18 +177,11 @@ void Add(const SceneImage& image, SharedHashes* shared, Hasher* hash) {
 }
 
 void Add(const Texture& texture, Hasher* hash) {
-  hash->Word(texture.image.index);
-  hash->Word(static_cast<uint64_t>(texture.sampling.filter));
-  hash->Word(static_cast<uint64_t>(texture.sampling.wrap_u));
-  hash->Word(static_cast<uint64_t>(texture.sampling.wrap_v));
-  hash->Word(static_cast<uint64_t>(texture.mapping));
-  hash->Add(texture.axis);
-  hash->Add(texture.rotate_deg);
-  hash->Add(texture.center);
-  hash->Add(texture.size);
-  hash->Add(texture.scale);
-  hash->Add(texture.uv_rotate_deg);
-  hash->Add(texture.offset);
+  const SampleSettings& sampling = texture.sampling;
+  hash->AddWords(texture.image.index, sampling.filter, sampling.wrap_u, sampling.wrap_v,
+                 texture.mapping);
+  hash->AddAll(texture.axis, texture.rotate_deg, texture.center, texture.size, texture.scale,
+               texture.uv_rotate_deg, texture.offset);
   hash->Word(texture.second_uvs);
 }
 
@@ -205,14 +199,11 @@ void AddMaps(const Material& material, Hasher* hash) {
     const NormalMap& map = NormalMapOf(row, material);
     if (!map.texture.valid()) continue;
     if (&row != model->normal_maps.data()) hash->Add(row.name);
-    hash->Add(map.texture);
-    hash->Add(map.scale);
-    hash->Word(static_cast<uint64_t>(map.convention));
+    hash->AddAll(map.texture, map.scale);
+    hash->AddWords(map.convention);
   }
-  if (material.bump_map.texture.valid()) {
-    hash->Add(material.bump_map.texture);
-    hash->Add(material.bump_map.distance);
-  }
+  const BumpMap& bumps = material.bump_map;
+  if (bumps.texture.valid()) hash->AddAll(bumps.texture, bumps.distance);
 }
 
 void AddSplit(const SplitMaterial& split, Hasher* hash) {
@@ -247,8 +238,7 @@ struct AddLightKind {
     AddKeys(kind, hash);
   }
   void operator()(const MeshAreaLight& light) const {
-    hash->Word(light.mesh->positions.size());
-    hash->Word(light.mesh->triangles.size());
+    hash->AddWords(light.mesh->positions.size(), light.mesh->triangles.size());
     hash->Word(shared->Of(light.mesh, [&](Hasher* own) {
       AddArray(light.mesh->positions, own);
       AddArray(light.mesh->triangles, own);
@@ -261,8 +251,7 @@ struct AddLightKind {
     AddKeys(light, hash);
   }
   void operator()(const PictureSky& sky) const {
-    hash->Word(static_cast<uint64_t>(sky.picture->width));
-    hash->Word(static_cast<uint64_t>(sky.picture->height));
+    hash->AddWords(sky.picture->width, sky.picture->height);
     hash->Word(shared->Of(sky.picture, [&](Hasher* own) { AddArray(sky.picture->rgb, own); }));
     AddKeys(sky, hash);
   }
@@ -270,8 +259,7 @@ struct AddLightKind {
 
 uint64_t HashMaterial(const Material& material) {
   Hasher hash;
-  hash.Word(material.emits_in_front_only);
-  hash.Word(static_cast<uint64_t>(material.vertex_colors));
+  hash.AddWords(material.emits_in_front_only, material.vertex_colors);
   AddModel(material, &hash);
   AddMaps(material, &hash);
   return hash.state();
@@ -279,43 +267,8 @@ uint64_t HashMaterial(const Material& material) {
 
 uint64_t HashSphere(const Sphere& sphere) {
   Hasher hash;
-  hash.Add(sphere.center);
-  hash.Add(sphere.radius);
-  hash.Add(sphere.material);
+  hash.AddAll(sphere.center, sphere.radius, sphere.material);
   return hash.state();
-}
-
-void AddShapes(std::span<const Sphere> spheres, std::span<const Mesh> meshes, Hasher* hash) {
-  hash->Word(spheres.size());
-  AddPieces(spheres.size(), kSpheresAtATime, hash, [&](size_t first, size_t end) {
-    // Each sphere is hashed by itself: in one chain each multiplication would wait for the one
-    // before.
-    Hasher piece;
-    for (size_t i = first; i < end; ++i) piece.Word(HashSphere(spheres[i]));
-    return piece.state();
-  });
-  hash->Word(meshes.size());
-  for (const Mesh& mesh : meshes) {
-    hash->Word(mesh.positions.size());
-    hash->Word(mesh.normals.size());
-    hash->Word(mesh.uvs.size());
-    hash->Word(mesh.second_uvs.size());
-    hash->Word(mesh.colors.size());
-    hash->Word(mesh.tangents.size());
-    hash->Word(mesh.opacities.size());
-    hash->Word(mesh.triangles.size());
-    hash->Word(static_cast<uint64_t>(mesh.interpolation));
-    hash->Word(mesh.smooth_terminator);
-    AddArray(mesh.positions, hash);
-    AddArray(mesh.normals, hash);
-    AddArray(mesh.uvs, hash);
-    AddArray(mesh.second_uvs, hash);
-    AddArray(mesh.colors, hash);
-    AddArray(mesh.opacities, hash);
-    AddArray(mesh.tangents, hash);
-    AddArray(mesh.triangles, hash);
-    hash->Add(mesh.material);
-  }
 }
 
 // Hashes of materials are combined in groups, so that after a change of one material few of them
@@ -379,7 +332,25 @@ uint64_t HashScene(const Scene& scene, KeptHashes* kept) {
 
 uint64_t HashShapes(std::span<const Sphere> spheres, std::span<const Mesh> meshes) {
   Hasher hash;
-  AddShapes(spheres, meshes, &hash);
+  hash.Word(spheres.size());
+  AddPieces(spheres.size(), kSpheresAtATime, &hash, [&](size_t first, size_t end) {
+    // Each sphere is hashed by itself: in one chain each multiplication would wait for the one
+    // before.
+    Hasher piece;
+    for (size_t i = first; i < end; ++i) piece.Word(HashSphere(spheres[i]));
+    return piece.state();
+  });
+  hash.Word(meshes.size());
+  const auto add_sizes = [&](const auto&... arrays) { hash.AddWords(arrays.size()...); };
+  const auto add_arrays = [&](const auto&... arrays) { (AddArray(arrays, &hash), ...); };
+  for (const Mesh& mesh : meshes) {
+    add_sizes(mesh.positions, mesh.normals, mesh.uvs, mesh.second_uvs, mesh.colors, mesh.tangents,
+              mesh.opacities, mesh.triangles);
+    hash.AddWords(mesh.interpolation, mesh.smooth_terminator);
+    add_arrays(mesh.positions, mesh.normals, mesh.uvs, mesh.second_uvs, mesh.colors, mesh.opacities,
+               mesh.tangents, mesh.triangles);
+    hash.Add(mesh.material);
+  }
   return hash.state();
 }
 

@@ -36,7 +36,7 @@ struct DirectionalLight {
 struct PointLight {
   Vec3d position{0, 0, 0};
   Rgb intensity{1, 1, 1};
-  Attenuation attenuation;
+  Attenuation attenuation{};
 };
 
 // The penumbra as a function of t, the cosine scaled to 0 at the cutoff angle and 1 at the inner
@@ -53,7 +53,7 @@ struct SpotLight {
   Vec3d position{0, 0, 0};
   Vec3d direction_of_travel{0, -1, 0};  // the axis, any length > 0
   Rgb intensity{1, 1, 1};
-  Attenuation attenuation;
+  Attenuation attenuation{};
   double cutoff_deg = 30;  // half-angle, in (0, 180]
   double inner_deg = 30;   // in [0, cutoff_deg]
   double exponent = 0;     // >= 0
@@ -97,7 +97,7 @@ struct Mesh;
 // shines on.
 struct MeshAreaLight {
   // Only its positions and triangles are used. Shared by copies of the scene, never changed.
-  std::shared_ptr<const Mesh> mesh;
+  std::shared_ptr<const Mesh> mesh{};
   Rgb radiance{1, 1, 1};
   bool two_sided = false;
   bool visible = true;
@@ -145,11 +145,11 @@ struct EnvironmentLight {
 };
 
 struct Light {
-  std::string name;  // unique; names the layer light.<name>
+  std::string name{};  // unique; names the layer light.<name>
   bool shadows = true;
   std::variant<AmbientLight, DirectionalLight, PointLight, SpotLight, SphereAreaLight,
                RectangleAreaLight, DiskAreaLight, EnvironmentLight, MeshAreaLight>
-      kind;
+      kind{};
 };
 
 // True for lights without extent, which reach a point from one direction.

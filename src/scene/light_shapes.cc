@@ -6,6 +6,8 @@
 #include <utility>
 #include <variant>
 
+#include <Imath/ImathBox.h>
+
 #include "scene/primitives.h"
 #include "scene/scene_with_lights.h"
 
@@ -28,10 +30,8 @@ MaterialId AddMaterial(const std::string& name, const AreaLight& light, bool two
 
 Mesh MakeMesh(const RectangleAreaLight& light) {
   const auto [corner, x, y] = CornersOf(light);
-  Mesh mesh;
-  mesh.positions = {corner, corner + x, corner + x + y, corner + y};
-  mesh.triangles = {0, 1, 2, 0, 2, 3};
-  return mesh;
+  return {.positions = {corner, corner + x, corner + x + y, corner + y},
+          .triangles = {0, 1, 2, 0, 2, 3}};
 }
 
 Mesh MakeMesh(const DiskAreaLight& light) {
@@ -57,20 +57,7 @@ Mesh MakeMesh(const DiskAreaLight& light) {
 }
 
 Mesh MakeMesh(const MeshAreaLight& light) {
-  Mesh mesh;
-  mesh.positions = light.mesh->positions;
-  mesh.triangles = light.mesh->triangles;
-  return mesh;
-}
-
-// Calls use(light) if the light has the shape of a mesh.
-template <class Use>
-void VisitMeshLight(const Light& light, const Use& use) {
-  std::visit(
-      [&](const auto& kind) {
-        if constexpr (requires { MakeMesh(kind); }) use(kind);
-      },
-      light.kind);
+  return {.positions = light.mesh->positions, .triangles = light.mesh->triangles};
 }
 
 // An upper bound of how far apart two planes that coincide may be for rays of the camera. It covers
@@ -118,14 +105,26 @@ void LiftFromItsPlane(const Vec3d& camera, Mesh* mesh) {
   for (Vec3d& p : mesh->positions) p += *normal * rounding;
 }
 
+// If the light has the shape of a mesh, calls use(light, mesh) with that, placed for the camera.
+template <class Use>
+void VisitMeshLight(const Light& light, const Camera& camera, const Use& use) {
+  std::visit(
+      [&](const auto& kind) {
+        if constexpr (requires { MakeMesh(kind); }) {
+          Mesh mesh = MakeMesh(kind);
+          LiftFromItsPlane(camera.position, &mesh);
+          use(kind, std::move(mesh));
+        }
+      },
+      light.kind);
+}
+
 // Places the meshes of lights, which are the last ones, for the camera of `scene`.
 void MoveLightMeshes(const Scene& scene, SceneWithLights* with) {
   size_t next = scene.meshes.size();
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     if (with->primitives[i].end <= with->scene.spheres.size()) continue;
-    VisitMeshLight(scene.lights[i], [&](const auto& light) {
-      Mesh mesh = MakeMesh(light);
-      LiftFromItsPlane(scene.camera.position, &mesh);
+    VisitMeshLight(scene.lights[i], scene.camera, [&](const auto&, Mesh mesh) {
       with->scene.meshes[next++].positions = std::move(mesh.positions);
     });
   }
@@ -149,12 +148,9 @@ void MakeTangents(const Vec3d& normal, Vec3d* tangent_x, Vec3d* tangent_y) {
 }
 
 LightBall BallAround(const std::vector<Vec3d>& positions) {
-  Vec3d low = positions[0], high = positions[0];
-  for (const Vec3d& p : positions) {
-    low = Vec3d(std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z));
-    high = Vec3d(std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z));
-  }
-  LightBall ball{(low + high) / 2, 0};
+  Imath::Box3d box;
+  for (const Vec3d& p : positions) box.extendBy(p);
+  LightBall ball{box.center(), 0};
   for (const Vec3d& p : positions) ball.radius = std::max(ball.radius, (p - ball.center).length());
   return ball;
 }
@@ -189,9 +185,7 @@ SceneWithLights AddLightShapes(const Scene& scene, const std::vector<bool>& show
   auto next = static_cast<uint32_t>(with.spheres.size() + CountTriangles(scene));
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     if (!shown[i]) continue;
-    VisitMeshLight(scene.lights[i], [&](const auto& light) {
-      Mesh mesh = MakeMesh(light);
-      LiftFromItsPlane(scene.camera.position, &mesh);
+    VisitMeshLight(scene.lights[i], scene.camera, [&](const auto& light, Mesh mesh) {
       mesh.name = "light " + scene.lights[i].name;
       mesh.material = AddMaterial(scene.lights[i].name, light, light.two_sided, &with);
       const auto triangles = static_cast<uint32_t>(mesh.triangles.size() / 3);

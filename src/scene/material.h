@@ -139,14 +139,14 @@ struct SplitMaterial {
 struct UserBrdf;  // scene/user_brdf.h
 
 struct Material {
-  std::string name;
+  std::string name{};
   Rgb emission{0, 0, 0};  // radiance, >= 0
   // Whether spheres emit only outwards, and triangles only from their fronts: the side from which
   // their corners run counter-clockwise.
   bool emits_in_front_only = false;
   std::variant<LambertMaterial, PhongMaterial, MetallicRoughnessMaterial, ConductorMaterial,
                DielectricMaterial, SplitMaterial, OrenNayarMaterial, BurleyMaterial>
-      model;
+      model{};
   // Meshes only: triangles have only fronts. Rays of the camera and of lights pass through them
   // from behind.
   bool single_sided = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/material_parameters.h"
 
+#include <algorithm>
 #include <array>
 #include <type_traits>
 #include <variant>
@@ -123,8 +124,7 @@ constexpr std::string_view kShadowingMeaning =
 constexpr std::string_view kCompensationMeaning =
     "Energy compensation: what replaces the light that bounces more than once between "
     "microfacets. turquin: the lobe is scaled (Turquin 2019). kulla_conty: a second lobe (Kulla "
-    "and "
-    "Conty 2017), reciprocal. none: that light is lost, up to 59 %.";
+    "and Conty 2017), reciprocal. none: that light is lost, up to 59 %.";
 constexpr std::string_view kCouplingMeaning =
     "How much light reaches the diffuse base. albedo_scaled: what the albedo of the dielectric's "
     "lobe leaves, so that a white surface reflects exactly all light, at every metallic. "
@@ -132,11 +132,9 @@ constexpr std::string_view kCouplingMeaning =
     "dielectric and metal mixed, which makes partial metals too dark. none: all of it.";
 constexpr std::string_view kSheenScalingMeaning =
     "What the sheen leaves to the layers below. reciprocal: 1 - m E of viewer or light, whichever "
-    "is "
-    "less, as KHR_materials_sheen: light is lost, of a white surface up to 14 %. conserving: 1 - m "
-    "E "
-    "of the viewer, as OpenPBR and MaterialX layer by albedo: a white surface reflects all light, "
-    "but light and viewer cannot change places.";
+    "is less, as KHR_materials_sheen: light is lost, of a white surface up to 14 %. conserving: "
+    "1 - m E of the viewer, as OpenPBR and MaterialX layer by albedo: a white surface reflects all "
+    "light, but light and viewer cannot change places.";
 constexpr std::string_view kDiffuseMeaning =
     "Reflection model of the diffuse base. oren_nayar: EON (Portsmouth et al. 2025), which "
     "conserves energy. burley: Burley 2012, which does not.";
@@ -150,33 +148,27 @@ constexpr MaterialParameter kOpacity = Number<&Material::opacity>(
 constexpr MaterialParameter kOpacityCutoff = Number<&Material::opacity_cutoff>(
     "opacity_cutoff", limits::kOpacityCutoff, "As glTF's alphaCutoff. Above 1 no surface is left.");
 
-constexpr std::array kLambertParameters = {
-    Color<&LambertMaterial::albedo>("albedo", limits::kUnit, "Reflectance."),
-    kEmission,
-    kOpacity,
-    kOpacityCutoff,
-};
+// The parameters of a model, followed by those of all materials.
+template <class... Own>
+constexpr auto WithCommon(const Own&... own) {
+  return std::array{own..., kEmission, kOpacity, kOpacityCutoff};
+}
 
-constexpr std::array kOrenNayarParameters = {
-    Color<&OrenNayarMaterial::albedo>("albedo", limits::kUnit, "Reflectance."),
-    Number<&OrenNayarMaterial::roughness>("roughness", limits::kUnit,
-                                          "The model's own roughness. 0: Lambert."),
-    kEmission,
-    kOpacity,
-    kOpacityCutoff,
-};
+constexpr auto kLambertParameters =
+    WithCommon(Color<&LambertMaterial::albedo>("albedo", limits::kUnit, "Reflectance."));
 
-constexpr std::array kBurleyParameters = {
+constexpr auto kOrenNayarParameters =
+    WithCommon(Color<&OrenNayarMaterial::albedo>("albedo", limits::kUnit, "Reflectance."),
+               Number<&OrenNayarMaterial::roughness>("roughness", limits::kUnit,
+                                                     "The model's own roughness. 0: Lambert."));
+
+constexpr auto kBurleyParameters = WithCommon(
     Color<&BurleyMaterial::albedo>("albedo", limits::kUnit, "Reflectance."),
     Number<&BurleyMaterial::roughness>(
         "roughness", limits::kUnit,
-        "Perceptual roughness. Towards grazing angles darker below 0.5, brighter above."),
-    kEmission,
-    kOpacity,
-    kOpacityCutoff,
-};
+        "Perceptual roughness. Towards grazing angles darker below 0.5, brighter above."));
 
-constexpr std::array kPhongParameters = {
+constexpr auto kPhongParameters = WithCommon(
     Color<&PhongMaterial::color>("color", limits::kUnit, "Multiplies ka and kd."),
     Color<&PhongMaterial::ka>("ka", limits::kUnit, "Ambient coefficient."),
     Color<&PhongMaterial::kd>("kd", limits::kUnit, "Diffuse coefficient."),
@@ -184,13 +176,9 @@ constexpr std::array kPhongParameters = {
     Number<&PhongMaterial::shininess>(
         "shininess", limits::kExponent,
         "Exponent n of the highlight. With n = 0 the lobe is 1 in all directions, also behind its "
-        "axis (0^0 is 1); any n above 0 leaves nothing there."),
-    kEmission,
-    kOpacity,
-    kOpacityCutoff,
-};
+        "axis (0^0 is 1); any n above 0 leaves nothing there."));
 
-constexpr std::array kMetallicRoughnessParameters = {
+constexpr auto kMetallicRoughnessParameters = WithCommon(
     Color<&MetallicRoughnessMaterial::base_color>(
         "base_color", limits::kUnit,
         "Diffuse colour of a dielectric; reflectance of a metal at normal incidence."),
@@ -205,8 +193,7 @@ constexpr std::array kMetallicRoughnessParameters = {
     Number<&MetallicRoughnessMaterial::specular>(
         "specular", limits::kUnit,
         "Strength of the dielectric's specular reflection, at all angles. 0: none, a matte "
-        "surface. "
-        "Metals are not affected."),
+        "surface. Metals are not affected."),
     Color<&MetallicRoughnessMaterial::f82_tint>(
         "f82_tint", limits::kUnit,
         "Factor on the reflectance of a metal at 81.8 degrees (cosine 1/7): the dip of real metals "
@@ -229,33 +216,21 @@ constexpr std::array kMetallicRoughnessParameters = {
     Number<&MetallicRoughnessMaterial::sheen_roughness>(
         "sheen_roughness", limits::kUnit,
         "Roughness of the sheen: alpha is its square. The larger, the farther from the outline it "
-        "shows; 0: nowhere."),
-    kEmission,
-    kOpacity,
-    kOpacityCutoff,
-};
+        "shows; 0: nowhere."));
 
-constexpr std::array kConductorParameters = {
+constexpr auto kConductorParameters = WithCommon(
     Color<&ConductorMaterial::eta>("eta", limits::kEta,
                                    "Real part of the complex index of refraction."),
     Color<&ConductorMaterial::k>("k", limits::kExtinction,
                                  "Extinction coefficient: its imaginary part."),
-    Number<&ConductorMaterial::roughness>("roughness", limits::kUnit, kRoughnessMeaning),
-    kEmission,
-    kOpacity,
-    kOpacityCutoff,
-};
+    Number<&ConductorMaterial::roughness>("roughness", limits::kUnit, kRoughnessMeaning));
 
-constexpr std::array kDielectricParameters = {
+constexpr auto kDielectricParameters = WithCommon(
     Color<&DielectricMaterial::base_color>("base_color", limits::kUnit,
                                            "Reflectance of the diffuse base."),
     Number<&DielectricMaterial::ior>("ior", limits::kIor, "Index of refraction."),
     Number<&DielectricMaterial::roughness>("roughness", limits::kUnit, kRoughnessMeaning),
-    BaseRoughness<DielectricMaterial>(),
-    kEmission,
-    kOpacity,
-    kOpacityCutoff,
-};
+    BaseRoughness<DielectricMaterial>());
 
 constexpr std::array<std::string_view, 2> kConventions = {"classic", "radiometric"};
 constexpr std::array<std::string_view, 4> kShadowings = {"height_correlated", "separable",
@@ -425,9 +400,7 @@ constexpr std::array kMetallicRoughnessNormalMaps = {
 
 template <typename Model>
 Material Make() {
-  Material material;
-  material.model = Model{};
-  return material;
+  return {.model = Model{}};
 }
 
 template <typename Model>
@@ -437,9 +410,7 @@ bool Holds(const Material& material) {
 
 template <PhongModel kModel>
 Material MakePhong() {
-  Material material;
-  material.model = PhongMaterial{.model = kModel};
-  return material;
+  return {.model = PhongMaterial{.model = kModel}};
 }
 
 template <PhongModel kModel>
@@ -489,28 +460,28 @@ constexpr std::array<MaterialModel, 9> kModels = {{
      kConductorMaps, kNormalMaps, kRoughnessAxis, "preset=gold,silver,copper,iron,aluminium"},
     {"dielectric",
      "Dielectric: a GGX lobe over a diffuse base. Nothing is transmitted: over a black base it "
-     "shows "
-     "the reflection of glass alone",
+     "shows the reflection of glass alone",
      Make<DielectricMaterial>, Holds<DielectricMaterial>, kDielectricParameters, kDielectricChoices,
      kDielectricMaps, kNormalMaps, kRoughnessAxis, "ior=1.1,1.33,1.5,1.8,2.4"},
 }};
+
+// The row of this name, or nullptr.
+template <class Row>
+const Row* FindRow(std::span<const Row> rows, std::string_view name) {
+  const auto found = std::ranges::find(rows, name, &Row::name);
+  return found != rows.end() ? &*found : nullptr;
+}
 
 }  // namespace
 
 std::span<const MaterialModel> MaterialModels() { return kModels; }
 
-const MaterialModel* FindModel(std::string_view name) {
-  for (const MaterialModel& model : kModels) {
-    if (model.name == name) return &model;
-  }
-  return nullptr;
-}
+const MaterialModel* FindModel(std::string_view name) { return FindRow(MaterialModels(), name); }
 
 const MaterialModel* ModelOf(const Material& material) {
-  for (const MaterialModel& model : kModels) {
-    if (model.holds(material)) return &model;
-  }
-  return nullptr;
+  const auto found = std::ranges::find_if(
+      kModels, [&](const MaterialModel& model) { return model.holds(material); });
+  return found != kModels.end() ? &*found : nullptr;
 }
 
 std::vector<TextureId> TexturesOf(const Material& material) {
@@ -533,10 +504,7 @@ bool CutsHoles(const Material& material) {
 }
 
 const MaterialParameter* FindParameter(const MaterialModel& model, std::string_view name) {
-  for (const MaterialParameter& parameter : model.parameters) {
-    if (parameter.name == name) return &parameter;
-  }
-  return nullptr;
+  return FindRow(model.parameters, name);
 }
 
 }  // namespace nacre

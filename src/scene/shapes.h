@@ -32,18 +32,18 @@ struct Tangent {
 };
 
 struct Mesh {
-  std::string name;
-  std::vector<Vec3d> positions;   // world space
-  std::vector<Vec3d> normals;     // unit, one per position; empty: face normals
-  std::vector<Vec2d> uvs;         // one per position, or empty; (0, 0) is an image's bottom left
-  std::vector<Vec2d> second_uvs;  // one per position, or empty; for Texture::second_uvs
-  std::vector<Vec3f> colors;      // linear, each in [0, 1], one per position, or empty
+  std::string name{};
+  std::vector<Vec3d> positions{};   // world space
+  std::vector<Vec3d> normals{};     // unit, one per position; empty: face normals
+  std::vector<Vec2d> uvs{};         // one per position, or empty; (0, 0) is an image's bottom left
+  std::vector<Vec2d> second_uvs{};  // one per position, or empty; for Texture::second_uvs
+  std::vector<Vec3f> colors{};      // linear, each in [0, 1], one per position, or empty
   // As the file has them, one per position, with a normal for each. If empty, normal maps on `uvs`
   // use MakeTangents (scene/tangents.h).
-  std::vector<Tangent> tangents;
-  std::vector<float> opacities;     // each in [0, 1], one per position, or empty: 1
-  std::vector<uint32_t> triangles;  // three indices each, counter-clockwise from outside
-  MaterialId material;
+  std::vector<Tangent> tangents{};
+  std::vector<float> opacities{};     // each in [0, 1], one per position, or empty: 1
+  std::vector<uint32_t> triangles{};  // three indices each, counter-clockwise from outside
+  MaterialId material{};
   Interpolation interpolation = Interpolation::kPhong;
   // Whether shadow rays from hits with smooth normals start on the curved surface that the normals
   // suggest, not in the triangle (Hanika 2021), which avoids jagged shadows along the terminator of

@@ -52,9 +52,7 @@ Mesh MakeMesh(const Icosphere& sphere) {
                                      3, 9,  4, 3, 4,  2,  3,  2,  6,  3,  6, 8,  3, 8,  9,
                                      4, 9,  5, 2, 4,  11, 6,  2,  10, 8,  6, 7,  9, 8,  1};
   for (int i = 0; i < sphere.subdivisions; ++i) triangles = Subdivide(triangles, &directions);
-  Mesh mesh;
-  mesh.name = "icosphere";
-  mesh.triangles = std::move(triangles);
+  Mesh mesh{.name = "icosphere", .triangles = std::move(triangles)};
   PlaceVertices(sphere.center, sphere.radius, std::move(directions), &mesh);
   return mesh;
 }
@@ -62,8 +60,7 @@ Mesh MakeMesh(const Icosphere& sphere) {
 Mesh MakeMesh(const UvSphere& sphere) {
   const auto segments = static_cast<uint32_t>(sphere.segments);
   const auto rings = static_cast<uint32_t>(sphere.rings);
-  Mesh mesh;
-  mesh.name = "uv_sphere";
+  Mesh mesh{.name = "uv_sphere"};
   std::vector<Vec3d> directions;
   directions.reserve(size_t{segments + 1} * (rings + 1));
   mesh.uvs.reserve(directions.capacity());

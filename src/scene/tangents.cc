@@ -5,7 +5,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <utility>
 
@@ -19,10 +18,10 @@ namespace {
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 constexpr size_t kWorkBlock = size_t{1} << 13;  // triangles or groups that a thread takes at once
 
-void ForEachInParallel(size_t count, int threads, const std::function<void(size_t)>& body) {
-  ParallelFor((count + kWorkBlock - 1) / kWorkBlock, threads, [&](size_t block) {
-    const size_t end = std::min(count, (block + 1) * kWorkBlock);
-    for (size_t i = block * kWorkBlock; i < end; ++i) body(i);
+template <class Body>
+void ForEachInParallel(size_t count, int threads, const Body& body) {
+  ParallelForBlocks(count, kWorkBlock, threads, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) body(i);
   });
 }
 

@@ -30,9 +30,9 @@ struct SceneImage {
 // of its radius, or relative to `center` in units of `size` for meshes. If the axis is +y,
 // longitudes begin at -z and grow to the right as seen from outside; v is 1 at the end of the axis.
 struct Texture {
-  std::string name;
-  ImageId image;
-  SampleSettings sampling;
+  std::string name{};
+  ImageId image{};
+  SampleSettings sampling{};
   MappingKind mapping = MappingKind::kUv;
   Vec3d axis{0, 1, 0};    // any length > 0
   double rotate_deg = 0;  // about the axis, right-handed

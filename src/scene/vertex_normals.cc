@@ -55,10 +55,9 @@ void AddContributions(const Mesh& mesh, NormalWeighting weighting, int threads, 
   std::vector<Vec3d> found(3 * std::min(triangles, kBlock * kBlocks));
   for (size_t first = 0; first < triangles; first += kBlock * kBlocks) {
     const size_t end = std::min(triangles, first + kBlock * kBlocks);
-    ParallelFor((end - first + kBlock - 1) / kBlock, threads, [&](size_t block) {
+    ParallelForBlocks(end - first, kBlock, threads, [&](size_t begin, size_t block_end) {
       const DefaultFloatMode mode;  // meshes may be as small as denormals
-      const size_t begin = first + block * kBlock;
-      for (size_t i = begin; i < std::min(end, begin + kBlock); ++i) {
+      for (size_t i = first + begin; i < first + block_end; ++i) {
         const Vec3d face = FaceNormal(mesh, i);
         for (size_t corner = 3 * i; corner < 3 * i + 3; ++corner) {
           found[corner - 3 * first] = Contribution(mesh, weighting, corner, face);

@@ -21,7 +21,7 @@ inline constexpr uint64_t kDefaultMaxPrimitives = 20'000'000;
 struct LoadOptions {
   // Values to set before anything is read ("--set"), as pairs of JSON pointer and JSON text:
   // {"/image/spp", "64"}. Missing objects on the way are made; elements of arrays must exist.
-  std::vector<std::pair<std::string, std::string>> overrides;
+  std::vector<std::pair<std::string, std::string>> overrides = {};
 
   // An image of the surroundings that lights the scene instead of its own lights ("--environment").
   // It becomes the light "environment", whose other members overrides may change. As the caller

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // texture/texel_search.h: the texels in a pixel's footprint that are rare and unlike the others
-// there. Adaptive sampling must not overlook them (render/rare_texels.h).
+// there. Adaptive sampling must not overlook them (render/rare_texels.cc).
 #pragma once
 
 #include <cstdint>

@@ -74,12 +74,8 @@ void AddRenders(Results* results) {
   };
   for (const nacre::Scene& scene : scenes) {
     for (const int threads : {1, 3}) {
-      nacre::RenderSettings settings;
-      settings.width = 48;
-      settings.height = 40;
-      settings.samples = 3;
-      settings.threads = threads;
-      settings.layers = {"all"};
+      nacre::RenderSettings settings{
+          .width = 48, .height = 40, .samples = 3, .layers = {"all"}, .threads = threads};
       const nacre::Image image = nacre::Render(scene, settings);
       results->Add(image);
       const std::string path = (std::filesystem::temp_directory_path() /

@@ -100,10 +100,7 @@ TEST_CASE("sessions have the bits of fresh processes, in hundreds of sequences o
   const std::string output = (std::filesystem::temp_directory_path() /
                               ("nacre_fresh_process_test_" + std::to_string(getpid()) + ".exr"))
                                  .string();
-  nacre::RenderSettings settings;
-  settings.width = 40;
-  settings.height = 24;
-  settings.layers = {"all"};
+  nacre::RenderSettings settings{.width = 40, .height = 24, .layers = {"all"}};
   std::minstd_rand random(5);
   int refused = 0;
   for (size_t sequence = 0; sequence < 216; ++sequence) {

@@ -15,11 +15,7 @@
 namespace {
 
 nacre::Image Rendered(const std::vector<std::string>& layers = {}) {
-  nacre::RenderSettings settings;
-  settings.width = 61;
-  settings.height = 37;
-  settings.samples = 2;
-  settings.layers = layers;
+  nacre::RenderSettings settings{.width = 61, .height = 37, .samples = 2, .layers = layers};
   return nacre::Render(nacre::Scene::FromFile(NACRE_SOURCE_DIR "/scenes/first_scene.json"),
                        settings);
 }

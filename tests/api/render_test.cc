@@ -19,12 +19,7 @@ nacre::Scene FirstScene() {
 }
 
 nacre::RenderSettings Small(int threads = 2) {
-  nacre::RenderSettings settings;
-  settings.width = 40;
-  settings.height = 40;
-  settings.samples = 2;
-  settings.threads = threads;
-  return settings;
+  return {.width = 40, .height = 40, .samples = 2, .threads = threads};
 }
 
 std::string PathOf(const std::string& name) {

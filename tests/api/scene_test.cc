@@ -30,13 +30,7 @@ nacre::Scene BuildFirstScene() {
   return scene;
 }
 
-nacre::RenderSettings Small() {
-  nacre::RenderSettings settings;
-  settings.width = 40;
-  settings.height = 30;
-  settings.samples = 2;
-  return settings;
-}
+nacre::RenderSettings Small() { return {.width = 40, .height = 30, .samples = 2}; }
 
 // The error that body() throws.
 template <class Body>

@@ -22,13 +22,7 @@ nacre::Scene FirstScene() {
 }
 
 nacre::RenderSettings Small() {
-  nacre::RenderSettings settings;
-  settings.width = 40;
-  settings.height = 30;
-  settings.samples = 6;
-  settings.threads = 2;
-  settings.layers = {"all"};
-  return settings;
+  return {.width = 40, .height = 30, .samples = 6, .layers = {"all"}, .threads = 2};
 }
 
 void CheckEqual(const nacre::Image& a, const nacre::Image& b) {
@@ -62,9 +56,7 @@ TEST_CASE("a session's pictures are those of its scene, change by change and bac
   change("/camera/fov_y_deg", 32);
   CheckEqual(session.Render(Small()), before);
   // Settings of one render are not those of the next.
-  nacre::RenderSettings settings;
-  settings.width = 16;
-  settings.height = 12;
+  nacre::RenderSettings settings{.width = 16, .height = 12};
   CHECK(session.Render(settings).width() == 16);
   session.Set("/image/height", 9);
   session.Set("/image/width", 12);
@@ -233,10 +225,7 @@ constexpr std::chrono::milliseconds kCancelTime(10);
 // time.
 TEST_CASE("a cancelled render ends within 10 ms") {
   nacre::Session session(nacre::Scene::FromFile(NACRE_SOURCE_DIR "/scenes/material_grid.json"));
-  nacre::RenderSettings settings;
-  settings.width = 1920;
-  settings.height = 1080;
-  settings.samples = 256;
+  nacre::RenderSettings settings{.width = 1920, .height = 1080, .samples = 256};
   session.Render(Small());
   using Clock = std::chrono::steady_clock;
   Clock::duration quickest = std::chrono::hours(1);

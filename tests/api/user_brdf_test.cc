@@ -52,12 +52,7 @@ nacre::Scene Spheres(const Parameters& light) {
 }
 
 nacre::RenderSettings Small(int samples) {
-  nacre::RenderSettings settings;
-  settings.width = 48;
-  settings.height = 36;
-  settings.samples = samples;
-  settings.threads = 2;
-  return settings;
+  return {.width = 48, .height = 36, .samples = samples, .threads = 2};
 }
 
 double Mean(const nacre::Image& image) {

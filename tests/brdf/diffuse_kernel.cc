@@ -47,9 +47,8 @@ HWY_INLINE V Eon(D d, const AnglesV<V>& a, V albedo, V roughness) {
   return hn::IfThenElseZero(above, hn::Mul(sum, hn::Set(d, static_cast<float>(M_1_PI))));
 }
 
-void EvaluateDiffuseT(const std::vector<DiffuseQuery>& queries,
-                      std::vector<DiffuseAnswer>* answers) {
-  AskInPackets<float>(queries, answers, [](const auto& packet) {
+std::vector<DiffuseAnswer> EvaluateDiffuseT(const std::vector<DiffuseQuery>& queries) {
+  return AskInPackets<float, DiffuseAnswer>(queries, [](const auto& packet) {
     const hn::ScalableTag<float> d;
     const auto a = ComputeAngles(d, packet.Vector(&DiffuseQuery::n),
                                  packet.Vector(&DiffuseQuery::l), packet.Vector(&DiffuseQuery::v));
@@ -67,9 +66,7 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(EvaluateDiffuseT);
 std::vector<DiffuseAnswer> EvaluateDiffuse(const std::vector<DiffuseQuery>& queries) {
-  std::vector<DiffuseAnswer> answers(queries.size());
-  HWY_DYNAMIC_DISPATCH(EvaluateDiffuseT)(queries, &answers);
-  return answers;
+  return HWY_DYNAMIC_DISPATCH(EvaluateDiffuseT)(queries);
 }
 }  // namespace nacre
 #endif

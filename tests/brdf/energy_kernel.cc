@@ -15,9 +15,8 @@ HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
-void EvaluateFresnelT(const std::vector<FresnelInput>& inputs,
-                      std::vector<FresnelOutput>* outputs) {
-  AskInPackets<float>(inputs, outputs, [](const auto& packet) {
+std::vector<FresnelOutput> EvaluateFresnelT(const std::vector<FresnelInput>& inputs) {
+  return AskInPackets<float, FresnelOutput>(inputs, [](const auto& packet) {
     const hn::ScalableTag<float> d;
     const auto c = packet.Number(&FresnelInput::v_dot_h);
     const auto m = packet.Number(&FresnelInput::one_minus_vh);
@@ -30,9 +29,9 @@ void EvaluateFresnelT(const std::vector<FresnelInput>& inputs,
   });
 }
 
-void EvaluateAlbedosT(const FresnelAlbedoFit& fit, const std::vector<float>& n_dot_v,
-                      std::vector<AlbedoOutput>* outputs) {
-  AskInPackets<float>(n_dot_v, outputs, [&](const auto& packet) {
+std::vector<AlbedoOutput> EvaluateAlbedosT(const FresnelAlbedoFit& fit,
+                                           const std::vector<float>& n_dot_v) {
+  return AskInPackets<float, AlbedoOutput>(n_dot_v, [&](const auto& packet) {
     const hn::ScalableTag<float> d;
     const auto mu = packet.Number([](float cosine) { return cosine; });
     const auto x = ComputeAlbedoVariables(d, fit.lobe.shape, mu);
@@ -53,15 +52,11 @@ namespace nacre {
 HWY_EXPORT(EvaluateFresnelT);
 HWY_EXPORT(EvaluateAlbedosT);
 std::vector<FresnelOutput> EvaluateFresnel(const std::vector<FresnelInput>& inputs) {
-  std::vector<FresnelOutput> outputs(inputs.size());
-  HWY_DYNAMIC_DISPATCH(EvaluateFresnelT)(inputs, &outputs);
-  return outputs;
+  return HWY_DYNAMIC_DISPATCH(EvaluateFresnelT)(inputs);
 }
 std::vector<AlbedoOutput> EvaluateAlbedos(const FresnelAlbedoFit& fit,
                                           const std::vector<float>& n_dot_v) {
-  std::vector<AlbedoOutput> outputs(n_dot_v.size());
-  HWY_DYNAMIC_DISPATCH(EvaluateAlbedosT)(fit, n_dot_v, &outputs);
-  return outputs;
+  return HWY_DYNAMIC_DISPATCH(EvaluateAlbedosT)(fit, n_dot_v);
 }
 }  // namespace nacre
 #endif

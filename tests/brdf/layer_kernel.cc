@@ -15,11 +15,11 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 
 template <typename T>
-void Evaluate(RoughnessOf roughness_of, const std::vector<LayerQuery<T>>& queries,
-              std::vector<LayerAnswer<T>>* answers) {
+std::vector<LayerAnswer<T>> Evaluate(RoughnessOf roughness_of,
+                                     const std::vector<LayerQuery<T>>& queries) {
   using Query = LayerQuery<T>;
   using Answer = LayerAnswer<T>;
-  AskInPackets<T>(queries, answers, [=](const auto& packet) {
+  return AskInPackets<T, LayerAnswer<T>>(queries, [=](const auto& packet) {
     const hn::ScalableTag<T> d;
     using V = hn::Vec<decltype(d)>;
     const bool each = roughness_of == RoughnessOf::kEach;
@@ -43,13 +43,13 @@ void Evaluate(RoughnessOf roughness_of, const std::vector<LayerQuery<T>>& querie
   });
 }
 
-void EvaluateFloatT(RoughnessOf roughness, const std::vector<LayerQuery<float>>& queries,
-                    std::vector<LayerAnswer<float>>* answers) {
-  Evaluate(roughness, queries, answers);
+std::vector<LayerAnswer<float>> EvaluateFloatT(RoughnessOf roughness,
+                                               const std::vector<LayerQuery<float>>& queries) {
+  return Evaluate(roughness, queries);
 }
-void EvaluateDoubleT(RoughnessOf roughness, const std::vector<LayerQuery<double>>& queries,
-                     std::vector<LayerAnswer<double>>* answers) {
-  Evaluate(roughness, queries, answers);
+std::vector<LayerAnswer<double>> EvaluateDoubleT(RoughnessOf roughness,
+                                                 const std::vector<LayerQuery<double>>& queries) {
+  return Evaluate(roughness, queries);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -63,16 +63,12 @@ HWY_EXPORT(EvaluateDoubleT);
 template <>
 std::vector<LayerAnswer<float>> EvaluateLayers(RoughnessOf roughness,
                                                const std::vector<LayerQuery<float>>& queries) {
-  std::vector<LayerAnswer<float>> answers(queries.size());
-  HWY_DYNAMIC_DISPATCH(EvaluateFloatT)(roughness, queries, &answers);
-  return answers;
+  return HWY_DYNAMIC_DISPATCH(EvaluateFloatT)(roughness, queries);
 }
 template <>
 std::vector<LayerAnswer<double>> EvaluateLayers(RoughnessOf roughness,
                                                 const std::vector<LayerQuery<double>>& queries) {
-  std::vector<LayerAnswer<double>> answers(queries.size());
-  HWY_DYNAMIC_DISPATCH(EvaluateDoubleT)(roughness, queries, &answers);
-  return answers;
+  return HWY_DYNAMIC_DISPATCH(EvaluateDoubleT)(roughness, queries);
 }
 }  // namespace nacre
 #endif

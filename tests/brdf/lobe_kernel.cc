@@ -60,8 +60,8 @@ V PdfOf(Lobe lobe, const Inputs& in) {
   return in.width;
 }
 
-void AskLobeT(Lobe lobe, const std::vector<LobeQuery>& queries, std::vector<LobeAnswer>* answers) {
-  AskInPackets<float>(queries, answers, [=](const auto& packet) {
+std::vector<LobeAnswer> AskLobeT(Lobe lobe, const std::vector<LobeQuery>& queries) {
+  return AskInPackets<float, LobeAnswer>(queries, [=](const auto& packet) {
     const Inputs in{packet.Vector(&LobeQuery::n),  packet.Vector(&LobeQuery::v),
                     packet.Vector(&LobeQuery::l),  packet.Number(&LobeQuery::width),
                     packet.Number(&LobeQuery::u0), packet.Number(&LobeQuery::u1)};
@@ -78,9 +78,7 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(AskLobeT);
 std::vector<LobeAnswer> AskLobe(Lobe lobe, const std::vector<LobeQuery>& queries) {
-  std::vector<LobeAnswer> answers(queries.size());
-  HWY_DYNAMIC_DISPATCH(AskLobeT)(lobe, queries, &answers);
-  return answers;
+  return HWY_DYNAMIC_DISPATCH(AskLobeT)(lobe, queries);
 }
 }  // namespace nacre
 #endif

@@ -17,8 +17,8 @@ HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
-void EvaluateTermsT(const std::vector<TermInput>& inputs, std::vector<TermOutput>* outputs) {
-  AskInPackets<float>(inputs, outputs, [](const auto& packet) {
+std::vector<TermOutput> EvaluateTermsT(const std::vector<TermInput>& inputs) {
+  return AskInPackets<float, TermOutput>(inputs, [](const auto& packet) {
     const hn::ScalableTag<float> d;
     const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f);
     const auto n = packet.Vector(&TermInput::n), l = packet.Vector(&TermInput::l);
@@ -60,9 +60,7 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(EvaluateTermsT);
 std::vector<TermOutput> EvaluateTerms(const std::vector<TermInput>& inputs) {
-  std::vector<TermOutput> outputs(inputs.size());
-  HWY_DYNAMIC_DISPATCH(EvaluateTermsT)(inputs, &outputs);
-  return outputs;
+  return HWY_DYNAMIC_DISPATCH(EvaluateTermsT)(inputs);
 }
 }  // namespace nacre
 #endif

@@ -39,9 +39,7 @@ TEST_CASE("Codes are those of the double twin, within display.h's error", "[colo
   std::vector<uint8_t> rgb8(3 * count);
   ForEachTarget([&](Target) {
     for (const ToneOperator tone : kAllTones) {
-      DisplaySettings settings;
-      settings.tone = tone;
-      settings.exposure_ev = 0.7;
+      DisplaySettings settings{.tone = tone, .exposure_ev = 0.7};
       const bool is_agx = tone == ToneOperator::kAgx;
       const double relative = is_agx ? 4e-6 : 1e-6;
       const double absolute = is_agx ? 1e-6 : 1e-7;
@@ -210,8 +208,7 @@ TEST_CASE("NaN pixels are magenta and counted, infinities are light or dark", "[
   std::vector<uint8_t> rgb8(3 * r.size());
   ForEachTarget([&](Target) {
     for (const ToneOperator tone : kAllTones) {
-      DisplaySettings settings;
-      settings.tone = tone;
+      DisplaySettings settings{.tone = tone};
       CAPTURE(ToneOperatorName(tone));
       CHECK(EncodeDisplay(settings, r.data(), g.data(), b.data(), r.size(), rgb8.data()) == 5);
       for (const size_t i : {0u, 9u, 10u, 130u, 300u}) {
@@ -230,8 +227,7 @@ TEST_CASE("Codes of sorted greys never fall", "[color]") {
   std::vector<uint8_t> rgb8(3 * greys.size());
   ForEachTarget([&](Target) {
     for (const ToneOperator tone : kAllTones) {
-      DisplaySettings settings;
-      settings.tone = tone;
+      DisplaySettings settings{.tone = tone};
       EncodeDisplay(settings, greys.data(), greys.data(), greys.data(), greys.size(), rgb8.data());
       size_t falls = 0;
       for (size_t i = 3; i < rgb8.size(); ++i) falls += rgb8[i] < rgb8[i - 3];

@@ -26,8 +26,7 @@ int ExactCode(float linear) {
 
 // The codes that EncodeDisplay gives to greys.
 std::vector<uint8_t> EncodeGreys(const std::vector<float>& greys) {
-  DisplaySettings settings;
-  settings.tone = ToneOperator::kNone;
+  DisplaySettings settings{.tone = ToneOperator::kNone};
   std::vector<uint8_t> rgb8(3 * greys.size());
   EncodeDisplay(settings, greys.data(), greys.data(), greys.data(), greys.size(), rgb8.data());
   std::vector<uint8_t> codes;

@@ -73,8 +73,7 @@ TEST_CASE("SIMD tone operators agree with their twins in double", "[color]") {
   ForEachTarget([&](Target) {
     for (const ToneOperator tone : kAllTones) {
       CAPTURE(ToneOperatorName(tone));
-      DisplaySettings settings;
-      settings.tone = tone;
+      DisplaySettings settings{.tone = tone};
       Planes out = in;
       ToneLight(settings, &out.r, &out.g, &out.b);
       double worst = 0;  // error over tolerance, or over 1 ulp of 1 where that is 0
@@ -105,8 +104,7 @@ TEST_CASE("SIMD Reinhard and ACES agree with the table", "[color][table]") {
       {ToneOperator::kAces, "aces_narkowicz_clamped"}};
   ForEachTarget([&](Target) {
     for (const auto& [tone, column] : columns) {
-      DisplaySettings settings;
-      settings.tone = tone;
+      DisplaySettings settings{.tone = tone};
       Planes out = in;
       ToneLight(settings, &out.r, &out.g, &out.b);
       for (size_t i = 0; i < rows.size(); ++i) {
@@ -153,8 +151,7 @@ TEST_CASE("SIMD operators are monotone on greys and stay in [0, 1]", "[color]") 
   ForEachTarget([&](Target) {
     for (const ToneOperator tone : kAllTones) {
       CAPTURE(ToneOperatorName(tone));
-      DisplaySettings settings;
-      settings.tone = tone;
+      DisplaySettings settings{.tone = tone};
       Planes out = in;
       ToneLight(settings, &out.r, &out.g, &out.b);
       size_t outside = 0;
@@ -183,8 +180,7 @@ TEST_CASE("SIMD operators take infinity in any channel", "[color]") {
   }
   ForEachTarget([&](Target) {
     for (const ToneOperator tone : kAllTones) {
-      DisplaySettings settings;
-      settings.tone = tone;
+      DisplaySettings settings{.tone = tone};
       Planes out = in;
       ToneLight(settings, &out.r, &out.g, &out.b);
       for (size_t i = 0; i < in.r.size(); ++i) {

@@ -160,8 +160,7 @@ TEST_CASE("Every operator is monotone on greys and stays in [0, 1]", "[color]") 
   std::sort(inputs.begin(), inputs.end());
   for (const ToneOperator tone : kAllTones) {
     CAPTURE(ToneOperatorName(tone));
-    DisplaySettings settings;
-    settings.tone = tone;
+    DisplaySettings settings{.tone = tone};
     Color previous(0, 0, 0);
     size_t faults = 0;
     for (const double x : inputs) {
@@ -177,8 +176,7 @@ TEST_CASE("Every operator is monotone on greys and stays in [0, 1]", "[color]") 
 TEST_CASE("Bright colours stay finite and become light", "[color]") {
   for (const ToneOperator tone : kAllTones) {
     CAPTURE(ToneOperatorName(tone));
-    DisplaySettings settings;
-    settings.tone = tone;
+    DisplaySettings settings{.tone = tone};
     for (const double x : {1e10, 3e38, 1e300, kInf}) {
       const Color out = DisplayLight(settings, Color(x, 0.1, -5));
       for (int c = 0; c < 3; ++c) CHECK((out[c] >= 0 && out[c] <= 1));
@@ -189,9 +187,7 @@ TEST_CASE("Bright colours stay finite and become light", "[color]") {
 }
 
 TEST_CASE("Exposure doubles per stop, before the operator", "[color]") {
-  DisplaySettings settings;
-  settings.tone = ToneOperator::kReinhard;
-  settings.exposure_ev = 3;
+  DisplaySettings settings{.tone = ToneOperator::kReinhard, .exposure_ev = 3};
   CHECK(DisplayLight(settings, Color(0.25, 1, 0)) == Color(2.0 / 3, 8.0 / 9, 0));
 }
 

@@ -57,9 +57,7 @@ TEST_CASE("Layers are paired over the pixels that both cover", "[compare]") {
 TEST_CASE("Images that cannot be compared say why", "[compare]") {
   const Image rgb = MakeImage({0, 0, 4, 3}, {"R", "G", "B"}, 0);
   const Image rgba = MakeImage({0, 0, 4, 3}, {"R", "G", "B", "A"}, 0);
-  CompareOptions options;
-  options.got_name = "a.exr";
-  options.reference_name = "b.exr";
+  CompareOptions options{.got_name = "a.exr", .reference_name = "b.exr"};
   CHECK(PairingError(MakeImage({0, 0, 5, 3}, {"R"}, 0), rgb, options) ==
         "error: a.exr: is 5x3, but b.exr is 4x3");
   Image wide = rgb;

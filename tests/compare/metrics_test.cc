@@ -87,8 +87,7 @@ TEST_CASE("Relative errors are relative, however dark the reference", "[compare]
   CHECK(m.p999_rel == 1);  // of the 40 samples that have a reference
   CHECK(m.zero_mismatches == 1);
   SampleAt(got, "Y", 5, 9) = 0;
-  Tolerances tolerances;
-  tolerances.max_rel = m.max_rel;
+  Tolerances tolerances{.max_rel = m.max_rel};
   CHECK(Judge(got, reference, tolerances).match);
   tolerances.max_rel = std::nextafter(m.max_rel, 0);
   CHECK(Judge(got, reference, tolerances).exceeding_pixels == 1);
@@ -169,9 +168,7 @@ TEST_CASE("The figures of large images are plain sums on every target", "[compar
     CHECK(m.zero_mismatches == zero_mismatches);
     CHECK((m.max_abs_at.x == 300 && m.max_abs_at.y == 290 && m.max_abs_at.channel == "G"));
     CHECK(m.nonfinite_mismatches == 0);
-    Tolerances tolerances;
-    tolerances.max_abs = limit;
-    const Verdict verdict = Judge(got, reference, tolerances);
+    const Verdict verdict = Judge(got, reference, Tolerances{.max_abs = limit});
     CHECK(verdict.exceeding_pixels == pixels);
     CHECK(verdict.reason.find("worst G at (300, 290)") != std::string::npos);
   });
@@ -200,8 +197,7 @@ TEST_CASE("Metrics know NaN and infinity", "[compare]") {
 TEST_CASE("Only the layers asked for are compared", "[compare]") {
   Image got = MakeImage({0, 0, 4, 4}, {"R", "diffuse.R", "id.object"}, 1);
   const Image reference = MakeImage({0, 0, 4, 4}, {"R", "diffuse.R"}, 1);
-  CompareOptions options;
-  options.layers = {"diffuse"};
+  CompareOptions options{.layers = {"diffuse"}};
   const auto layers = CompareImages(got, reference, options);
   REQUIRE(layers.size() == 1);
   CHECK(layers[0].layer == "diffuse");

@@ -101,8 +101,7 @@ TEST_CASE("Of images of different sizes the pixels that both have are compared",
   Image b = MakeImage({0, 0, 4, 5}, {"R", "G", "B"}, 1);
   for (const char* channel : {"R", "G", "B"}) SampleAt(b, channel, 2, 4) = 9;
   CHECK_THROWS_AS(MeasurePerceptual(a, b, {}), Error);
-  CompareOptions options;
-  options.sizes_may_differ = true;
+  CompareOptions options{.sizes_may_differ = true};
   CHECK(MeasurePerceptual(a, b, {}, options).front().flip_max == 0);
 }
 

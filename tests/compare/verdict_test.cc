@@ -34,8 +34,7 @@ TEST_CASE("By default images must be equal", "[compare]") {
 TEST_CASE("Absolute and relative tolerances add up", "[compare]") {
   Pair pair;
   SampleAt(pair.got, "R", 0, 0) = 2.375f;
-  Tolerances tolerances;
-  tolerances.max_abs = 0.125;
+  Tolerances tolerances{.max_abs = 0.125};
   tolerances.max_rel = 0.125;  // 0.375 in all, met exactly
   CHECK(Judge(pair.got, pair.reference, tolerances).match);
   SampleAt(pair.got, "R", 0, 0) = 2.376f;
@@ -48,8 +47,7 @@ TEST_CASE("Absolute and relative tolerances add up", "[compare]") {
 
 TEST_CASE("A fraction of the pixels may exceed", "[compare]") {
   Pair pair;
-  Tolerances tolerances;
-  tolerances.exceeding_fraction = 2e-4;
+  Tolerances tolerances{.exceeding_fraction = 2e-4};
   SampleAt(pair.got, "R", 0, 0) = 9;
   SampleAt(pair.got, "G", 0, 0) = 9;  // the same pixel
   SampleAt(pair.got, "G", 1, 0) = 9;
@@ -93,8 +91,7 @@ TEST_CASE("A limit of the RMSE alone is the whole verdict", "[compare]") {
 TEST_CASE("No tolerance forgives a NaN", "[compare]") {
   Pair pair;
   SampleAt(pair.got, "R", 7, 8) = kNan;
-  Tolerances tolerances;
-  tolerances.max_abs = 1e30;
+  Tolerances tolerances{.max_abs = 1e30};
   const Verdict verdict = Judge(pair.got, pair.reference, tolerances);
   CHECK_FALSE(verdict.match);
   CHECK(verdict.reason.find("worst R at (7, 8): nan instead of 2") != std::string::npos);
@@ -120,8 +117,7 @@ TEST_CASE("Windows that differ are a difference, unless crops are allowed", "[co
   CHECK(Judge(moved, whole, {}).reason.starts_with("the display window is 100x100 at 1,0, not"));
   const Image part = MakeImage({0, 0, 50, 40}, {"R", "G", "B"}, 2);
   CHECK_THROWS_AS(Judge(part, whole, {}), Error);
-  CompareOptions any_size;
-  any_size.sizes_may_differ = options.sizes_may_differ = true;
+  CompareOptions any_size{.sizes_may_differ = options.sizes_may_differ = true};
   CHECK(Judge(part, whole, {}, any_size).reason ==
         "the display window is 50x40 at 0,0, not 100x100 at 0,0; the pixels that both have match");
   CHECK(Judge(part, whole, {}, options).match);

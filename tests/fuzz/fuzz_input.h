@@ -68,10 +68,6 @@ void ReadOrRefuse(const Read& read) {
 }
 
 // What small inputs may be made into. The default would let one input take seconds.
-inline LoadOptions SmallScenes() {
-  LoadOptions options;
-  options.max_primitives = 20'000;
-  return options;
-}
+inline LoadOptions SmallScenes() { return {.max_primitives = 20'000}; }
 
 }  // namespace nacre

@@ -56,17 +56,17 @@ FOLDERS = TRUNK_FOLDERS | set(BRANCHES) | {TOP}
 # The files of render/ in the order in which a pixel's samples go through them: each includes only
 # headers of those before it.
 RENDER_ORDER = """
-    settings stats stage_clock explanation layers camera camera_kernel frame_window white_level prepared_materials
+    settings stats explanation layers camera camera_kernel frame_window prepared_materials
     plan_notes
-    film_kernel filter_shares small_triangles adaptive_plan interval interval_kernel sampled_kernel shadow_rays_kernel mesh_windows
+    film_kernel small_triangles adaptive_plan interval lighting_kernel mesh_windows
     outline_coverage sphere_projections
     prepared_scene camera_cost hits_plan tile_shapes samples hits surfaces
-    lights_plan highlights texel_maps mesh_glints shadow_plan brightest_object direct_plan direct_batch
+    lights_plan highlights texel_maps mesh_glints shadow_plan white_level direct_batch
     shadow_origins sampled_shadows sampled_lights mesh_radiance direct mesh_shading
     film hit_positions film_layers
     frame_plan tile_work tile
-    cell dust footprint outline_pixels cell_film evidence cell_state convergence
-    glints probes rare_triangles rare_texels rare_features adaptive
+    cell filter_shares dust footprint outline_pixels cell_film evidence convergence
+    glints probes rare_features rare_triangles rare_texels adaptive
     render forecast
 """.split()
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@
 
 namespace nacre {
 namespace {
+
+const std::string kDataWindow("dataWindow\0box2i\0", 17);  // an EXR file's attribute and its type
 
 // The most memory that this process ever had, in MiB.
 size_t PeakMib() {
@@ -41,6 +44,25 @@ constexpr size_t kRoomMib = 5 * 200;
 constexpr size_t kRoomMib = 200;
 #endif
 
+// What the action's refusal says, which must be one of bad input, and take little room.
+Caught RefusedInLittleRoom(const std::function<void()>& action) {
+  const size_t before = PeakMib();
+  const Caught caught = Catching(action);
+  CHECK(caught.code == ExitCode::kBadInput);
+  CHECK(PeakMib() < before + kRoomMib);
+  return caught;
+}
+
+// The place in an EXR file's bytes behind an attribute's name, its type and the four bytes of its
+// size.
+std::vector<uint8_t>::iterator ValueOf(const std::string& name_and_type,
+                                       std::vector<uint8_t>* file) {
+  const auto found =
+      std::search(file->begin(), file->end(), name_and_type.begin(), name_and_type.end());
+  REQUIRE(found != file->end());
+  return found + static_cast<std::ptrdiff_t>(name_and_type.size()) + 4;
+}
+
 // An RGB file of 8 bits that holds `bytes` zeros, compressed.
 std::vector<uint8_t> Png(uint32_t width, uint32_t height, size_t bytes) {
   std::vector<uint8_t> file = PngHead(width, height, 8, 2);
@@ -53,33 +75,23 @@ TEST_CASE("a PNG that promises more than deflate can hold costs nothing") {
   // As many zeros as the picture has: read, however well it is compressed.
   WriteBytes(folder / "whole.png", Png(2000, 1000, 1000 * (3 * 2000 + 1)));
   CHECK(ReadImage(folder / "whole.png").channels.size() == 3);
-  const size_t before = PeakMib();
   WriteBytes(folder / "bomb.png", Png(20'000, 8000, 1000));  // 0.5 GB
-  const Caught caught = Catching([&] { ReadImage(folder / "bomb.png"); });
-  CHECK(caught.code == ExitCode::kBadInput);
+  const Caught caught = RefusedInLittleRoom([&] { ReadImage(folder / "bomb.png"); });
   CHECK(caught.Says("cannot hold its 20000 x 8000 pixels"));  // before any of them is read
-  CHECK(PeakMib() < before + kRoomMib);
 }
 
 TEST_CASE("an EXR whose header promises pixels that are not there costs nothing") {
   const TestFolder folder;
   WritePicture(folder / "a.exr", MakePicture(8, 8), {});
   std::vector<uint8_t> file = ReadBytes(folder / "a.exr");
-  const std::string name("dataWindow\0box2i\0", 17);
-  const auto found = std::search(file.begin(), file.end(), name.begin(), name.end());
-  REQUIRE(found != file.end());
-  // After the name, the type and the size: x0, y0, x1, y1, little-endian.
-  const auto corner = found + static_cast<std::ptrdiff_t>(name.size()) + 4 + 8;
+  // x0, y0, x1, y1, little-endian.
+  const auto corner = ValueOf(kDataWindow, &file) + 8;
   const std::vector<uint8_t> far = {0xff, 0x1f, 0, 0, 0xff, 0x0f, 0, 0};  // 8192 x 4096
   std::copy(far.begin(), far.end(), corner);
   file.resize(file.size() + (1 << 16));  // room for the table of its chunks, which it must have
   WriteBytes(folder / "bomb.exr", file);
   CHECK(OpenExr(folder / "bomb.exr").header.data.width() == 8192);
-  const size_t before = PeakMib();
-  const Caught caught = Catching([&] { ReadExr(folder / "bomb.exr"); });
-  CHECK(caught.code == ExitCode::kBadInput);
-  CHECK(caught.Says("bomb.exr"));
-  CHECK(PeakMib() < before + kRoomMib);
+  CHECK(RefusedInLittleRoom([&] { ReadExr(folder / "bomb.exr"); }).Says("bomb.exr"));
 }
 
 TEST_CASE("an EXR with tiles far larger than its picture takes no room") {
@@ -97,19 +109,12 @@ TEST_CASE("an EXR with tiles far larger than its picture takes no room") {
   }
   CHECK(ReadExr(folder / "a.exr").channels.at(0).samples == red);
   std::vector<uint8_t> file = ReadBytes(folder / "a.exr");
-  const std::string name("tiles\0tiledesc\0", 15);
-  const auto found = std::search(file.begin(), file.end(), name.begin(), name.end());
-  REQUIRE(found != file.end());
-  // After the name, the type and the size: width and height, little-endian.
-  const auto tile = found + static_cast<std::ptrdiff_t>(name.size()) + 4;
+  // Width and height, little-endian.
+  const auto tile = ValueOf(std::string("tiles\0tiledesc\0", 15), &file);
   const auto refused = [&](const std::vector<uint8_t>& size) {
     std::copy(size.begin(), size.end(), tile);
     WriteBytes(folder / "huge.exr", file);
-    const size_t before = PeakMib();
-    const Caught caught = Catching([&] { ReadExr(folder / "huge.exr"); });
-    CHECK(caught.code == ExitCode::kBadInput);
-    CHECK(PeakMib() < before + kRoomMib);
-    return caught;
+    return RefusedInLittleRoom([&] { ReadExr(folder / "huge.exr"); });
   };
   CHECK(refused({8, 0, 0, 0, 0, 0, 0, 0x10}).Says("tiles: 8 x 268435456 pixels of 1 channels"));
   CHECK(refused({0, 0, 0, 0x10, 8, 0, 0, 0}).Says("tiles: 268435456 x 8 pixels of 1 channels"));
@@ -179,18 +184,11 @@ TEST_CASE("rows that the file has no bytes for take no room where they are verif
   const TestFolder folder;
   WriteOneChunk(folder / "a.exr", Deflated(size_t{64} * 16 * 4));
   std::vector<uint8_t> file = ReadBytes(folder / "a.exr");
-  const std::string name("dataWindow\0box2i\0", 17);
-  const auto found = std::search(file.begin(), file.end(), name.begin(), name.end());
-  REQUIRE(found != file.end());
-  const auto right = found + static_cast<std::ptrdiff_t>(name.size()) + 4 + 8;
   const std::vector<uint8_t> far = {0x7f, 0xf0, 0xfa, 0x02};  // 50 million
-  std::copy(far.begin(), far.end(), right);
+  std::copy(far.begin(), far.end(), ValueOf(kDataWindow, &file) + 8);
   WriteBytes(folder / "wide.exr", file);
-  const size_t before = PeakMib();
-  CHECK(Catching([&] { VerifyImage(folder / "wide.exr"); }).code == ExitCode::kBadInput);
-  CHECK(Catching([&] { ExrBandReader(folder / "wide.exr").DecodeAll(); }).code ==
-        ExitCode::kBadInput);
-  CHECK(PeakMib() < before + kRoomMib);
+  RefusedInLittleRoom([&] { VerifyImage(folder / "wide.exr"); });
+  RefusedInLittleRoom([&] { ExrBandReader(folder / "wide.exr").DecodeAll(); });
 }
 
 TEST_CASE("a JPEG that promises more than it holds costs nothing") {
@@ -208,9 +206,7 @@ TEST_CASE("a JPEG that promises more than it holds costs nothing") {
     frame[1] = marker;
     for (size_t k = 0; k < 4; ++k) frame[static_cast<ptrdiff_t>(5 + k)] = k % 2 == 0 ? 0x3e : 0x80;
     WriteBytes(folder / "bomb.jpg", file);  // 16000 x 16000
-    const size_t before = PeakMib();
-    CHECK(Catching([&] { ReadImage(folder / "bomb.jpg"); }).code == ExitCode::kBadInput);
-    CHECK(PeakMib() < before + kRoomMib);
+    RefusedInLittleRoom([&] { ReadImage(folder / "bomb.jpg"); });
   }
 }
 
@@ -245,13 +241,11 @@ TEST_CASE("a file that is replaced between its header and its samples is refused
 
 TEST_CASE("an EXR attribute that is longer than its file takes no room") {
   const TestFolder folder;
-  const size_t before = PeakMib();
   const auto refused = [&](const std::string& file) {
     WriteText(folder / "long.exr", file);
-    const Caught caught = Catching([&] { ReadExr(folder / "long.exr"); });
-    CHECK(caught.code == ExitCode::kBadInput);
-    CHECK(caught.Says("long.exr: cannot be read as EXR: "));
-    CHECK(PeakMib() < before + kRoomMib);
+    CHECK(RefusedInLittleRoom([&] {
+            ReadExr(folder / "long.exr");
+          }).Says("long.exr: cannot be read as EXR: "));
   };
   // A text of 2 GiB less a byte, alone, and among all that a header needs.
   const std::string size = "\xff\xff\xff\x7f";

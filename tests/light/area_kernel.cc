@@ -53,8 +53,8 @@ V SolidAngleOf(const RectangleLightV<V>& light) {
 V SolidAngleOf(const DiskLightV<V>&) { return hn::Zero(D()); }
 
 template <class Query>
-void Ask(const std::vector<Query>& queries, std::vector<LightAnswer>* answers) {
-  AskInPackets<float>(queries, answers, [](const auto& packet) {
+std::vector<LightAnswer> Ask(const std::vector<Query>& queries) {
+  return AskInPackets<float, LightAnswer>(queries, [](const auto& packet) {
     const D d;
     const auto light = LightOf(packet);
     const AreaSampleV<V> sample =
@@ -73,21 +73,19 @@ void Ask(const std::vector<Query>& queries, std::vector<LightAnswer>* answers) {
   });
 }
 
-void AskSpheresT(const std::vector<LightQuery<SphereLight<float>>>& queries,
-                 std::vector<LightAnswer>* answers) {
-  Ask(queries, answers);
+std::vector<LightAnswer> AskSpheresT(const std::vector<LightQuery<SphereLight<float>>>& queries) {
+  return Ask(queries);
 }
-void AskRectanglesT(const std::vector<LightQuery<RectangleLight<float>>>& queries,
-                    std::vector<LightAnswer>* answers) {
-  Ask(queries, answers);
+std::vector<LightAnswer> AskRectanglesT(
+    const std::vector<LightQuery<RectangleLight<float>>>& queries) {
+  return Ask(queries);
 }
-void AskDisksT(const std::vector<LightQuery<DiskLight<float>>>& queries,
-               std::vector<LightAnswer>* answers) {
-  Ask(queries, answers);
+std::vector<LightAnswer> AskDisksT(const std::vector<LightQuery<DiskLight<float>>>& queries) {
+  return Ask(queries);
 }
-void AskTrianglesT(const std::vector<LightQuery<TriangleLight<float>>>& queries,
-                   std::vector<LightAnswer>* answers) {
-  Ask(queries, answers);
+std::vector<LightAnswer> AskTrianglesT(
+    const std::vector<LightQuery<TriangleLight<float>>>& queries) {
+  return Ask(queries);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -102,24 +100,16 @@ HWY_EXPORT(AskDisksT);
 HWY_EXPORT(AskTrianglesT);
 
 std::vector<LightAnswer> AskLights(const std::vector<LightQuery<SphereLight<float>>>& queries) {
-  std::vector<LightAnswer> answers(queries.size());
-  HWY_DYNAMIC_DISPATCH(AskSpheresT)(queries, &answers);
-  return answers;
+  return HWY_DYNAMIC_DISPATCH(AskSpheresT)(queries);
 }
 std::vector<LightAnswer> AskLights(const std::vector<LightQuery<RectangleLight<float>>>& queries) {
-  std::vector<LightAnswer> answers(queries.size());
-  HWY_DYNAMIC_DISPATCH(AskRectanglesT)(queries, &answers);
-  return answers;
+  return HWY_DYNAMIC_DISPATCH(AskRectanglesT)(queries);
 }
 std::vector<LightAnswer> AskLights(const std::vector<LightQuery<DiskLight<float>>>& queries) {
-  std::vector<LightAnswer> answers(queries.size());
-  HWY_DYNAMIC_DISPATCH(AskDisksT)(queries, &answers);
-  return answers;
+  return HWY_DYNAMIC_DISPATCH(AskDisksT)(queries);
 }
 std::vector<LightAnswer> AskLights(const std::vector<LightQuery<TriangleLight<float>>>& queries) {
-  std::vector<LightAnswer> answers(queries.size());
-  HWY_DYNAMIC_DISPATCH(AskTrianglesT)(queries, &answers);
-  return answers;
+  return HWY_DYNAMIC_DISPATCH(AskTrianglesT)(queries);
 }
 }  // namespace nacre
 #endif

@@ -17,10 +17,6 @@ namespace {
 
 constexpr int kSamples = 40000;
 
-Vec3d TableVector(const nlohmann::json& value) {
-  return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
-}
-
 TEST_CASE("solid angles match the table", "[table]") {
   size_t rows = 0;
   const nlohmann::json table = LoadTable("solid_angle");

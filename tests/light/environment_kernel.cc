@@ -21,9 +21,9 @@ using V = hn::Vec<D>;
 // The direction that is a query.
 const Vec3f& Itself(const Vec3f& direction) { return direction; }
 
-void LookUpTexelsT(const EnvironmentMap& map, const std::vector<Vec3f>& directions,
-                   std::vector<EnvironmentTexel>* out) {
-  AskInPackets<float>(directions, out, [&](const auto& packet) {
+std::vector<EnvironmentTexel> LookUpTexelsT(const EnvironmentMap& map,
+                                            const std::vector<Vec3f>& directions) {
+  return AskInPackets<float, EnvironmentTexel>(directions, [&](const auto& packet) {
     const EnvironmentTexelV<V> texel = TexelAt(D(), map, packet.Vector(Itself));
     packet.Store(texel.red, &EnvironmentTexel::red);
     packet.Store(texel.green, &EnvironmentTexel::green);
@@ -32,10 +32,10 @@ void LookUpTexelsT(const EnvironmentMap& map, const std::vector<Vec3f>& directio
   });
 }
 
-void SampleEnvironmentsT(const EnvironmentMap& map, const std::vector<uint32_t>& bits0,
-                         const std::vector<uint32_t>& bits1,
-                         std::vector<EnvironmentSample<float>>* out) {
-  AskInPackets<float>(bits0, out, [&](const auto& packet) {
+std::vector<EnvironmentSample<float>> SampleEnvironmentsT(const EnvironmentMap& map,
+                                                          const std::vector<uint32_t>& bits0,
+                                                          const std::vector<uint32_t>& bits1) {
+  return AskInPackets<float, EnvironmentSample<float>>(bits0, [&](const auto& packet) {
     uint32_t b0[packet.kMaxLanes], b1[packet.kMaxLanes];
     for (size_t i = 0; i < hn::Lanes(D()); ++i) {
       b0[i] = packet.At(i);
@@ -56,21 +56,21 @@ void SampleEnvironmentsT(const EnvironmentMap& map, const std::vector<uint32_t>&
 }
 
 template <class Sky>
-void Evaluate(const Sky& sky, const std::vector<Vec3f>& directions, std::vector<Vec3f>* out) {
-  AskInPackets<float>(directions, out, [&](const auto& packet) {
+std::vector<Vec3f> Evaluate(const Sky& sky, const std::vector<Vec3f>& directions) {
+  return AskInPackets<float, Vec3f>(directions, [&](const auto& packet) {
     const Vec3V<V> direction = packet.Vector(Itself);
     packet.Store(Radiance(D(), sky, direction), &Vec3f::x);
     packet.Store(Irradiance(D(), sky, direction), &Vec3f::y);
   });
 }
 
-void EvaluateGradientT(const GradientSkyTerms<float>& sky, const std::vector<Vec3f>& directions,
-                       std::vector<Vec3f>* out) {
-  Evaluate(sky, directions, out);
+std::vector<Vec3f> EvaluateGradientT(const GradientSkyTerms<float>& sky,
+                                     const std::vector<Vec3f>& directions) {
+  return Evaluate(sky, directions);
 }
-void EvaluateQuadraticT(const QuadraticSkyTerms<float>& sky, const std::vector<Vec3f>& directions,
-                        std::vector<Vec3f>* out) {
-  Evaluate(sky, directions, out);
+std::vector<Vec3f> EvaluateQuadraticT(const QuadraticSkyTerms<float>& sky,
+                                      const std::vector<Vec3f>& directions) {
+  return Evaluate(sky, directions);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -86,28 +86,20 @@ HWY_EXPORT(EvaluateQuadraticT);
 
 std::vector<EnvironmentTexel> LookUpTexels(const EnvironmentMap& map,
                                            const std::vector<Vec3f>& directions) {
-  std::vector<EnvironmentTexel> out(directions.size());
-  HWY_DYNAMIC_DISPATCH(LookUpTexelsT)(map, directions, &out);
-  return out;
+  return HWY_DYNAMIC_DISPATCH(LookUpTexelsT)(map, directions);
 }
 std::vector<EnvironmentSample<float>> SampleEnvironments(const EnvironmentMap& map,
                                                          const std::vector<uint32_t>& bits0,
                                                          const std::vector<uint32_t>& bits1) {
-  std::vector<EnvironmentSample<float>> out(bits0.size());
-  HWY_DYNAMIC_DISPATCH(SampleEnvironmentsT)(map, bits0, bits1, &out);
-  return out;
+  return HWY_DYNAMIC_DISPATCH(SampleEnvironmentsT)(map, bits0, bits1);
 }
 std::vector<Vec3f> EvaluateSky(const GradientSkyTerms<float>& sky,
                                const std::vector<Vec3f>& directions) {
-  std::vector<Vec3f> out(directions.size());
-  HWY_DYNAMIC_DISPATCH(EvaluateGradientT)(sky, directions, &out);
-  return out;
+  return HWY_DYNAMIC_DISPATCH(EvaluateGradientT)(sky, directions);
 }
 std::vector<Vec3f> EvaluateSky(const QuadraticSkyTerms<float>& sky,
                                const std::vector<Vec3f>& directions) {
-  std::vector<Vec3f> out(directions.size());
-  HWY_DYNAMIC_DISPATCH(EvaluateQuadraticT)(sky, directions, &out);
-  return out;
+  return HWY_DYNAMIC_DISPATCH(EvaluateQuadraticT)(sky, directions);
 }
 }  // namespace nacre
 #endif

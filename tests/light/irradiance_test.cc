@@ -15,10 +15,6 @@
 namespace nacre {
 namespace {
 
-Vec3d TableVector(const nlohmann::json& value) {
-  return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
-}
-
 template <class Light>
 double FloatIrradiance(const Light& light, const Vec3d& normal) {
   const auto rounded = ToFloat(light);

@@ -15,10 +15,6 @@
 namespace nacre {
 namespace {
 
-Vec3d TableVector(const nlohmann::json& value) {
-  return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
-}
-
 std::vector<Vec3d> SomeNormals() {
   std::vector<Vec3d> normals = {{0, 1, 0}, {0, -1, 0}, {1, 0, 0}, {0, 0, -1}};
   std::mt19937 random(6);

@@ -18,10 +18,6 @@ namespace {
 constexpr int kPatterns = 32;        // independent estimates, for their standard deviation
 constexpr uint32_t kSamples = 1024;  // of each kind in each
 
-Vec3d TableVector(const nlohmann::json& value) {
-  return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
-}
-
 struct Scene {
   Vec3d n, v;
   double alpha;

@@ -71,13 +71,12 @@ nacre::Image RenderJob(const std::string& folder, const Job& job, int turn) {
   nacre::Scene scene = nacre::Scene::FromFile(folder + "/" + job.scene);
   scene.AddMaterial("load", {{"model", "metallic_roughness"}, {"base_color", {0.2, 0.4, 0.6}}});
   scene.AddSphere({0, 100, 0}, 0.5, "load");
-  nacre::RenderSettings settings;
-  settings.width = 32;
-  settings.height = 18;
-  settings.samples = job.samples;
-  settings.max_error = job.max_error;
-  settings.threads = job.threads;
-  settings.intersector = job.intersector;
+  nacre::RenderSettings settings{.width = 32,
+                                 .height = 18,
+                                 .samples = job.samples,
+                                 .max_error = job.max_error,
+                                 .threads = job.threads,
+                                 .intersector = job.intersector};
   // Layers that come and go do not change the picture.
   if (turn % 2 == 1) settings.layers = {"N", "Z", "diffuse"};
   return nacre::Render(scene, settings);
@@ -180,11 +179,7 @@ constexpr int kRound = 2 * static_cast<int>(std::size(kChanges));
 // Changes of one session, one after the other and back, and some that are refused.
 Memory MeasureSession(const std::string& folder, int renders) {
   nacre::Session session(nacre::Scene::FromFile(folder + "/first_scene.json"));
-  nacre::RenderSettings settings;
-  settings.width = 32;
-  settings.height = 18;
-  settings.samples = 2;
-  settings.threads = 2;
+  nacre::RenderSettings settings{.width = 32, .height = 18, .samples = 2, .threads = 2};
   std::vector<std::vector<float>> first(kRound);
   return Measure(renders, [&](int i) {
     const int turn = i % kRound;

@@ -16,9 +16,7 @@ namespace nacre {
 namespace {
 
 MaterialId Add(Scene* scene, decltype(Material::model) model) {
-  Material material;
-  material.model = std::move(model);
-  scene->materials.push_back(std::move(material));
+  scene->materials.push_back(Material{.model = std::move(model)});
   return {static_cast<uint32_t>(scene->materials.size() - 1)};
 }
 
@@ -31,12 +29,9 @@ Scene MakeScene() {
   scene.image.width = 120;
   scene.image.height = 88;
   scene.background = {0.05, 0.06, 0.1};
-  PhongMaterial phong;
-  phong.shininess = 800;
+  PhongMaterial phong{.shininess = 800};
   for (const double roughness : {0.1, 0.3, 0.7}) {
-    MetallicRoughnessMaterial metal;
-    metal.metallic = 1;
-    metal.roughness = roughness;
+    MetallicRoughnessMaterial metal{.metallic = 1, .roughness = roughness};
     const MaterialId id = Add(&scene, metal);
     scene.spheres.push_back({{2.2 * (roughness - 0.35) * 3, 1.1, 0}, 0.9, id});
   }
@@ -46,19 +41,13 @@ Scene MakeScene() {
   scene.spheres.push_back({{0.3, -0.9, 1.5}, 0.5, matte});
   scene.spheres.push_back({{1.8, -1.2, 0}, 1, matte});
   scene.spheres.push_back({{2.5, 0, 2}, 0.004, shiny});
-  Light key;
-  key.kind = PointLight{.position = {4, 5, 8}, .intensity = {300, 290, 270}, .attenuation = {}};
-  Light sun;
-  sun.kind = DirectionalLight{Vec3d(2, -1, -1), {0.4, 0.5, 0.8}};
+  Light key{.kind = PointLight{.position = {4, 5, 8}, .intensity = {300, 290, 270}}};
+  Light sun{.kind = DirectionalLight{Vec3d(2, -1, -1), {0.4, 0.5, 0.8}}};
   scene.lights = {key, sun};
   return scene;
 }
 
-RenderSettings Adaptive(double max_error) {
-  RenderSettings settings;
-  settings.max_error = max_error;
-  return settings;
-}
+RenderSettings Adaptive(double max_error) { return {.max_error = max_error}; }
 
 Image Truth(Scene scene, int spp = 4096) {
   scene.image.spp = spp;
@@ -208,8 +197,7 @@ TEST_CASE("the samples of pixels are counted as they are taken") {
 TEST_CASE("a smooth picture stops at the pixels' centres") {
   Scene scene = MakeScene();
   scene.lights.resize(1);
-  scene.lights[0].kind =
-      PointLight{.position = {40, 50, 80}, .intensity = {9e3, 9e3, 9e3}, .attenuation = {}};
+  scene.lights[0].kind = PointLight{.position = {40, 50, 80}, .intensity = {9e3, 9e3, 9e3}};
   scene.spheres = {{{0, 0, 0}, 30, Add(&scene, LambertMaterial{{0.5, 0.5, 0.5}})}};
   scene.camera.position = {0, 0, 60};
   RenderStats stats;
@@ -218,9 +206,7 @@ TEST_CASE("a smooth picture stops at the pixels' centres") {
   CHECK(ShareWithin(image, Truth(scene), 0.01) == 1);
   CHECK(image.channels[0].samples[44 * 120 + 60] > 0.05);
   // A highlight that its pixels resolve, but bends too much from one to the next.
-  MetallicRoughnessMaterial metal;
-  metal.metallic = 1;
-  metal.roughness = 0.4;
+  MetallicRoughnessMaterial metal{.metallic = 1, .roughness = 0.4};
   scene.spheres[0].material = Add(&scene, metal);
   RenderSettings settings = Adaptive(2e-5);
   settings.max_samples = 16;
@@ -232,8 +218,7 @@ TEST_CASE("shadows that fall between the pixels' centres are found") {
   Scene scene = MakeScene();
   scene.lights.resize(1);
   const Vec3d light(40, 50, 80);
-  scene.lights[0].kind =
-      PointLight{.position = light, .intensity = {9e3, 9e3, 9e3}, .attenuation = {}};
+  scene.lights[0].kind = PointLight{.position = light, .intensity = {9e3, 9e3, 9e3}};
   scene.spheres = {{{0, 0, 0}, 30, Add(&scene, LambertMaterial{{0.5, 0.5, 0.5}})}};
   scene.camera.position = {0, 0, 60};
   // Out of sight, each with a shadow of a third of a pixel's radius.
@@ -402,10 +387,9 @@ TEST_CASE("a block's bits depend on the scene and its place alone") {
 
 TEST_CASE("meshes and targets sample to an error, too") {
   Scene scene = MakeScene();
-  Mesh mesh;
-  mesh.positions = {{-2, -0.9, 1.5}, {-1, -0.9, 2}, {-1.5, 0.2, 1.4}};
-  mesh.triangles = {0, 1, 2};
-  mesh.material = {3};
+  Mesh mesh{.positions = {{-2, -0.9, 1.5}, {-1, -0.9, 2}, {-1.5, 0.2, 1.4}},
+            .triangles = {0, 1, 2},
+            .material = {3}};
   scene.meshes.push_back(mesh);
   const Image truth = Truth(scene);
   ForEachTarget([&](Target) {

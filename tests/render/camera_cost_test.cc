@@ -63,9 +63,8 @@ Scene MakeCloud(int count, double radius) {
   std::uniform_real_distribution<double> coordinate(-1, 1);
   Scene scene;
   scene.materials.emplace_back().model = LambertMaterial{};
-  Light sun;
-  sun.kind = DirectionalLight{.direction_of_travel = {1, -2, -3}, .irradiance = {1, 1, 1}};
-  sun.shadows = false;
+  Light sun{.shadows = false,
+            .kind = DirectionalLight{.direction_of_travel = {1, -2, -3}, .irradiance = {1, 1, 1}}};
   scene.lights = {sun};
   for (int i = 0; i < count; ++i) {
     const double x = coordinate(random), y = coordinate(random), z = coordinate(random);
@@ -101,9 +100,8 @@ TEST_CASE("The work of a cloud is known from a sample of its spheres", "[camera_
 TEST_CASE("Sessions go from tiles to a tree, and keep the picture's bits", "[camera_cost]") {
   if (EmbreeVersion() == nullptr) return;  // shells are for nested spheres
   Scene scene = MakeCloud(30000, 0.08);
-  RenderSettings settings;
-  settings.layers = {"N", "P", "Z", "id.object"};
-  settings.intersector = IntersectorChoice::kTiles;
+  RenderSettings settings{.layers = {"N", "P", "Z", "id.object"},
+                          .intersector = IntersectorChoice::kTiles};
   const Image expected = RenderImage(scene, settings);
   settings.intersector = IntersectorChoice::kAuto;
   PreparedScene prepared;

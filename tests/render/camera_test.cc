@@ -11,7 +11,11 @@ namespace {
 
 Vec3d DirectionAt(const CameraFrame& frame, double x, double y) {
   RayBatch rays;
-  MakeCameraRays(frame, &x, &y, 1, &rays);
+  FilmBatch film;
+  film.count = 1;
+  film.x[0] = x;
+  film.y[0] = y;
+  MakeCameraRays(frame, film, &rays);
   return Vec3d(rays.direction.x[0], rays.direction.y[0], rays.direction.z[0]);
 }
 
@@ -27,16 +31,16 @@ TEST_CASE("perspective rays span the vertical field of view") {
 }
 
 TEST_CASE("orthographic rays are parallel and start on the image plane") {
-  Camera camera;
-  camera.projection = Projection::kOrthographic;
-  camera.position = {0, 0, 0};
-  camera.look_at = {1, 0, 0};
-  camera.height = 4;
+  Camera camera{.projection = Projection::kOrthographic,
+                .position = {0, 0, 0},
+                .look_at = {1, 0, 0},
+                .height = 4};
   const CameraFrame frame = MakeCameraFrame(camera, 100, 100);
   RayBatch rays;
-  const double x[] = {0, 50};
-  const double y[] = {0, 50};
-  MakeCameraRays(frame, x, y, 2, &rays);
+  FilmBatch film;
+  film.count = 2;
+  film.x[1] = film.y[1] = 50;
+  MakeCameraRays(frame, film, &rays);
   CHECK(rays.direction.x[0] == 1);
   CHECK(rays.origin.y[0] == Approx(2));
   CHECK(rays.origin.z[0] == Approx(-2));  // looking to +x with +y up, -z is left
@@ -44,10 +48,7 @@ TEST_CASE("orthographic rays are parallel and start on the image plane") {
 }
 
 TEST_CASE("matrices take world points to the camera and the screen") {
-  Camera camera;
-  camera.position = {1, 2, 3};
-  camera.look_at = {1, 2, -7};
-  camera.fov_y_deg = 60;
+  Camera camera{.position = {1, 2, 3}, .look_at = {1, 2, -7}, .fov_y_deg = 60};
   Vec3d p;
   WorldToCamera(camera).multVecMatrix(Vec3d(2, 4, 0), p);
   CHECK((p - Vec3d(1, 2, -3)).length() < 1e-14);

@@ -40,13 +40,12 @@ TEST_CASE("constant maps have the bits of constants: metallic-roughness") {
       for (const Shadowing shadowing :
            {Shadowing::kHeightCorrelated, Shadowing::kSchlickDirect, Shadowing::kSchlickIbl}) {
         for (const double tint : {1.0, 0.7}) {
-          MetallicRoughnessMaterial factors;
-          factors.base_color = Rgb(0.5, 1, 0.75);
-          factors.metallic = 0.5;
-          factors.roughness = roughness;
-          factors.compensation = compensation;
-          factors.shadowing = shadowing;
-          factors.f82_tint = Rgb(tint);
+          MetallicRoughnessMaterial factors{.base_color = Rgb(0.5, 1, 0.75),
+                                            .metallic = 0.5,
+                                            .f82_tint = Rgb(tint),
+                                            .roughness = roughness,
+                                            .shadowing = shadowing,
+                                            .compensation = compensation};
           if (compensation == Compensation::kNone) {
             factors.diffuse_coupling = DiffuseCoupling::kOneMinusFresnel;
           }
@@ -79,13 +78,12 @@ TEST_CASE("constant maps have the bits of constants: weights and colours of a di
        {Compensation::kTurquin, Compensation::kKullaConty, Compensation::kNone}) {
     for (const double metallic : {0.0, 0.4}) {
       for (const double roughness : {0.5, 0.0}) {
-        MetallicRoughnessMaterial factors;
-        factors.metallic = metallic;
-        factors.roughness = roughness;
-        factors.compensation = compensation;
-        factors.dielectric_f0 = Rgb(0.5, 0.1, 0.04);
-        factors.specular = 0.75;
-        factors.f82_tint = Rgb(metallic > 0 ? 0.7 : 1);
+        MetallicRoughnessMaterial factors{.metallic = metallic,
+                                          .dielectric_f0 = Rgb(0.5, 0.1, 0.04),
+                                          .specular = 0.75,
+                                          .f82_tint = Rgb(metallic > 0 ? 0.7 : 1),
+                                          .roughness = roughness,
+                                          .compensation = compensation};
         if (compensation == Compensation::kNone) {
           factors.diffuse_coupling = DiffuseCoupling::kOneMinusFresnel;
         }
@@ -111,11 +109,10 @@ TEST_CASE("constant maps have the bits of constants: the Phong family and Lamber
     for (const PhongConvention convention :
          {PhongConvention::kClassic, PhongConvention::kRadiometric}) {
       for (const double shininess : {32.0, 2000.0}) {  // wide, and narrow
-        PhongMaterial factors;
-        factors.model = model;
-        factors.convention = convention;
-        factors.color = Rgb(0.5, 1, 0.75);
-        factors.shininess = shininess;
+        PhongMaterial factors{.model = model,
+                              .convention = convention,
+                              .color = Rgb(0.5, 1, 0.75),
+                              .shininess = shininess};
         PhongMaterial constant = factors;
         constant.color = factors.color * color;
         constant.ks = factors.ks * gloss;
@@ -153,10 +150,8 @@ TEST_CASE("constant maps have the bits of constants: rough matte surfaces and ba
   matte(BurleyMaterial{});
   for (const DiffuseForm form : {DiffuseForm::kOrenNayar, DiffuseForm::kBurley}) {
     for (const bool own : {true, false}) {
-      MetallicRoughnessMaterial factors;
-      factors.base_color = Rgb(0.5, 1, 0.75);
-      factors.metallic = 0.5;
-      factors.diffuse = form;
+      MetallicRoughnessMaterial factors{
+          .base_color = Rgb(0.5, 1, 0.75), .metallic = 0.5, .diffuse = form};
       if (own) factors.diffuse_roughness = 0.8;
       MetallicRoughnessMaterial constant = factors;
       constant.base_color = factors.base_color * color;
@@ -180,10 +175,8 @@ TEST_CASE("constant maps have the bits of constants: conductors and dielectrics"
     for (const ConductorFresnel fresnel :
          {ConductorFresnel::kExact, ConductorFresnel::kF82Tint, ConductorFresnel::kSchlick}) {
       for (const double roughness : {1.0, 0.1}) {
-        ConductorMaterial factors;
-        factors.roughness = roughness;
-        factors.compensation = compensation;
-        factors.fresnel = fresnel;
+        ConductorMaterial factors{
+            .roughness = roughness, .fresnel = fresnel, .compensation = compensation};
         ConductorMaterial constant = factors;
         constant.roughness = roughness * share;
         CAPTURE(static_cast<int>(fresnel), roughness);
@@ -195,11 +188,10 @@ TEST_CASE("constant maps have the bits of constants: conductors and dielectrics"
     for (const DielectricFresnel fresnel :
          {DielectricFresnel::kExact, DielectricFresnel::kSchlick}) {
       for (const DiffuseForm form : {DiffuseForm::kLambert, DiffuseForm::kOrenNayar}) {
-        DielectricMaterial factors;
-        factors.base_color = Rgb(0.5, 1, 0.75);
-        factors.compensation = compensation;
-        factors.fresnel = fresnel;
-        factors.diffuse = form;
+        DielectricMaterial factors{.base_color = Rgb(0.5, 1, 0.75),
+                                   .fresnel = fresnel,
+                                   .compensation = compensation,
+                                   .diffuse = form};
         if (compensation == Compensation::kNone) {
           factors.diffuse_coupling = DiffuseCoupling::kOneMinusFresnel;
         }
@@ -222,9 +214,7 @@ TEST_CASE("a dielectric's roughness map is within its albedo's error of the cons
   for (const Compensation compensation : {Compensation::kTurquin, Compensation::kKullaConty}) {
     for (const double share : {Held(0.9), Held(0.37), Held(0.12)}) {
       Material plain, mapped;
-      DielectricMaterial coat;
-      coat.compensation = compensation;
-      coat.roughness = share;
+      DielectricMaterial coat{.roughness = share, .compensation = compensation};
       plain.model = coat;
       coat.roughness = 1;
       mapped.model = coat;
@@ -264,18 +254,14 @@ Scene UnderEveryLight(const Material& material) {
   panel->triangles = {0, 2, 1};
   const auto sky = [](const auto& of) { return EnvironmentLight{.sky = of, .background = false}; };
   const auto add = [&](const char* name, decltype(Light::kind) kind) {
-    Light light;
-    light.name = name;
-    light.kind = std::move(kind);
-    scene.lights.push_back(std::move(light));
+    scene.lights.push_back(Light{.name = name, .kind = std::move(kind)});
   };
   add("ambient", AmbientLight{Rgb(0.1, 0.2, 0.3)});
   add("directional", DirectionalLight{Vec3d(1, -1, -1), Rgb(0.9, 1, 1.1)});
-  add("point", PointLight{.position = Vec3d(3, 4, 5), .intensity = Rgb(90), .attenuation = {}});
+  add("point", PointLight{.position = Vec3d(3, 4, 5), .intensity = Rgb(90)});
   add("spot", SpotLight{.position = Vec3d(-3, 0, 5),
                         .direction_of_travel = Vec3d(3, 0, -5),
-                        .intensity = Rgb(50, 50, 60),
-                        .attenuation = {}});
+                        .intensity = Rgb(50, 50, 60)});
   add("sphere", SphereAreaLight{.center = Vec3d(0, 3, 1), .radius = 1, .visible = false});
   add("rectangle", RectangleAreaLight{.center = Vec3d(-1, 3, 2), .visible = false});
   add("disk", DiskAreaLight{.center = Vec3d(1, 3, 2), .visible = false});
@@ -403,9 +389,8 @@ TEST_CASE("an exact dielectric's roughness map is the constant mirror and the co
 
 TEST_CASE("a level normal map, a flat bump map and a constant emission map change no bit") {
   ForEachTarget([&](Target) {
-    Material plain;
-    plain.model = MetallicRoughnessMaterial{.roughness = 0.05};
-    plain.emission = Rgb(0.2, 0.4, 0.8) * Held(0.3);
+    Material plain{.emission = Rgb(0.2, 0.4, 0.8) * Held(0.3),
+                   .model = MetallicRoughnessMaterial{.roughness = 0.05}};
     Scene scene = TexturedSpheres(plain);
     Material& material = scene.materials[0];
     material.emission = Rgb(0.2, 0.4, 0.8);

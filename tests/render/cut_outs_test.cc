@@ -47,8 +47,7 @@ TEST_CASE("a sheet with holes is its pieces: seen, lit and in the way of every l
   ForEachTarget([](Target target) {
     for (const Light& light : LightsAbove()) {
       CAPTURE(light.name);
-      RenderSettings settings;
-      settings.threads = 1;
+      RenderSettings settings{.threads = 1};
       if (target != SupportedTargets().front()) settings.region = {15, 10, 45, 30};
       settings.layers = {"N", "P", "Z", "albedo"};
       const Image masked = RenderImage(Masked(light), settings);
@@ -86,9 +85,7 @@ TEST_CASE("pictures with holes have the same bits by threads, tiles, intersector
     if (light.name != "point") scene.lights.push_back(light);
   }
   scene.textures[0].sampling.filter = TextureFilter::kTrilinear;
-  RenderSettings settings;
-  settings.threads = 1;
-  settings.layers = {"all"};
+  RenderSettings settings{.threads = 1, .layers = {"all"}};
   const Image whole = RenderImage(scene, settings);
   settings.threads = 3;
   settings.tile_size = 7;

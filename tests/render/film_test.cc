@@ -14,16 +14,11 @@ namespace nacre {
 namespace {
 
 RenderSettings OneThread(std::vector<std::string> layers = {}) {
-  RenderSettings settings;
-  settings.threads = 1;
-  settings.layers = std::move(layers);
-  return settings;
+  return RenderSettings{.threads = 1, .layers = std::move(layers)};
 }
 
 MaterialId AddLambert(const Rgb& albedo, Scene* scene) {
-  Material material;
-  material.model = LambertMaterial{albedo};
-  scene->materials.push_back(material);
+  scene->materials.push_back(Material{.model = LambertMaterial{albedo}});
   return {static_cast<uint32_t>(scene->materials.size() - 1)};
 }
 
@@ -39,22 +34,17 @@ Scene MakeScene(int side, int spp) {
 }
 
 void AddLight(const std::string& name, decltype(Light::kind) kind, Scene* scene) {
-  Light light;
-  light.name = name;
-  light.kind = std::move(kind);
-  scene->lights.push_back(light);
+  scene->lights.push_back(Light{.name = name, .kind = std::move(kind)});
 }
 
 // An axis-parallel square at depth 5.
 Mesh MakeSquare(double left, double right, double half_height, MaterialId material) {
-  Mesh mesh;
-  mesh.positions = {{left, -half_height, -5},
-                    {right, -half_height, -5},
-                    {right, half_height, -5},
-                    {left, half_height, -5}};
-  mesh.triangles = {0, 1, 2, 0, 2, 3};
-  mesh.material = material;
-  return mesh;
+  return {.positions = {{left, -half_height, -5},
+                        {right, -half_height, -5},
+                        {right, half_height, -5},
+                        {left, half_height, -5}},
+          .triangles = {0, 1, 2, 0, 2, 3},
+          .material = material};
 }
 
 TEST_CASE("a filter's negative lobes ring at edges") {
@@ -105,8 +95,8 @@ TEST_CASE("all samples of a pixel differ, also where they take several batches")
 
 TEST_CASE("a pixel's only sample has the bits of its sum") {
   ForEachShippedScene([](const Scene& scene) {
-    RenderSettings settings;
-    settings.layers = {"N", "diffuse", "specular", "ambient", "emission", "albedo"};
+    RenderSettings settings{
+        .layers = {"N", "diffuse", "specular", "ambient", "emission", "albedo"}};
     for (const Light& light : scene.lights) {
       if (std::holds_alternative<AmbientLight>(light.kind)) continue;  // a layer of its own
       settings.layers.push_back("light." + light.name);
@@ -124,9 +114,7 @@ TEST_CASE("sums are left out where one sample is all there is") {
   CHECK(MakePlan(scene, {}).film.one_sample);
   CHECK_FALSE(MakePlan(scene, OneThread({"Z"})).film.one_sample);
   CHECK_FALSE(MakePlan(scene, OneThread({"id.object"})).film.one_sample);
-  RenderSettings adaptive;
-  adaptive.max_error = 0.1;
-  CHECK_FALSE(MakePlan(scene, adaptive).film.one_sample);
+  CHECK_FALSE(MakePlan(scene, {.max_error = 0.1}).film.one_sample);
   scene.image.spp = 2;
   CHECK_FALSE(MakePlan(scene, {}).film.one_sample);
 }

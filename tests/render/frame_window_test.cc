@@ -11,10 +11,7 @@ namespace nacre {
 namespace {
 
 Window Band(const Window& frame, int index, int count, int band_rows) {
-  RenderSettings settings;
-  settings.band = {index, count};
-  settings.band_rows = band_rows;
-  return FrameWindow(frame, settings);
+  return FrameWindow(frame, RenderSettings{.band = {index, count}, .band_rows = band_rows});
 }
 
 // Bands follow one another, none empty, at multiples of band_rows, sizes within one of those.

@@ -18,10 +18,7 @@ constexpr double kShininess = 1e3;
 
 // One shiny sphere on black.
 Scene Shiny(Projection projection, PhongModel model) {
-  PhongMaterial phong;
-  phong.model = model;
-  phong.ka = phong.kd = Rgb(0);
-  phong.shininess = kShininess;
+  PhongMaterial phong{.model = model, .ka = Rgb(0), .kd = Rgb(0), .shininess = kShininess};
   Scene scene = OneSphere(phong, kWidth);
   scene.background = Rgb(0);
   scene.lights.clear();
@@ -43,15 +40,9 @@ std::vector<Glint> GlintsOf(const FramePlan& plan, double largest) {
   return glints;
 }
 
-FramePlan PlanOf(const Scene& scene) {
-  RenderSettings settings;
-  settings.max_error = 0.05;
-  return MakePlan(scene, settings);
-}
+FramePlan PlanOf(const Scene& scene) { return MakePlan(scene, {.max_error = 0.05}); }
 
-PointLight LampAt(const Vec3d& position) {
-  return {.position = position, .intensity = Rgb(100), .attenuation = {}};
-}
+PointLight LampAt(const Vec3d& position) { return {.position = position, .intensity = Rgb(100)}; }
 
 // The brightest pixel of a picture, and the sum of all over it: an area in pixels.
 struct Seen {
@@ -129,13 +120,9 @@ TEST_CASE("a highlight seen face to face has the area of its lobe on the sphere"
 
 TEST_CASE("lamps with an extent show as mirrors show them") {
   Scene scene = Shiny(Projection::kOrthographic, PhongModel::kBlinnPhong);
-  MetallicRoughnessMaterial mirror;
-  mirror.metallic = 1;
-  mirror.roughness = 0;
+  MetallicRoughnessMaterial mirror{.metallic = 1, .roughness = 0};
   scene.materials[0].model = mirror;
-  SphereAreaLight light;
-  light.center = {0, 0, 200};
-  light.radius = 2;
+  SphereAreaLight light{.center = {0, 0, 200}, .radius = 2};
   scene.lights = {Named("lamp", light)};
   const std::vector<Glint> glints = GlintsOf(PlanOf(scene), 100);
   REQUIRE(glints.size() == 1);

@@ -29,7 +29,7 @@ Scene LitSpheres() {
   scene.spheres.push_back({.center = {0.4, 1.2, -7}, .radius = 0.3, .material = {1}});
   Light lamp;
   lamp.name = "lamp";
-  lamp.kind = PointLight{.position = {2, 9, -3}, .intensity = {90, 80, 70}, .attenuation = {}};
+  lamp.kind = PointLight{.position = {2, 9, -3}, .intensity = {90, 80, 70}};
   Light far;
   far.name = "far";
   far.shadows = false;
@@ -64,9 +64,7 @@ TEST_CASE("pictures without positions have the bits of those with them") {
         CHECK(std::count(plan.hits.arrays.may_be_shadowed.begin(),
                          plan.hits.arrays.may_be_shadowed.end(), 0) > 0);
       }
-      RenderSettings settings;
-      settings.threads = 1;
-      settings.layers = {"light.lamp", "light.far", "N"};
+      RenderSettings settings{.threads = 1, .layers = {"light.lamp", "light.far", "N"}};
       const Image got = RenderImage(scene, settings);
       settings.general_path = true;
       CHECK(MakePlan(scene, settings).hits.arrays.all_positions);
@@ -80,8 +78,7 @@ TEST_CASE("pictures without positions have the bits of those with them") {
 
 // Holds a picture beside the one with all lights found from positions.
 void CheckLastDigits(const Scene& scene) {
-  RenderSettings settings;
-  settings.threads = 1;
+  RenderSettings settings{.threads = 1};
   const Image got = RenderImage(scene, settings);
   settings.far_lights = false;
   const Image by_position = RenderImage(scene, settings);
@@ -110,8 +107,7 @@ TEST_CASE("whatever reads positions gets them") {
     return MakePlan(changed, settings).hits.arrays.all_positions;
   };
   CHECK_FALSE(all(scene));
-  RenderSettings settings;
-  settings.layers = {"P"};
+  RenderSettings settings{.layers = {"P"}};
   CHECK(all(scene, settings));
   settings.layers = {"N"};
   CHECK_FALSE(all(scene, settings));

@@ -104,8 +104,7 @@ void AddMeshes(uint32_t seed, Scene* scene) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(-1, 1);
   for (int i = 0; i < 5; ++i) {
-    Mesh mesh;
-    mesh.material = {0};
+    Mesh mesh{.material = {0}};
     for (int k = 0; k < 8; ++k) {
       const Sphere& sphere = scene->spheres[static_cast<size_t>(7 * i + k)];
       const Vec3d side = Vec3d{uniform(random), uniform(random), uniform(random)}.normalized();
@@ -150,16 +149,13 @@ TEST_CASE("of a sphere and a triangle at one depth the sphere is hit") {
   scene.image.spp = 16;
   int spheres = 0, triangles = 0;
   for (int step = -8; step <= 8; ++step) {
-    Mesh quad;
-    quad.material = {0};
+    Mesh quad{.material = {0}};
     const double z = -4 + step * 0x1p-51;
     quad.positions = {{-2, -2, z}, {2, -2, z}, {2, 2, z}, {-2, 2, z}};
     quad.triangles = {0, 1, 2, 0, 2, 3};
     scene.meshes = {quad};
     CheckSame(scene, {});
-    RenderSettings settings;
-    settings.layers = {"id.object"};
-    const Image image = RenderImage(scene, settings);
+    const Image image = RenderImage(scene, {.layers = {"id.object"}});
     for (const float id : image.Find("id.object")->samples) ++(id == 1 ? spheres : triangles);
   }
   CHECK(spheres > 1000);
@@ -181,15 +177,10 @@ TEST_CASE("bins for shadow rays give the same bits as Embree") {
       if (seed % 2 == 1) scene.spheres.push_back({{0, -1e6 - 9, 0}, 1e6, {0}});
       Light spot;
       spot.name = "spot";
-      SpotLight cone;
-      cone.position = {2, 3, -4};
-      cone.direction_of_travel = {-0.2, -1, -0.5};
-      spot.kind = cone;
+      spot.kind = SpotLight{.position = {2, 3, -4}, .direction_of_travel = {-0.2, -1, -0.5}};
       scene.lights.push_back(spot);
       for (Light& light : scene.lights) light.shadows = true;
-      RenderSettings settings;
-      settings.threads = static_cast<int>(seed % 3);
-      CheckSame(scene, settings);
+      CheckSame(scene, RenderSettings{.threads = static_cast<int>(seed % 3)});
       for (const LightShadows& light : MakePlan(scene, {}).direct.shadows.punctual) {
         CHECK(light.occluders != kAnyLight);
       }
@@ -229,8 +220,7 @@ TEST_CASE("spheres that nothing can shadow need no shadow rays") {
                             .intensity = {9, 9, 9},
                             .attenuation = Attenuation::None()};
     scene.lights.push_back(point);
-    RenderSettings general;
-    general.general_path = true;
+    RenderSettings general{.general_path = true};
     CHECK(SameBits(RenderImage(scene, {}), RenderImage(scene, general)));
     for (const LightShadows& light : MakePlan(scene, {}).direct.shadows.punctual) {
       some += light.rays && !light.shadowed.empty();
@@ -257,9 +247,7 @@ TEST_CASE("every scene that ships has the same bits with a tree alone") {
   ForEachShippedScene([](const Scene& scene) {
     const Image expected = RenderImage(scene, {});
     for (const auto choice : {IntersectorChoice::kEmbree, IntersectorChoice::kShells}) {
-      RenderSettings settings;
-      settings.intersector = choice;
-      CHECK(SameBits(RenderImage(scene, settings), expected));
+      CHECK(SameBits(RenderImage(scene, {.intersector = choice}), expected));
     }
   });
 }
@@ -275,18 +263,14 @@ TEST_CASE("a tree is there where it is needed, and only there") {
   };
   Scene scene = RandomScene(0);
   CHECK(uses(scene, {}) == std::pair(true, false));
-  RenderSettings general;
-  general.general_path = true;
+  RenderSettings general{.general_path = true};
   CHECK(uses(scene, general) == std::pair(true, true));  // for shadows
   scene.image.shadows = false;
   CHECK(uses(scene, general) == std::pair(true, false));
-  RenderSettings forced;
-  forced.intersector = IntersectorChoice::kEmbree;
+  RenderSettings forced{.intersector = IntersectorChoice::kEmbree};
   CHECK(uses(scene, forced) == std::pair(false, true));
-  Mesh triangle;
-  triangle.positions = {{0, 0, -3}, {1, 0, -3}, {0, 1, -3}};
-  triangle.triangles = {0, 1, 2};
-  triangle.material = {0};
+  Mesh triangle{
+      .positions = {{0, 0, -3}, {1, 0, -3}, {0, 1, -3}}, .triangles = {0, 1, 2}, .material = {0}};
   scene.meshes = {triangle};
   CHECK(uses(scene, {}) == std::pair(true, true));
   CHECK(uses(scene, forced) == std::pair(false, true));
@@ -376,8 +360,7 @@ TEST_CASE("a narrow tile leaves the next one nothing of a tile whose pixels are 
   scene.camera.fov_y_deg = 2 * std::atan(16 / 100.0) * 180 / M_PI;  // a pixel is 1 wide at z = 0
   const MaterialId material = scene.spheres[0].material;
   scene.spheres = {{{44.0 - 18, 16.0 - 8, 0}, 20, material}, {{-18, 16.0 - 24, 0}, 20, material}};
-  RenderSettings settings;
-  settings.threads = 1;
+  RenderSettings settings{.threads = 1};
   const Image image = RenderImage(scene, settings);
   settings.general_path = true;
   const Image expected = RenderImage(scene, settings);

@@ -3,12 +3,8 @@
 #include "render/interval.h"
 
 #include <cmath>
-#include <limits>
-#include <random>
 
 #include "catch.h"
-#include "render/interval_kernel.h"
-#include "targets.h"
 
 namespace nacre {
 namespace {
@@ -62,50 +58,6 @@ TEST_CASE("one hit is not all hits, and none is not nothing") {
   const Interval missed = MeasureCovered({1, 1, 1, 1}, none, 0.1, {3, 5}, background, 16);
   CHECK(missed.mean == 1);
   CHECK(std::abs(HalfWidth(missed) - 0.1 * 4) < 1e-15);
-}
-
-TEST_CASE("a block's intervals are its pixels', to the bit") {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> value(-0.2, 2);
-  alignas(64) double sums[kReplicates][3][kBlockPixels];
-  uint32_t samples[kBlockPixels];
-  // White is passed by some of the sums, of one sample.
-  constexpr ErrorBound kErrorBound{0.7, 1.2};
-  for (int round = 0; round < 20; ++round) {
-    for (auto& replicate : sums) {
-      for (auto& channel : replicate) {
-        for (double& sum : channel) sum = value(random);
-      }
-    }
-    for (uint32_t& taken : samples) taken = 1 + static_cast<uint32_t>(random() % 64);
-    sums[1][2][3] = std::numeric_limits<double>::quiet_NaN();
-    const double* channels[kReplicates][3];
-    for (size_t r = 0; r < kReplicates; ++r) {
-      for (size_t c = 0; c < 3; ++c) channels[r][c] = sums[r][c];
-    }
-    ForEachTarget([&](Target) {
-      BlockIntervals intervals;
-      MeasureBlock(channels, samples, kErrorBound, &intervals);
-      for (size_t i = 0; i < kBlockPixels; ++i) {
-        bool narrow = true;
-        double widest = 0, strictest = std::numeric_limits<double>::infinity();
-        for (size_t c = 0; c < 3; ++c) {
-          double values[kReplicates];
-          for (size_t r = 0; r < kReplicates; ++r) values[r] = sums[r][c][i] * (1.0 / samples[i]);
-          const Interval measured = MeasureSpread(values);
-          const double tolerance = ToleranceAt(kErrorBound, measured.mean);
-          narrow = narrow && measured.half_width2 <= tolerance * tolerance;
-          widest = std::max(widest, measured.half_width2);
-          strictest = std::min(strictest, tolerance);
-        }
-        CAPTURE(round, i);
-        CHECK((intervals.narrow >> i & 1) == (narrow ? 1 : 0));
-        if (i == 3) continue;  // no number
-        CHECK(intervals.half_width[i] == std::sqrt(widest));
-        CHECK(intervals.tolerance[i] == strictest);
-      }
-    });
-  }
 }
 
 }  // namespace

@@ -13,12 +13,7 @@
 namespace nacre {
 namespace {
 
-MetallicRoughnessMaterial WhiteUnderCoat() {
-  MetallicRoughnessMaterial white;
-  white.base_color = Rgb(1);
-  white.coat = 1;
-  return white;
-}
+MetallicRoughnessMaterial WhiteUnderCoat() { return {.base_color = Rgb(1), .coat = 1}; }
 
 // 2e-4: the worst error of two albedos at render time (brdf/albedo.h).
 void CheckWhiteUnderCoat(const Scene& scene) {
@@ -87,9 +82,7 @@ TEST_CASE("a white metal under a coat stays white, whatever normals the two are 
 // to it; of pixels away from the outline.
 double WorstAgainstTwin(const Scene& scene, const Vec3d& to_light, double irradiance) {
   const ShadingMaterial twin = PrepareMaterial(scene.materials[0]);
-  RenderSettings settings;
-  settings.layers = {"all"};
-  const Image image = RenderImage(scene, settings);
+  const Image image = RenderImage(scene, {.layers = {"all"}});
   const auto at = [&](const char* name, size_t i) { return double{image.Find(name)->samples[i]}; };
   size_t lit = 0;
   double worst = 0;
@@ -115,11 +108,8 @@ Scene UnderALamp(const MetallicRoughnessMaterial& model, const Vec3d& to_light) 
 
 TEST_CASE("coats under a lamp reflect what the scalar material does") {
   const Vec3d to_light = Vec3d(0.3, 0.5, 0.8).normalized();
-  MetallicRoughnessMaterial model;
-  model.base_color = Rgb(0.8, 0.3, 0.1);
-  model.metallic = 0.3;
-  model.roughness = 0.4;
-  model.coat_ior = 1.8;
+  MetallicRoughnessMaterial model{
+      .base_color = Rgb(0.8, 0.3, 0.1), .metallic = 0.3, .roughness = 0.4, .coat_ior = 1.8};
   for (const double coat : {0.5, 1.0}) {
     for (const double roughness : {0.02, 0.09, 0.3, 0.8}) {  // narrow lobes, and wide
       CAPTURE(coat, roughness);
@@ -136,10 +126,8 @@ TEST_CASE("coats under a lamp reflect what the scalar material does") {
 
 TEST_CASE("sheen under a lamp reflects what the scalar material does, with a coat and without") {
   const Vec3d to_light = Vec3d(0.6, 0.5, 0.3).normalized();
-  MetallicRoughnessMaterial model;
-  model.base_color = Rgb(0.2, 0.3, 0.1);
-  model.roughness = 0.6;
-  model.sheen_color = Rgb(0.9, 0.5, 0.2);
+  MetallicRoughnessMaterial model{
+      .base_color = Rgb(0.2, 0.3, 0.1), .roughness = 0.6, .sheen_color = Rgb(0.9, 0.5, 0.2)};
   for (const double coat : {0.0, 1.0}) {
     model.coat = coat;
     model.coat_roughness = 0.5;
@@ -159,10 +147,8 @@ TEST_CASE("a white surface under white sheen makes no light, and sheen brightens
   ForEachTarget([](Target) {
     for (const double roughness : {0.1, 0.4, 1.0}) {
       CAPTURE(roughness);
-      MetallicRoughnessMaterial cloth;
-      cloth.base_color = Rgb(1);
-      cloth.sheen_color = Rgb(1);
-      cloth.sheen_roughness = roughness;
+      MetallicRoughnessMaterial cloth{
+          .base_color = Rgb(1), .sheen_color = Rgb(1), .sheen_roughness = roughness};
       Scene scene = OrthographicSphere(cloth, 64);
       scene.lights = {WhiteSky()};
       const Mean white = MeanRed(RenderImage(scene, {}));
@@ -184,8 +170,7 @@ TEST_CASE("a white surface under white sheen makes no light, and sheen brightens
 }
 
 TEST_CASE("a plan notes coats that are perfect mirrors") {
-  MetallicRoughnessMaterial model;
-  model.coat = 1;
+  MetallicRoughnessMaterial model{.coat = 1};
   const auto notes = [&](double roughness, bool lamp) {
     model.coat_roughness = roughness;
     Scene scene = UnderALamp(model, Vec3d(0, 0, 1));
@@ -202,16 +187,12 @@ TEST_CASE("no coat has the bits of none, and constant maps of a coat those of co
   ForEachTarget([](Target) {
     const Rgb share = Held(Rgb(0.6)), width = Held(Rgb(0.1, 0.5, 0.9));
     Material plain;
-    MetallicRoughnessMaterial factors;
-    factors.coat = 0.8;
-    factors.coat_roughness = 0.6;
+    MetallicRoughnessMaterial factors{.coat = 0.8, .coat_roughness = 0.6};
     MetallicRoughnessMaterial constant = factors;
     constant.coat = factors.coat * share.x;
     constant.coat_roughness = factors.coat_roughness * width.y;
     plain.model = constant;
-    Material mapped;
-    mapped.model = factors;
-    Scene with_maps = TexturedSpheres(mapped);
+    Scene with_maps = TexturedSpheres(Material{.model = factors});
     auto& model = std::get<MetallicRoughnessMaterial>(with_maps.materials[0].model);
     model.coat_map = AddConstant(&with_maps, share);
     model.coat_roughness_map = AddConstant(&with_maps, width);
@@ -220,11 +201,8 @@ TEST_CASE("no coat has the bits of none, and constant maps of a coat those of co
 }
 
 TEST_CASE("a coat dims what a material emits, by what it reflects") {
-  MetallicRoughnessMaterial model;
-  model.base_color = Rgb(0);
-  model.specular = 0;
-  model.coat = 1;
-  model.coat_roughness = 0.3;
+  MetallicRoughnessMaterial model{
+      .base_color = Rgb(0), .specular = 0, .coat = 1, .coat_roughness = 0.3};
   Scene scene = OrthographicSphere(model, 1);
   scene.materials[0].emission = Rgb(3, 2, 1);
   const ShadingMaterial twin = PrepareMaterial(scene.materials[0]);
@@ -273,8 +251,7 @@ TEST_CASE("coats and sheen reflect of ambient light what they reflect of a white
 }
 
 TEST_CASE("the normal map of the base is not the coat's, nor the coat's the base's") {
-  MetallicRoughnessMaterial model;
-  model.base_color = Rgb(0);
+  MetallicRoughnessMaterial model{.base_color = Rgb(0)};
   model.specular = 0;  // the coat alone is seen
   model.coat = 1;
   model.coat_roughness = 0.3;

@@ -21,12 +21,11 @@ Scene UnderOne(decltype(Light::kind) kind) {
 }
 
 SpotLight Spot(double cutoff_deg) {
-  SpotLight spot;
-  spot.position = Vec3d(0, 0, 4);
-  spot.intensity = Rgb(10);
-  spot.cutoff_deg = spot.inner_deg = cutoff_deg;
-  spot.exponent = 0;
-  return spot;
+  return {.position = Vec3d(0, 0, 4),
+          .intensity = Rgb(10),
+          .cutoff_deg = cutoff_deg,
+          .inner_deg = cutoff_deg,
+          .exponent = 0};
 }
 
 float LargestRed(const Scene& scene) {
@@ -44,9 +43,7 @@ void CheckNearly(const Image& a, const Image& b) {
 
 TEST_CASE("a cone of 90 degrees lights half of the world, one of 180 all of it") {
   ForEachTarget([](Target) {
-    PointLight point;
-    point.position = Vec3d(0, 0, 4);
-    point.intensity = Rgb(10);
+    PointLight point{.position = Vec3d(0, 0, 4), .intensity = Rgb(10)};
     const Image all = RenderImage(UnderOne(point), {});
     for (const double cutoff : {90.0, 180.0}) {
       SpotLight towards = Spot(cutoff), away = Spot(cutoff);
@@ -64,16 +61,10 @@ TEST_CASE("a cone of 90 degrees lights half of the world, one of 180 all of it")
 }
 
 TEST_CASE("what is inside a lamp, behind one or in its plane sees no light") {
-  SphereAreaLight around;
-  around.center = Vec3d(0.3, 0, 0);
-  around.radius = 5;
-  around.radiance = Rgb(3);
-  around.visible = false;
-  DiskAreaLight behind;
-  behind.center = Vec3d(0, 0, 3);
-  behind.facing = Vec3d(0, 0, 1);
-  behind.radiance = Rgb(3);
-  behind.visible = false;
+  SphereAreaLight around{
+      .center = Vec3d(0.3, 0, 0), .radius = 5, .radiance = Rgb(3), .visible = false};
+  DiskAreaLight behind{
+      .center = Vec3d(0, 0, 3), .facing = Vec3d(0, 0, 1), .radiance = Rgb(3), .visible = false};
   ForEachTarget([&](Target) {
     for (const decltype(Light::kind)& kind :
          {decltype(Light::kind)(around), decltype(Light::kind)(behind)}) {
@@ -88,10 +79,9 @@ TEST_CASE("what is inside a lamp, behind one or in its plane sees no light") {
     beside.two_sided = true;
     Scene floor = UnderOne(beside);
     floor.spheres.clear();
-    Mesh mesh;
-    mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
-    mesh.triangles = {0, 1, 2, 0, 2, 3};
-    mesh.material = {0};
+    Mesh mesh{.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}},
+              .triangles = {0, 1, 2, 0, 2, 3},
+              .material = {0}};
     floor.meshes.push_back(mesh);
     CHECK(LargestRed(floor) <= 1e-20f);  // hits are within a rounding of the plane
   });
@@ -110,11 +100,7 @@ Room TurnedRoom() {
 }
 
 Mesh Square(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
-  Mesh mesh;
-  mesh.positions = {a, b, c, d};
-  mesh.triangles = {0, 1, 2, 0, 2, 3};
-  mesh.material = {0};
-  return mesh;
+  return {.positions = {a, b, c, d}, .triangles = {0, 1, 2, 0, 2, 3}, .material = {0}};
 }
 
 Scene FloorUnder(const Room& at, decltype(Light::kind) kind) {
@@ -132,30 +118,20 @@ Scene FloorUnder(const Room& at, decltype(Light::kind) kind) {
 }
 
 std::vector<decltype(Light::kind)> CeilingLights(const Room& at) {
-  RectangleAreaLight rectangle;
-  rectangle.center = at(0.1, 1, 0.2);
-  rectangle.facing = -at.y;
-  rectangle.width = 1.1;
-  rectangle.height = 0.7;
-  rectangle.radiance = Rgb(3);
-  DiskAreaLight disk;
-  disk.center = rectangle.center;
-  disk.facing = -at.y;
-  disk.radius = 0.4;
-  disk.radiance = Rgb(3);
+  RectangleAreaLight rectangle{
+      .center = at(0.1, 1, 0.2), .facing = -at.y, .width = 1.1, .height = 0.7, .radiance = Rgb(3)};
+  DiskAreaLight disk{
+      .center = rectangle.center, .facing = -at.y, .radius = 0.4, .radiance = Rgb(3)};
   MeshAreaLight mesh;
   const Mesh square =
       Square(at(-0.3, 1, -0.3), at(0.4, 1, -0.3), at(0.4, 1, 0.5), at(-0.3, 1, 0.5));
   mesh.mesh = std::make_shared<Mesh>(square);
   mesh.radiance = Rgb(3);
-  PointLight point;
-  point.position = rectangle.center;
-  point.intensity = Rgb(3);
-  SpotLight spot;
-  spot.position = rectangle.center;
-  spot.direction_of_travel = -at.y;
-  spot.intensity = Rgb(3);
-  spot.cutoff_deg = 60;
+  PointLight point{.position = rectangle.center, .intensity = Rgb(3)};
+  SpotLight spot{.position = rectangle.center,
+                 .direction_of_travel = -at.y,
+                 .intensity = Rgb(3),
+                 .cutoff_deg = 60};
   return {rectangle, disk, mesh, point, spot};
 }
 
@@ -236,10 +212,7 @@ TEST_CASE("lamps in one plane do not hide one another") {
 TEST_CASE("a light on a sphere over a floor is seen from below, and hidden from above") {
   ForEachTarget([](Target) {
     for (const Room& at : {StraightRoom(), TurnedRoom()}) {
-      PointLight point;
-      point.position = at(0, 1, 0);
-      point.intensity = Rgb(3);
-      const Scene open = FloorUnder(at, point);
+      const Scene open = FloorUnder(at, PointLight{.position = at(0, 1, 0), .intensity = Rgb(3)});
       Scene closed = open;
       closed.spheres.push_back({at(0, 11, 0), 10, {0}});
       CHECK(SameBits(RenderImage(closed, {}), RenderImage(open, {})));

@@ -22,25 +22,20 @@ Light MeshLightOf(Mesh mesh, bool two_sided = false, bool visible = false) {
 }
 
 RectangleAreaLight Window() {
-  RectangleAreaLight rectangle;
-  rectangle.center = Vec3d(2, 1.5, 2);
-  rectangle.facing = Vec3d(-2, -1.5, -2);
-  rectangle.width = 2;
-  rectangle.height = 1;
-  rectangle.up = Vec3d(0, 1, 0);
-  rectangle.radiance = Rgb(5);
-  rectangle.visible = false;
-  return rectangle;
+  return {.center = Vec3d(2, 1.5, 2),
+          .facing = Vec3d(-2, -1.5, -2),
+          .up = Vec3d(0, 1, 0),
+          .width = 2,
+          .height = 1,
+          .radiance = Rgb(5),
+          .visible = false};
 }
 
 // Moved by `offset`.
 Mesh TwoTriangles(const RectangleAreaLight& rectangle, const Vec3d& offset = Vec3d(0)) {
   const auto [corner, x, y] = CornersOf(rectangle);
   const Vec3d c = corner + offset;
-  Mesh mesh;
-  mesh.positions = {c, c + x, c + x + y, c + y};
-  mesh.triangles = {0, 1, 2, 0, 2, 3};
-  return mesh;
+  return {.positions = {c, c + x, c + x + y, c + y}, .triangles = {0, 1, 2, 0, 2, 3}};
 }
 
 void Append(const Mesh& more, Mesh* mesh) {
@@ -51,17 +46,12 @@ void Append(const Mesh& more, Mesh* mesh) {
 
 Image Render(Scene scene, const Light& light, bool closed_forms = true) {
   scene.lights = {light};
-  RenderSettings settings;
-  settings.closed_forms = closed_forms;
-  return RenderImage(scene, settings);
+  return RenderImage(scene, {.closed_forms = closed_forms});
 }
 
 std::vector<decltype(Material::model)> Models() {
-  MetallicRoughnessMaterial metal;
-  metal.metallic = 1;
-  metal.roughness = 0.3;
-  MetallicRoughnessMaterial plastic;
-  plastic.roughness = 0.05;
+  MetallicRoughnessMaterial metal{.metallic = 1, .roughness = 0.3};
+  MetallicRoughnessMaterial plastic{.roughness = 0.05};
   MetallicRoughnessMaterial mirror = metal;
   mirror.roughness = 0;
   return {LambertMaterial{Rgb(0.7)}, metal, plastic, mirror, PhongMaterial{}};
@@ -106,11 +96,8 @@ TEST_CASE("a light of triangles has the same mean in closed form and sampled") {
 
 TEST_CASE("an icosphere comes to the sphere light as it refines") {
   const Scene scene = OneSphere(LambertMaterial{Rgb(0.7)}, 48, 64);
-  SphereAreaLight sphere;
-  sphere.center = Vec3d(1, 2, 2);
-  sphere.radius = 0.7;
-  sphere.radiance = Rgb(5);
-  sphere.visible = false;
+  SphereAreaLight sphere{
+      .center = Vec3d(1, 2, 2), .radius = 0.7, .radiance = Rgb(5), .visible = false};
   const Image truth = Render(scene, Named("lamp", sphere));
   const double mean = MeanRed(truth).value;
   double last = 1;
@@ -189,10 +176,9 @@ TEST_CASE("surfaces in the light's plane, on it and inside it are finite") {
   // Ground in the plane of a light that faces up, another one that stands on it, and a sphere
   // inside a third.
   Scene scene = OneSphere(MetallicRoughnessMaterial{}, 48, 64);
-  Mesh ground;
-  ground.positions = {{-3, 0, -3}, {-3, 0, 3}, {3, 0, 3}, {3, 0, -3}};
-  ground.triangles = {0, 1, 2, 0, 2, 3};
-  ground.material = {0};
+  Mesh ground{.positions = {{-3, 0, -3}, {-3, 0, 3}, {3, 0, 3}, {3, 0, -3}},
+              .triangles = {0, 1, 2, 0, 2, 3},
+              .material = {0}};
   scene.meshes = {ground};
   scene.camera.position = Vec3d(0, 4, 6);
   scene.camera.fov_y_deg = 50;
@@ -229,11 +215,7 @@ TEST_CASE("pictures under lights of triangles do not depend on threads, tiles or
         MeshLightOf(MakeMesh(Icosphere{.center = {1, 2, 2}, .radius = 0.5, .subdivisions = 2}),
                     false, visible)};
     const Image whole = RenderImage(scene, {});
-    RenderSettings settings;
-    settings.threads = 1;
-    settings.tile_size = 8;
-    settings.general_path = true;
-    const Image other = RenderImage(scene, settings);
+    const Image other = RenderImage(scene, {.threads = 1, .tile_size = 8, .general_path = true});
     for (const char* channel : {"R", "G", "B"}) {
       const std::vector<float>& a = whole.Find(channel)->samples;
       CHECK(std::memcmp(a.data(), other.Find(channel)->samples.data(), 4 * a.size()) == 0);
@@ -249,8 +231,7 @@ TEST_CASE(
   scene.image.spp = 4;
   scene.lights = {MeshLightOf(
       MakeMesh(Icosphere{.center = {1, 2, 2}, .radius = 0.5, .subdivisions = 2}), false, true)};
-  RenderSettings settings;
-  settings.layers = {"id.object"};
+  RenderSettings settings{.layers = {"id.object"}};
   const FramePlan plan = MakePlan(scene, settings);
   CHECK(plan.direct.shadows.sampled.at(0).occluders != kAnyLight);
   const Image lists = RenderImage(plan, settings, nullptr);

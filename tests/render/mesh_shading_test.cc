@@ -33,15 +33,15 @@ Light MakeSun(const Vec3d& direction_of_travel) {
 Light MakeLamp() {
   Light lamp;
   lamp.name = "lamp";
-  lamp.kind = PointLight{.position = {3, 4, 5}, .intensity = {60, 50, 40}, .attenuation = {}};
+  lamp.kind = PointLight{.position = {3, 4, 5}, .intensity = {60, 50, 40}};
   return lamp;
 }
 
 Material MakeGlossy() {
-  Material material;
-  material.name = "glossy";
-  material.emission = {0.01, 0.02, 0.03};
-  material.model = MetallicRoughnessMaterial{.base_color = {0.7, 0.5, 0.3}, .roughness = 0.4};
+  Material material{
+      .name = "glossy",
+      .emission = {0.01, 0.02, 0.03},
+      .model = MetallicRoughnessMaterial{.base_color = {0.7, 0.5, 0.3}, .roughness = 0.4}};
   return material;
 }
 
@@ -62,10 +62,7 @@ Scene MakeSphereScene(Interpolation interpolation, int subdivisions) {
 }
 
 RenderSettings Settings(std::vector<std::string> layers = {}, int threads = 2) {
-  RenderSettings settings;
-  settings.threads = threads;
-  settings.layers = std::move(layers);
-  return settings;
+  return RenderSettings{.threads = threads, .layers = std::move(layers)};
 }
 
 const std::vector<float>& Samples(const Image& image, std::string_view channel) {
@@ -126,13 +123,12 @@ Scene MakeTriangleScene(Interpolation interpolation) {
   scene.image.width = scene.image.height = 32;
   scene.image.spp = 1;
   scene.image.filter = {FilterKind::kBox, 1};
-  Mesh mesh;
-  mesh.positions = {{-2, -1, 0}, {2, -1, 0}, {0, 4, 0}};
-  mesh.normals = {Vec3d(-1, -0.5, 1).normalized(), Vec3d(1, 0.2, 2).normalized(),
-                  Vec3d(0, 1, 1.5).normalized()};
-  mesh.triangles = {0, 1, 2};
-  mesh.material = {0};
-  mesh.interpolation = interpolation;
+  Mesh mesh{.positions = {{-2, -1, 0}, {2, -1, 0}, {0, 4, 0}},
+            .normals = {Vec3d(-1, -0.5, 1).normalized(), Vec3d(1, 0.2, 2).normalized(),
+                        Vec3d(0, 1, 1.5).normalized()},
+            .triangles = {0, 1, 2},
+            .material = {0},
+            .interpolation = interpolation};
   scene.meshes = {mesh};
   scene.materials = {MakeGlossy()};
   scene.materials[0].emission = {0, 0, 0};
@@ -260,8 +256,7 @@ TEST_CASE("maps turn the normals of vertices and centroids once, not once a ligh
       scene.camera.height = 2;
       scene.image.width = scene.image.height = 16;
       scene.image.spp = 16;
-      Mesh mesh;
-      mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+      Mesh mesh{.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}};
       mesh.normals.assign(4, Vec3d(0, 0, 1));
       mesh.triangles = {0, 1, 2, 0, 2, 3};
       mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
@@ -272,11 +267,7 @@ TEST_CASE("maps turn the normals of vertices and centroids once, not once a ligh
       if (!glossy) scene.materials[0].model = LambertMaterial{{0.9, 0.6, 0.3}};
       Light lamp;
       lamp.name = "lamp";
-      SphereAreaLight ball;
-      ball.center = {1, 2, 4};
-      ball.radius = 0.5;
-      ball.radiance = {80, 70, 60};
-      lamp.kind = ball;
+      lamp.kind = SphereAreaLight{.center = {1, 2, 4}, .radius = 0.5, .radiance = {80, 70, 60}};
       scene.lights = {lamp};
       const Vec3d leaning = Vec3d(96.0 / 127, 0, 1).normalized();  // of code 224; 0 is that of 128
       Scene expected = scene;
@@ -364,11 +355,7 @@ TEST_CASE("lights with an extent shine on vertices and centroids, too") {
     scene.image.spp = 16;
     Light ball;
     ball.name = "ball";
-    SphereAreaLight sphere;
-    sphere.center = {3, 4, 5};
-    sphere.radius = 0.5;
-    sphere.radiance = {80, 80, 80};
-    ball.kind = sphere;
+    ball.kind = SphereAreaLight{.center = {3, 4, 5}, .radius = 0.5, .radiance = {80, 80, 80}};
     scene.lights = {ball};
     const auto mean = [](const Image& image) {
       double sum = 0;

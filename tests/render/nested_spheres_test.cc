@@ -45,13 +45,8 @@ Scene TwoAmongSmall(NestedRandom* random) {
     const Vec3d center = random->InCube(1);
     scene.spheres.push_back({center * Vec3d(3, 2, 1), 0.05, {1}});
   }
-  PointLight lamp;
-  lamp.position = Vec3d(4, 5, 6);
-  lamp.intensity = Rgb(90, 80, 70);
-  SphereAreaLight bulb;
-  bulb.center = Vec3d(-4, 3, 4);
-  bulb.radius = 0.4;
-  bulb.radiance = Rgb(9);
+  PointLight lamp{.position = Vec3d(4, 5, 6), .intensity = Rgb(90, 80, 70)};
+  SphereAreaLight bulb{.center = Vec3d(-4, 3, 4), .radius = 0.4, .radiance = Rgb(9)};
   scene.lights.push_back(Named("lamp", lamp));
   scene.lights.push_back(
       Named("sun", DirectionalLight{.direction_of_travel = {3, -2, -1}, .irradiance = {1, 2, 3}}));
@@ -117,16 +112,13 @@ TEST_CASE("spheres inside others and coincident with them change no bit") {
     }
   }
   SECTION("with a light around it all") {
-    SphereAreaLight room;
-    room.radius = 30;
-    room.radiance = Rgb(1);
+    SphereAreaLight room{.radius = 30, .radiance = Rgb(1)};
     for (Scene* scene : {&plain, &filled}) scene->lights.push_back(Named("room", room));
   }
   SECTION("beside triangles") {
-    Mesh mesh;
-    mesh.positions = {{-3, -1, -2}, {3, -1, -2}, {0, 3, 0.5}};
-    mesh.triangles = {0, 1, 2};
-    mesh.material = {0};
+    Mesh mesh{.positions = {{-3, -1, -2}, {3, -1, -2}, {0, 3, 0.5}},
+              .triangles = {0, 1, 2},
+              .material = {0}};
     for (Scene* scene : {&plain, &filled}) scene->meshes.push_back(mesh);
   }
   CheckSamePicture(plain, filled);

@@ -17,10 +17,7 @@
 namespace nacre {
 
 inline Light Named(const std::string& name, decltype(Light::kind) kind) {
-  Light light;
-  light.name = name;
-  light.kind = std::move(kind);
-  return light;
+  return {.name = name, .kind = std::move(kind)};
 }
 
 // A sphere that fills the middle of a square picture, of one material.

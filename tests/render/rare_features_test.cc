@@ -18,10 +18,7 @@ namespace nacre {
 namespace {
 
 MaterialId Add(Scene* scene, decltype(Material::model) model, const Rgb& emission = Rgb(0)) {
-  Material material;
-  material.model = std::move(model);
-  material.emission = emission;
-  scene->materials.push_back(std::move(material));
+  scene->materials.push_back(Material{.emission = emission, .model = std::move(model)});
   return {static_cast<uint32_t>(scene->materials.size() - 1)};
 }
 
@@ -160,17 +157,15 @@ Scene DustUnderLamps() {
   Scene scene = Floor(0.05);
   const MaterialId matte = AddMatte(&scene, 0.9);
   for (const Vec3d& place : Places(700, 28, 1)) scene.spheres.push_back({place, 0.03, matte});
-  RectangleAreaLight lamp;
-  lamp.center = {3, 4, 60};
-  lamp.facing = {0, 0, -1};
-  lamp.up = {0, 1, 0};
-  lamp.width = lamp.height = 8;
-  lamp.radiance = Rgb(30);
-  lamp.visible = false;
-  scene.lights = {
-      Named("point",
-            PointLight{.position = {-30, 10, 20}, .intensity = Rgb(60000), .attenuation = {}}),
-      Named("lamp", lamp)};
+  RectangleAreaLight lamp{.center = {3, 4, 60},
+                          .facing = {0, 0, -1},
+                          .up = {0, 1, 0},
+                          .width = 8,
+                          .height = 8,
+                          .radiance = Rgb(30),
+                          .visible = false};
+  scene.lights = {Named("point", PointLight{.position = {-30, 10, 20}, .intensity = Rgb(60000)}),
+                  Named("lamp", lamp)};
   return scene;
 }
 
@@ -198,10 +193,7 @@ Scene Bulbs() {
   Scene scene = Floor(0.5);
   int number = 0;
   for (const Vec3d& place : Places(3, 4, 8)) {
-    SphereAreaLight light;
-    light.center = place;
-    light.radius = 0.2;
-    light.radiance = Rgb(200);
+    SphereAreaLight light{.center = place, .radius = 0.2, .radiance = Rgb(200)};
     scene.lights.push_back(Named("bulb" + std::to_string(number++), light));
   }
   return scene;
@@ -273,10 +265,7 @@ Scene StarsBehind() {
 }
 
 Scene StarsMirrored() {
-  MetallicRoughnessMaterial metal;
-  metal.metallic = 1;
-  metal.roughness = 0;
-  Scene scene = OneSphere(metal, kSide);
+  Scene scene = OneSphere(MetallicRoughnessMaterial{.metallic = 1, .roughness = 0}, kSide);
   scene.lights = {Named("sky", Stars())};
   return scene;
 }
@@ -284,9 +273,7 @@ Scene StarsMirrored() {
 // Balls three pixels wide whose highlights are much smaller than a pixel.
 Scene Glints() {
   Scene scene = Parallel();
-  PhongMaterial phong;
-  phong.shininess = 2000;
-  const MaterialId shiny = Add(&scene, phong);
+  const MaterialId shiny = Add(&scene, PhongMaterial{.shininess = 2000});
   for (int y = -7; y < 8; ++y) {
     for (int x = -7; x < 8; ++x) {
       scene.spheres.push_back({{2.13 * x, 2.13 * y, 0}, 1, shiny});
@@ -314,10 +301,7 @@ Scene Balls(decltype(Material::model) model, double width) {
 Light Sun() { return Along({-1, -1.3, -2}, 3); }
 
 PhongMaterial Phong(PhongModel model, double shininess) {
-  PhongMaterial phong;
-  phong.model = model;
-  phong.shininess = shininess;
-  return phong;
+  return {.model = model, .shininess = shininess};
 }
 
 Scene PhongGlints() {
@@ -333,26 +317,19 @@ Scene BlinnGlints() {
 }
 
 MetallicRoughnessMaterial Metal(double roughness) {
-  MetallicRoughnessMaterial metal;
-  metal.metallic = 1;
-  metal.roughness = roughness;
-  return metal;
+  return {.metallic = 1, .roughness = roughness};
 }
 
 Scene MetalGlints() {
   Scene scene = Balls(Metal(0.03), 5);
-  scene.lights = {Named(
-      "lamp", PointLight{.position = {20, 30, 40}, .intensity = Rgb(6000), .attenuation = {}})};
+  scene.lights = {Named("lamp", PointLight{.position = {20, 30, 40}, .intensity = Rgb(6000)})};
   return scene;
 }
 
 // Mirrors of a lamp smaller than what one sample stands for.
 Scene MirroredLamps() {
   Scene scene = Balls(Metal(0), 5);
-  SphereAreaLight light;
-  light.center = {20, 30, 40};
-  light.radius = 0.4;
-  light.radiance = Rgb(20000);
+  SphereAreaLight light{.center = {20, 30, 40}, .radius = 0.4, .radiance = Rgb(20000)};
   scene.lights = {Named("lamp", light)};
   return scene;
 }
@@ -364,8 +341,7 @@ Scene NearGlints() {
   scene.camera.position = {3, 4, 12};
   scene.camera.look_at = {1, 0, 0};
   scene.camera.fov_y_deg = 90;
-  scene.lights = {
-      Named("lamp", PointLight{.position = {-4, 6, 6}, .intensity = Rgb(200), .attenuation = {}})};
+  scene.lights = {Named("lamp", PointLight{.position = {-4, 6, 6}, .intensity = Rgb(200)})};
   return scene;
 }
 
@@ -419,8 +395,7 @@ Scene IcosphereGlints() {
       scene.meshes.push_back(RoundMesh({4.1 * x + 0.37, 4.1 * y + 0.11, 0}, 1.9, 2, shiny));
     }
   }
-  scene.lights = {Named(
-      "lamp", PointLight{.position = {20, 30, 40}, .intensity = Rgb(6000), .attenuation = {}})};
+  scene.lights = {Named("lamp", PointLight{.position = {20, 30, 40}, .intensity = Rgb(6000)})};
   return scene;
 }
 
@@ -452,12 +427,11 @@ Scene BrightEmission(double emission, double texel) {
 // White matte spheres of the lessons' kind: pi times as bright as others.
 Scene ClassicDust() {
   Scene scene = Parallel();
-  PhongMaterial phong;
-  phong.convention = PhongConvention::kClassic;
-  phong.kd = Rgb(1);
-  phong.ks = Rgb(0.5);
-  phong.ka = Rgb(0);
-  phong.shininess = 1;
+  PhongMaterial phong{.convention = PhongConvention::kClassic,
+                      .ka = Rgb(0),
+                      .kd = Rgb(1),
+                      .ks = Rgb(0.5),
+                      .shininess = 1};
   const MaterialId classic = Add(&scene, phong);
   for (const Vec3d& place : Places(150, 7, 0)) scene.spheres.push_back({place, 0.0199, classic});
   EnvironmentLight sky{.sky = ConstantSky{Rgb(1)}};
@@ -691,8 +665,7 @@ TEST_CASE("a highlight of a needle's width on one sphere is not missed") {
     const std::vector<float>& red = truth.channels[0].samples;
     const auto peak = static_cast<size_t>(std::max_element(red.begin(), red.end()) - red.begin());
     for (const double max_error : {0.1, 0.02}) {
-      RenderSettings settings;
-      settings.max_error = max_error;
+      RenderSettings settings{.max_error = max_error};
       const FramePlan plan = MakePlan(scene, settings);
       const Image image = RenderImage(plan, settings, nullptr);
       const std::vector<bool> told = ToldIn(plan);
@@ -722,8 +695,7 @@ Scene CutSquare(int n) {
 }
 
 RenderStats StatsOf(const Scene& scene, double max_error) {
-  RenderSettings settings;
-  settings.max_error = max_error;
+  RenderSettings settings{.max_error = max_error};
   RenderStats stats;
   RenderImage(scene, settings, &stats);
   return stats;
@@ -772,16 +744,11 @@ TEST_CASE("highlights of a round mesh are those of a sphere") {
     scene.camera.fov_y_deg = 40;
     scene.camera.height = 9;
     const MaterialId shiny = Add(&scene, Phong(PhongModel::kBlinnPhong, 1e5));
-    SphereAreaLight ball;
-    ball.center = {-3, 2, 5};
-    ball.radius = 0.01;
-    ball.radiance = Rgb(1000);
-    scene.lights = {
-        Along({-1, -2, -3}, 2),
-        Named("lamp", PointLight{.position = {4, 1, 3}, .intensity = Rgb(9), .attenuation = {}}),
-        Named("ball", ball)};
-    RenderSettings settings;
-    settings.max_error = 0.1;
+    SphereAreaLight ball{.center = {-3, 2, 5}, .radius = 0.01, .radiance = Rgb(1000)};
+    scene.lights = {Along({-1, -2, -3}, 2),
+                    Named("lamp", PointLight{.position = {4, 1, 3}, .intensity = Rgb(9)}),
+                    Named("ball", ball)};
+    RenderSettings settings{.max_error = 0.1};
     const Sphere sphere{{0.3, 0.2, 0}, 1.3, shiny};
     Scene of_mesh = scene;
     of_mesh.meshes = {RoundMesh(sphere.center, sphere.radius, 6, shiny)};

@@ -47,11 +47,10 @@ struct MappedSquare {
     mapped.sampling.filter = TextureFilter::kNearest;
     mapped.sampling.wrap_u = mapped.sampling.wrap_v = wrap;
     const double half = kSide / 2.0, turns = kSide * texels_per_pixel / kTexels;
-    Mesh mesh;
-    mesh.positions = {{-half, -half, 0}, {half, -half, 0}, {half, half, 0}, {-half, half, 0}};
-    mesh.uvs = {{0, 0}, {turns, 0}, {turns, turns}, {0, turns}};
-    mesh.triangles = {0, 1, 2, 0, 2, 3};
-    mesh.material = {0};
+    Mesh mesh{.positions = {{-half, -half, 0}, {half, -half, 0}, {half, half, 0}, {-half, half, 0}},
+              .uvs = {{0, 0}, {turns, 0}, {turns, turns}, {0, turns}},
+              .triangles = {0, 1, 2, 0, 2, 3},
+              .material = {0}};
     scene.meshes.push_back(mesh);
     scene.materials.emplace_back().model = LambertMaterial{Rgb(0)};
     return scene;
@@ -189,9 +188,7 @@ TEST_CASE("few bright texels on a sphere are found") {
 
 // Smooth dots, which reflect a lamp thousands of times as brightly as the rest.
 TEST_CASE("few smooth texels of a roughness map are found") {
-  MetallicRoughnessMaterial metal;
-  metal.metallic = 1;
-  metal.roughness = 1;
+  MetallicRoughnessMaterial metal{.metallic = 1, .roughness = 1};
   const MappedSquare square{11.3, Dots(8, 500, 0.1, 0.8), Wrap::kRepeat};
   TextureId map;
   Scene scene = square.Make(&map);
@@ -260,12 +257,11 @@ TEST_CASE("few texels of a normal map that mirror a light are found") {
     });
   }
   CheckMapUnderSun(11, rare, level, 300, [](Material* material, TextureId map) {
-    MetallicRoughnessMaterial coated;
-    coated.base_color = Rgb(0.02);
-    coated.roughness = 1;
-    coated.coat = 1;
-    coated.coat_roughness = 0.1;
-    coated.coat_normal_map = {map, 1, NormalMap::Convention::kLiteral};
+    MetallicRoughnessMaterial coated{.base_color = Rgb(0.02),
+                                     .roughness = 1,
+                                     .coat = 1,
+                                     .coat_roughness = 0.1,
+                                     .coat_normal_map = {map, 1, NormalMap::Convention::kLiteral}};
     material->model = coated;
   });
 }
@@ -273,19 +269,16 @@ TEST_CASE("few texels of a normal map that mirror a light are found") {
 // The flank of a wide lobe is bright where the sharp ones around it do not reach.
 TEST_CASE("few rough texels among smooth ones are found, and matte ones in metal") {
   CheckMapUnderSun(12, Rgb(0.002), Rgb(1), 1e5, [](Material* material, TextureId map) {
-    PhongMaterial phong;
-    phong.model = PhongModel::kBlinnPhong;
-    phong.kd = Rgb(0);
-    phong.ks = Rgb(0.5);
-    phong.shininess = 2000;
-    phong.shininess_map = map;
+    PhongMaterial phong{.model = PhongModel::kBlinnPhong,
+                        .kd = Rgb(0),
+                        .ks = Rgb(0.5),
+                        .shininess = 2000,
+                        .shininess_map = map};
     material->model = phong;
   });
   CheckMapUnderSun(13, Rgb(1, 1, 0), Rgb(1), 3e4, [](Material* material, TextureId map) {
-    MetallicRoughnessMaterial metal;
-    metal.metallic = 1;
-    metal.roughness = 0.05;
-    metal.metallic_roughness_map = map;
+    MetallicRoughnessMaterial metal{
+        .metallic = 1, .roughness = 0.05, .metallic_roughness_map = map};
     material->model = metal;
   });
 }

@@ -24,10 +24,7 @@ MaterialId Add(Scene* scene, Material material) {
 
 template <class Model>
 Material Make(const Model& model, const Rgb& emission = {0, 0, 0}) {
-  Material material;
-  material.emission = emission;
-  material.model = model;
-  return material;
+  return Material{.emission = emission, .model = model};
 }
 
 // Every kind of material and light, a mesh, shadows, a filter wider than a pixel.
@@ -39,12 +36,8 @@ Scene MakeScene() {
   scene.image.spp = 5;
   scene.image.filter = {FilterKind::kMitchell, 4};
   scene.background = {0.05, 0.06, 0.1};
-  PhongMaterial phong;
-  phong.color = {0.8, 0.2, 0.2};
-  MetallicRoughnessMaterial gold;
-  gold.base_color = {1, 0.77, 0.34};
-  gold.metallic = 1;
-  gold.roughness = 0.25;
+  PhongMaterial phong{.color = {0.8, 0.2, 0.2}};
+  MetallicRoughnessMaterial gold{.base_color = {1, 0.77, 0.34}, .metallic = 1, .roughness = 0.25};
   const MaterialId lambert = Add(&scene, Make(LambertMaterial{{0.6, 0.6, 0.5}}));
   const MaterialId red = Add(&scene, Make(phong));
   const MaterialId metal = Add(&scene, Make(gold, {0.01, 0.02, 0.03}));
@@ -53,14 +46,13 @@ Scene MakeScene() {
                    {{-1.1, 0, 0}, 0.9, red},
                    {{1.1, 0, 0}, 0.9, metal},
                    {{0, 0.9, 0.8}, 0.4, split}};
-  Mesh mesh;
-  mesh.positions = {{-2, -0.9, 1.5}, {-1, -0.9, 2}, {-1.5, 0.2, 1.4}};
-  mesh.triangles = {0, 1, 2};
-  mesh.material = lambert;
+  Mesh mesh{.positions = {{-2, -0.9, 1.5}, {-1, -0.9, 2}, {-1.5, 0.2, 1.4}},
+            .triangles = {0, 1, 2},
+            .material = lambert};
   scene.meshes.push_back(mesh);
   Light key;
   key.name = "key";
-  key.kind = PointLight{.position = {3, 4, 5}, .intensity = {90, 85, 80}, .attenuation = {}};
+  key.kind = PointLight{.position = {3, 4, 5}, .intensity = {90, 85, 80}};
   Light sun;
   sun.name = "sun";
   sun.kind = DirectionalLight{.direction_of_travel = {1, -1, -0.5}, .irradiance = {0.5, 0.6, 0.7}};
@@ -81,18 +73,14 @@ Scene MakeScene() {
 }
 
 RenderSettings Settings(int threads, std::vector<std::string> layers = {}) {
-  RenderSettings settings;
-  settings.threads = threads;
-  settings.layers = std::move(layers);
-  return settings;
+  return RenderSettings{.threads = threads, .layers = std::move(layers)};
 }
 
 TEST_CASE("no image is cleared for a render that was cancelled") {
   const Scene scene = OneSphere(LambertMaterial{Rgb(0.8)}, 8, 1);
   const FramePlan plan = MakePlan(scene, {});
   const std::atomic<bool> cancel = true;
-  RenderSettings settings;
-  settings.cancel = &cancel;
+  RenderSettings settings{.cancel = &cancel};
   Image image;
   CHECK_THROWS_AS(FitImage(plan, settings, &image), Cancelled);
   CHECK(image.channels.empty());  // and none is half as large as the image says
@@ -315,8 +303,7 @@ TEST_CASE("a camera inside a lone sphere sees its wall in shadow") {
     const Image image = RenderImage(scene, Settings(1));
     for (const float value : image.Find("R")->samples) REQUIRE(value == 0);
     // A light inside shows.
-    scene.lights[0].kind =
-        PointLight{.position = {0, 1, 0}, .intensity = {9, 9, 9}, .attenuation = {}};
+    scene.lights[0].kind = PointLight{.position = {0, 1, 0}, .intensity = {9, 9, 9}};
     CHECK(RenderImage(scene, Settings(1)).Find("R")->samples[8 * 16 + 8] > 0);
   }
 }

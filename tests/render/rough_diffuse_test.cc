@@ -28,9 +28,7 @@ Scene ClaySphere(decltype(Material::model) model) {
 // n.v to 2^-24 each, and 0.02 at least.
 template <class Brdf>
 void CheckPicture(const Scene& scene, const Vec3d& to_light, const Brdf& brdf) {
-  RenderSettings settings;
-  settings.layers = {"N"};
-  const Image image = RenderImage(scene, settings);
+  const Image image = RenderImage(scene, {.layers = {"N"}});
   size_t lit = 0;
   for (size_t i = 0; i < image.data.pixel_count(); ++i) {
     if (image.Find("A")->samples[i] < 1) continue;
@@ -147,10 +145,8 @@ TEST_CASE("a plan notes the light that Burley's term makes, and no other's") {
   CHECK(burley[0] ==
         "material \"clay\": burley reflects up to 1.56 times the light that grazes it; oren_nayar "
         "keeps energy");
-  MetallicRoughnessMaterial base;
-  base.base_color = Rgb(1);
-  base.diffuse = DiffuseForm::kBurley;
-  base.diffuse_roughness = 1;
+  MetallicRoughnessMaterial base{
+      .base_color = Rgb(1), .diffuse = DiffuseForm::kBurley, .diffuse_roughness = 1};
   CHECK(notes(base).empty());
   base.diffuse_coupling = DiffuseCoupling::kNone;
   CHECK(notes(base).size() == 1);
@@ -190,8 +186,7 @@ TEST_CASE("a plan notes the light that the Phong family makes") {
     const Scene scene = Lit(ClaySphere(phong));
     return MakePlan(scene, {}).why.notes;
   };
-  const PhongMaterial lobe{.kd = Rgb(0), .ks = Rgb(0.2, 1, 0.2), .shininess = 1};
-  PhongMaterial phong = lobe;
+  PhongMaterial phong = PhongMaterial{.kd = Rgb(0), .ks = Rgb(0.2, 1, 0.2), .shininess = 1};
   REQUIRE(notes(phong).size() == 1);
   CHECK(
       notes(phong)[0] ==

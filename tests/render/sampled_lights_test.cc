@@ -35,10 +35,8 @@ TEST_CASE("a white furnace shows nothing, whatever the model and roughness") {
   for (const double roughness : {0.0, 0.02, 0.1, 0.5, 1.0}) {
     for (const double metallic : {0.0, 1.0}) {
       CAPTURE(roughness, metallic);
-      MetallicRoughnessMaterial white;
-      white.base_color = Rgb(1, 1, 1);
-      white.roughness = roughness;
-      white.metallic = metallic;
+      MetallicRoughnessMaterial white{
+          .base_color = Rgb(1, 1, 1), .metallic = metallic, .roughness = roughness};
       Scene scene = OneSphere(white);
       scene.lights = {Sky(1)};
       scene.image.spp = 64;
@@ -51,23 +49,15 @@ TEST_CASE("a white furnace shows nothing, whatever the model and roughness") {
 }
 
 TEST_CASE("a perfect mirror shows the sky that it sees") {
-  ConductorMaterial mirror;
-  mirror.roughness = 0;
-  mirror.fresnel = ConductorFresnel::kSchlick;
-  mirror.eta = Rgb(1e-3);
+  ConductorMaterial mirror{.eta = Rgb(1e-3), .roughness = 0, .fresnel = ConductorFresnel::kSchlick};
   mirror.k = Rgb(100);  // F0 = 1 but for 4e-7
   Scene scene = OneSphere(mirror);
-  GradientSky gradient;
-  gradient.zenith = Rgb(1, 2, 3);
-  gradient.horizon = Rgb(4, 5, 6);
-  gradient.ground = Rgb(7, 8, 9);
+  GradientSky gradient{.zenith = Rgb(1, 2, 3), .horizon = Rgb(4, 5, 6), .ground = Rgb(7, 8, 9)};
   scene.lights = {Named("sky", EnvironmentLight{.sky = gradient, .background = false})};
   scene.image.spp = 1;
   scene.camera.projection = Projection::kOrthographic;
   scene.camera.height = 3;
-  RenderSettings settings;
-  settings.layers = {"N"};
-  const Image image = RenderImage(scene, settings);
+  const Image image = RenderImage(scene, {.layers = {"N"}});
   size_t seen = 0;
   for (size_t i = 0; i < image.data.pixel_count(); ++i) {
     if (image.Find("A")->samples[i] < 1) continue;
@@ -103,9 +93,7 @@ TEST_CASE("the sky beside a sphere is seen through the samples' own places") {
   scene.camera.fov_y_deg = 60;
   scene.lights = {Named("sky", EnvironmentLight{.sky = GradientSky{}, .background = true})};
   const Image image = RenderImage(scene, {});
-  RenderSettings general;
-  general.general_path = true;
-  const Image expected = RenderImage(scene, general);
+  const Image expected = RenderImage(scene, {.general_path = true});
   for (const char* channel : {"R", "G", "B", "A"}) {
     CHECK(image.Find(channel)->samples == expected.Find(channel)->samples);
   }
@@ -167,10 +155,7 @@ TEST_CASE("a picture of the sky lights as its texels do") {
   scene.image.spp = 1024;
   scene.camera.projection = Projection::kOrthographic;
   scene.camera.height = 2.6;
-  RenderSettings settings;
-  settings.layers = {"N"};
-  settings.region = {24, 12, 35, 23};
-  const Image image = RenderImage(scene, settings);
+  const Image image = RenderImage(scene, {.region = {24, 12, 35, 23}, .layers = {"N"}});
   const auto& picture = *std::get<PictureSky>(sky.sky).picture;
   const auto ratio = [&](size_t i) {
     const Vec3d n(image.Find("N.X")->samples[i], image.Find("N.Y")->samples[i],
@@ -187,10 +172,7 @@ TEST_CASE("a picture of the sky lights as its texels do") {
 }
 
 TEST_CASE("a perfect mirror shows the picture's texels") {
-  ConductorMaterial mirror;
-  mirror.roughness = 0;
-  mirror.fresnel = ConductorFresnel::kSchlick;
-  mirror.eta = Rgb(1e-3);
+  ConductorMaterial mirror{.eta = Rgb(1e-3), .roughness = 0, .fresnel = ConductorFresnel::kSchlick};
   mirror.k = Rgb(100);  // F0 = 1 but for 4e-7
   Scene scene = OneSphere(mirror);
   EnvironmentLight sky{
@@ -199,9 +181,7 @@ TEST_CASE("a perfect mirror shows the picture's texels") {
   scene.image.spp = 1;
   scene.camera.projection = Projection::kOrthographic;
   scene.camera.height = 3;
-  RenderSettings settings;
-  settings.layers = {"N"};
-  const Image image = RenderImage(scene, settings);
+  const Image image = RenderImage(scene, {.layers = {"N"}});
   const auto& picture = *std::get<PictureSky>(sky.sky).picture;
   size_t wrong = 0, seen = 0;
   for (size_t i = 0; i < image.data.pixel_count(); ++i) {
@@ -219,39 +199,26 @@ TEST_CASE("a perfect mirror shows the picture's texels") {
 
 // Lights near a sphere, each with all that can go wrong: near, large, partly below the horizon.
 std::vector<Light> AreaLights() {
-  RectangleAreaLight rectangle;
-  rectangle.center = Vec3d(2, 1.5, 2);
-  rectangle.facing = Vec3d(-2, -1.5, -2);
-  rectangle.width = 2;
-  rectangle.height = 1;
-  rectangle.up = Vec3d(0, 1, 0);
-  rectangle.radiance = Rgb(5);
-  DiskAreaLight disk;
-  disk.center = Vec3d(-1, 2, 1.5);
-  disk.facing = Vec3d(1, -2, -1.5);
-  disk.radius = 1;
-  disk.radiance = Rgb(5);
-  SphereAreaLight sphere;
-  sphere.center = Vec3d(1, 2, 2);
-  sphere.radius = 0.7;
-  sphere.radiance = Rgb(5);
+  RectangleAreaLight rectangle{.center = Vec3d(2, 1.5, 2),
+                               .facing = Vec3d(-2, -1.5, -2),
+                               .up = Vec3d(0, 1, 0),
+                               .width = 2,
+                               .height = 1,
+                               .radiance = Rgb(5)};
+  DiskAreaLight disk{
+      .center = Vec3d(-1, 2, 1.5), .facing = Vec3d(1, -2, -1.5), .radius = 1, .radiance = Rgb(5)};
+  SphereAreaLight sphere{.center = Vec3d(1, 2, 2), .radius = 0.7, .radiance = Rgb(5)};
   return {Named("rectangle", rectangle), Named("disk", disk), Named("sphere", sphere)};
 }
 
 std::vector<decltype(Material::model)> Models() {
-  MetallicRoughnessMaterial metal;
-  metal.metallic = 1;
-  metal.roughness = 0.3;
-  MetallicRoughnessMaterial plastic;
-  plastic.roughness = 0.05;
-  MetallicRoughnessMaterial lesson;
-  lesson.diffuse_coupling = DiffuseCoupling::kOneMinusFresnel;
+  MetallicRoughnessMaterial metal{.metallic = 1, .roughness = 0.3};
+  MetallicRoughnessMaterial plastic{.roughness = 0.05};
+  MetallicRoughnessMaterial lesson{.diffuse_coupling = DiffuseCoupling::kOneMinusFresnel};
   PhongMaterial phong;
-  PhongMaterial blinn;
-  blinn.model = PhongModel::kBlinnPhong;
+  PhongMaterial blinn{.model = PhongModel::kBlinnPhong};
   blinn.shininess = 500;  // its terms are formed in double
-  MetallicRoughnessMaterial clay;
-  clay.diffuse = DiffuseForm::kOrenNayar;
+  MetallicRoughnessMaterial clay{.diffuse = DiffuseForm::kOrenNayar};
   return {LambertMaterial{Rgb(0.7)},
           metal,
           plastic,
@@ -273,23 +240,16 @@ TEST_CASE("area lights far away are point lights") {
     Scene scene = OneSphere(model);
     const Vec3d place(300, 400, 500);
     const double area = 4;  // of the light, each
-    SphereAreaLight sphere;
-    sphere.center = place;
-    sphere.radius = std::sqrt(area / M_PI);
-    sphere.radiance = Rgb(1e6);
-    RectangleAreaLight rectangle;
-    rectangle.center = place;
-    rectangle.facing = -place;
-    rectangle.up = Vec3d(0, 1, 0);
-    rectangle.width = rectangle.height = 2;
-    rectangle.radiance = Rgb(1e6);
-    DiskAreaLight disk;
-    disk.center = place;
-    disk.facing = -place;
-    disk.radius = sphere.radius;
-    disk.radiance = Rgb(1e6);
-    const Light bulb = Named(
-        "bulb", PointLight{.position = place, .intensity = Rgb(1e6 * area), .attenuation = {}});
+    SphereAreaLight sphere{.center = place, .radius = std::sqrt(area / M_PI), .radiance = Rgb(1e6)};
+    RectangleAreaLight rectangle{.center = place,
+                                 .facing = -place,
+                                 .up = Vec3d(0, 1, 0),
+                                 .width = 2,
+                                 .height = 2,
+                                 .radiance = Rgb(1e6)};
+    DiskAreaLight disk{
+        .center = place, .facing = -place, .radius = sphere.radius, .radiance = Rgb(1e6)};
+    const Light bulb = Named("bulb", PointLight{.position = place, .intensity = Rgb(1e6 * area)});
     scene.lights = {bulb};
     const Image truth = RenderImage(scene, {});
     for (const Light& light : {Named("a", sphere), Named("b", rectangle), Named("c", disk)}) {
@@ -306,11 +266,7 @@ TEST_CASE("area lights far away are point lights") {
 TEST_CASE("a light has the same mean whichever way its directions are chosen") {
   std::vector<Light> lights = AreaLights();
   lights.push_back(Sky(1));
-  QuadraticSky quadratic;
-  quadratic.axis = Vec3d(1, 2, 0);
-  quadratic.constant = 0.5;
-  quadratic.linear = 0.4;
-  quadratic.quadratic = 0.3;
+  QuadraticSky quadratic{.axis = Vec3d(1, 2, 0), .constant = 0.5, .linear = 0.4, .quadratic = 0.3};
   lights.push_back(Named("quadratic", EnvironmentLight{.sky = quadratic, .background = false}));
   lights.push_back(Named("gradient", EnvironmentLight{.sky = GradientSky{}, .background = false}));
   for (const auto& model : Models()) {
@@ -373,10 +329,7 @@ TEST_CASE("pictures under sampled lights do not depend on threads, tiles, crops 
     }
     for (const double max_error : {0.0, 0.2}) {
       CAPTURE(visible, max_error);
-      RenderSettings settings;
-      settings.max_error = max_error;
-      settings.max_samples = 64;
-      settings.threads = 1;
+      RenderSettings settings{.threads = 1, .max_error = max_error, .max_samples = 64};
       const Image one = RenderImage(scene, settings);
       const auto check = [&](const RenderSettings& other) {
         const Image image = RenderImage(scene, other);
@@ -449,21 +402,17 @@ TEST_CASE("what mirrors reflect of an area light does not depend on what else is
   ForEachTarget([](Target) {
     Scene scene;
     const auto add = [&](double roughness, const Vec3d& center, double radius) {
-      ConductorMaterial metal;
-      metal.roughness = roughness;
-      metal.shadowing = Shadowing::kSchlickDirect;
-      metal.compensation = Compensation::kKullaConty;
+      ConductorMaterial metal{.roughness = roughness,
+                              .shadowing = Shadowing::kSchlickDirect,
+                              .compensation = Compensation::kKullaConty};
       scene.materials.emplace_back().model = metal;
       scene.spheres.push_back(
           {center, radius, {static_cast<uint32_t>(scene.materials.size() - 1)}});
     };
     add(0, {-0.6, 0, 0}, 1);
     add(0.35, {0.8, 0, 0.3}, 0.8);
-    DiskAreaLight disk;
-    disk.center = Vec3d(-2, 3, 5);
-    disk.facing = Vec3d(2, -3, -5);
-    disk.radius = 0.5;
-    disk.radiance = Rgb(20);
+    DiskAreaLight disk{
+        .center = Vec3d(-2, 3, 5), .facing = Vec3d(2, -3, -5), .radius = 0.5, .radiance = Rgb(20)};
     scene.lights.push_back(Named("disk", disk));
     scene.camera.position = Vec3d(0, 0, 9);
     scene.camera.fov_y_deg = 20;

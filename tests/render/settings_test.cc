@@ -80,10 +80,7 @@ TEST_CASE("choices and texts are parsed") {
 }
 
 TEST_CASE("only settings that pictures depend on are told of them, and only if they are changed") {
-  RenderSettings settings;
-  settings.threads = 3;
-  settings.tile_size = 16;
-  settings.intersector = IntersectorChoice::kTiles;
+  RenderSettings settings{.threads = 3, .tile_size = 16, .intersector = IntersectorChoice::kTiles};
   CHECK(ChangedSettings(settings).empty());
   settings.max_error = 0.25;
   const auto changed = ChangedSettings(settings);

@@ -75,8 +75,8 @@ std::vector<Case> RefinedCases() {
                             .convention = PhongConvention::kRadiometric,
                             .ks = Rgb(0.5),
                             .shininess = 60};
-  const Light point = Named(
-      "point", PointLight{.position = Vec3d(-3, 2, -4), .intensity = Rgb(60), .attenuation = {}});
+  const Light point =
+      Named("point", PointLight{.position = Vec3d(-3, 2, -4), .intensity = Rgb(60)});
   const Light lamp =
       Named("lamp", SphereAreaLight{.center = Vec3d(-3, 2, -3), .radius = 1, .radiance = Rgb(8)});
   std::vector<Case> cases;
@@ -259,8 +259,7 @@ double ShareFromBelow(const TurnedShape& shape) {
   Scene smooth = turned;
   smooth.materials[0].normal_map = {};
   smooth.materials[0].bump_map = {};
-  RenderSettings settings;
-  settings.layers = {"N"};
+  RenderSettings settings{.layers = {"N"}};
   const Image a = RenderImage(turned, settings), b = RenderImage(smooth, settings);
   double sum = 0, count = 0;
   for (size_t y = 0; y < 24 * kFiner; ++y) {
@@ -382,9 +381,7 @@ TEST_CASE("a light alone leaves on normal-mapped metals what it leaves beside ot
   Scene scene = TiltedMetal();
   scene.lights = {Named("sun", DirectionalLight{Vec3d(-1, -0.2, 0.1), Rgb(1)})};
   const Image alone = RenderImage(scene, {});
-  RenderSettings layers;
-  layers.layers = {"all"};
-  const Image apart = RenderImage(scene, layers);
+  const Image apart = RenderImage(scene, {.layers = {"all"}});
   scene.lights.push_back(Named("none", DirectionalLight{Vec3d(0, 0, -1), Rgb(0)}));
   const Image together = RenderImage(scene, {});
   CHECK(SameBits(alone.Find("R")->samples, apart.Find("R")->samples));

@@ -19,8 +19,8 @@ void ForEachShippedScene(const Body& body) {
     const fs::path& path = entry.path();
     if (path.extension() != ".json" || path.filename() == "nacre.schema.json") continue;
     CAPTURE(path.string());
-    LoadOptions options;
-    options.overrides = {{"/image/width", "96"}, {"/image/height", "54"}, {"/image/spp", "1"}};
+    LoadOptions options{
+        .overrides = {{"/image/width", "96"}, {"/image/height", "54"}, {"/image/spp", "1"}}};
     if (path.filename() == "million_spheres.json") {
       options.overrides.emplace_back("/shapes/1/count", "3000");
     }

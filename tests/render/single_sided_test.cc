@@ -30,12 +30,10 @@ Scene SingleSidedStage(const std::vector<Light>& lights) {
 }
 
 Image Picture(const Scene& scene, IntersectorChoice intersector, double max_error = 0) {
-  RenderSettings settings;
-  settings.threads = 1;
-  settings.intersector = intersector;
-  settings.max_error = max_error;
-  settings.layers = {"N", "P", "Z", "albedo"};
-  return RenderImage(scene, settings);
+  return RenderImage(scene, {.threads = 1,
+                             .layers = {"N", "P", "Z", "albedo"},
+                             .intersector = intersector,
+                             .max_error = max_error});
 }
 
 TEST_CASE("a board whose back is above is not there; with its front above it is as any other") {

@@ -13,11 +13,10 @@ namespace {
 
 // 200 x 200 pixels, a unit each, or in perspective a fiftieth of a unit at distance 1.
 CameraFrame Frame(Projection projection) {
-  Camera camera;
-  camera.projection = projection;
-  camera.position = {0, 0, 10};
-  camera.height = 200;
-  camera.fov_y_deg = 2 * std::atan(2.0) * 180 / std::acos(-1.0);
+  Camera camera{.projection = projection,
+                .position = {0, 0, 10},
+                .fov_y_deg = 2 * std::atan(2.0) * 180 / std::acos(-1.0),
+                .height = 200};
   return MakeCameraFrame(camera, 200, 200);
 }
 

@@ -13,12 +13,10 @@ namespace nacre {
 // A rectangle in the plane y = `height`, from (x0, z0) to (x1, z1); its front is
 // above. u grows with x and v with z.
 inline Mesh Sheet(double height, double x0, double x1, double z0, double z1, MaterialId material) {
-  Mesh mesh;
-  mesh.positions = {{x0, height, z0}, {x1, height, z0}, {x1, height, z1}, {x0, height, z1}};
-  mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  mesh.triangles = {0, 2, 1, 0, 3, 2};
-  mesh.material = material;
-  return mesh;
+  return {.positions = {{x0, height, z0}, {x1, height, z0}, {x1, height, z1}, {x0, height, z1}},
+          .uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
+          .triangles = {0, 2, 1, 0, 3, 2},
+          .material = material};
 }
 
 // A floor and a ball on it, seen from above. What tests put over them is of material 1.
@@ -42,16 +40,9 @@ inline Scene StageScene(const std::vector<Light>& lights) {
 
 // The lights that reach surfaces from above, one kind each.
 inline std::vector<Light> LightsAbove() {
-  PointLight point;
-  point.position = Vec3d(1, 5, 1.7);
-  point.intensity = Rgb(40);
-  RectangleAreaLight panel;
-  panel.center = Vec3d(-1, 4, 0.4);
-  panel.radiance = Rgb(5);
-  SphereAreaLight bulb;
-  bulb.center = Vec3d(2, 3.5, -1);
-  bulb.radius = 0.4;
-  bulb.radiance = Rgb(8);
+  PointLight point{.position = Vec3d(1, 5, 1.7), .intensity = Rgb(40)};
+  RectangleAreaLight panel{.center = Vec3d(-1, 4, 0.4), .radiance = Rgb(5)};
+  SphereAreaLight bulb{.center = Vec3d(2, 3.5, -1), .radius = 0.4, .radiance = Rgb(8)};
   EnvironmentLight sky;
   sky.sky = GradientSky{};
   return {Named("point", point), Named("sun", DirectionalLight{Vec3d(0.3, -1, 0.2), Rgb(2)}),

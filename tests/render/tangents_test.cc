@@ -28,8 +28,7 @@ Scene TiltedMesh(const Mesh& mesh, const Vec3d& forward, const Rgb& texel, bool 
   scene.camera.projection = Projection::kOrthographic;
   scene.camera.position = forward * -5;
   scene.camera.height = 2;
-  Material material;
-  material.model = LambertMaterial{};
+  Material material{.model = LambertMaterial{}};
   scene.materials = {material};
   scene.meshes = {mesh};
   scene.meshes[0].material = {0};
@@ -43,10 +42,7 @@ Scene TiltedMesh(const Mesh& mesh, const Vec3d& forward, const Rgb& texel, bool 
 
 // The normals of the pixels that hit something; 0 elsewhere.
 std::vector<Vec3d> NormalsOf(const Scene& scene) {
-  RenderSettings settings;
-  settings.threads = 1;
-  settings.layers = {"N"};
-  const Image image = RenderImage(scene, settings);
+  const Image image = RenderImage(scene, {.threads = 1, .layers = {"N"}});
   std::vector<Vec3d> normals;
   for (size_t i = 0; i < image.data.pixel_count(); ++i) {
     const auto value = [&](const char* name) { return double{image.Find(name)->samples[i]}; };
@@ -109,10 +105,10 @@ TEST_CASE("a constant tilt leaves a sphere of faces as smooth as its normals are
 
 // A triangle whose corners' normals and tangents differ; u and v say something else than they do.
 Mesh TwistedTriangle(double sign) {
-  Mesh mesh;
-  mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}};
-  mesh.normals = {Vec3d(0.2, 0, 1), Vec3d(-0.3, 0.1, 1), Vec3d(0, 0.4, 1)};
-  mesh.tangents = {{Vec3d(0.2, 1, 0.1), sign}, {Vec3d(1, 1, 0), sign}, {Vec3d(-0.3, 1, 0), sign}};
+  Mesh mesh{
+      .positions = {{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}},
+      .normals = {Vec3d(0.2, 0, 1), Vec3d(-0.3, 0.1, 1), Vec3d(0, 0.4, 1)},
+      .tangents = {{Vec3d(0.2, 1, 0.1), sign}, {Vec3d(1, 1, 0), sign}, {Vec3d(-0.3, 1, 0), sign}}};
   for (Vec3d& normal : mesh.normals) normal.normalize();
   for (Tangent& tangent : mesh.tangents) tangent.direction.normalize();
   mesh.uvs = {{0, 0}, {1, 0}, {0, 1}};
@@ -152,8 +148,7 @@ TEST_CASE("the frame is interpolated as it is, on every target and from either s
 }
 
 TEST_CASE("tangents of a file take the place of those that its coordinates have") {
-  Mesh mesh;
-  mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  Mesh mesh{.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}};
   mesh.normals.assign(4, Vec3d(0, 0, 1));
   mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   mesh.triangles = {0, 1, 2, 0, 2, 3};

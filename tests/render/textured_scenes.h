@@ -27,9 +27,8 @@ inline TextureId AddTexture(Scene* scene, int width, int height,
       for (int c = 0; c < 3; ++c) values.push_back(static_cast<float>(value[c]));
     }
   }
-  Texture texture;
-  texture.image = AddImage(scene, MakeMipChain(width, height, 3, std::move(values)));
-  texture.mapping = MappingKind::kSpherical;
+  Texture texture{.image = AddImage(scene, MakeMipChain(width, height, 3, std::move(values))),
+                  .mapping = MappingKind::kSpherical};
   texture.sampling.wrap_v = Wrap::kClamp;
   scene->textures.push_back(texture);
   return {static_cast<uint32_t>(scene->textures.size() - 1)};
@@ -55,23 +54,18 @@ inline Scene TexturedSpheres(const Material& material) {
   scene.spheres = {{{-0.9, 0, 0}, 0.8, {0}}, {{0.9, 0.2, 0.5}, 0.7, {0}}, {{0, 0, -3}, 2, {0}}};
   Light key;
   key.name = "key";
-  PointLight point;
-  point.position = Vec3d(3, 4, 5);
-  point.intensity = Rgb(90, 80, 70);
-  key.kind = point;
+  key.kind = PointLight{.position = Vec3d(3, 4, 5), .intensity = Rgb(90, 80, 70)};
   Light sun;
   sun.name = "sun";
-  DirectionalLight directional;
-  directional.direction_of_travel = Vec3d(1, -1, -1);
-  directional.irradiance = Rgb(0.9, 1, 1.1);
+  DirectionalLight directional{.direction_of_travel = Vec3d(1, -1, -1),
+                               .irradiance = Rgb(0.9, 1, 1.1)};
   sun.kind = directional;
   sun.shadows = false;
   Light lamp;
   lamp.name = "lamp";
-  SpotLight spot;
-  spot.position = Vec3d(-3, 0, 5);
-  spot.direction_of_travel = Vec3d(3, 0, -5);
-  spot.intensity = Rgb(50, 50, 60);
+  SpotLight spot{.position = Vec3d(-3, 0, 5),
+                 .direction_of_travel = Vec3d(3, 0, -5),
+                 .intensity = Rgb(50, 50, 60)};
   lamp.kind = spot;
   Light sky;
   sky.name = "sky";
@@ -81,10 +75,7 @@ inline Scene TexturedSpheres(const Material& material) {
 }
 
 inline Image AllLayers(const Scene& scene) {
-  RenderSettings settings;
-  settings.threads = 1;
-  settings.layers = {"all"};
-  return RenderImage(scene, settings);
+  return RenderImage(scene, {.threads = 1, .layers = {"all"}});
 }
 
 inline void CheckSameBits(const Image& got, const Image& expected) {

@@ -42,9 +42,7 @@ std::vector<HitNormal> Normals(const Scene& plain, const Scene& turned) {
 }
 
 TEST_CASE("the literal convention tilts a level map by 0.318 degrees") {
-  Material material;
-  material.model = LambertMaterial{};
-  const Scene plain = OneSphere(material);
+  const Scene plain = OneSphere(Material{.model = LambertMaterial{}});
   Scene scene = plain;
   NormalMap& map = scene.materials[0].normal_map;
   map.texture = AddConstant(&scene, Rgb(128.0 / 255, 128.0 / 255, 1));
@@ -62,9 +60,7 @@ TEST_CASE("the literal convention tilts a level map by 0.318 degrees") {
 }
 
 TEST_CASE("a normal map's x leans along growing u and its y along growing v, mirrored or not") {
-  Material material;
-  material.model = LambertMaterial{};
-  const Scene plain = OneSphere(material);
+  const Scene plain = OneSphere(Material{.model = LambertMaterial{}});
   const auto lean = [&](const Rgb& texel, const Vec2d& scale) {
     Scene scene = plain;
     const TextureId id = AddConstant(&scene, texel);
@@ -85,8 +81,7 @@ TEST_CASE("a normal map's x leans along growing u and its y along growing v, mir
 }
 
 TEST_CASE("a turned normal stays above its surface, and light from below stays out") {
-  Material material;
-  material.model = LambertMaterial{.albedo = Rgb(1)};
+  Material material{.model = LambertMaterial{.albedo = Rgb(1)}};
   Scene scene = OneSphere(material);
   scene.materials[0].normal_map.texture = AddConstant(&scene, Rgb(1, 128.0 / 255, 0.2));
   const Scene plain = OneSphere(material);
@@ -104,9 +99,7 @@ TEST_CASE("a turned normal stays above its surface, and light from below stays o
 TEST_CASE("bumps turn the normal as the displaced surface has it") {
   // h = distance (1 + sin(2 pi u)) / 2 on the unit sphere: P' = (1 + h) P has a normal along
   // P (1 + h) - grad h, with grad h = dh/du grad u. For small h: P - grad h.
-  Material material;
-  material.model = LambertMaterial{};
-  const Scene plain = OneSphere(material);
+  const Scene plain = OneSphere(Material{.model = LambertMaterial{}});
   const int width = 2048;
   double last = 0;
   for (const double distance : {0.08, 0.02}) {
@@ -138,10 +131,7 @@ TEST_CASE("bumps turn the normal as the displaced surface has it") {
 
 TEST_CASE("nothing shows at the seam, at any level of detail") {
   // A ramp in v alone: u must not count, and the seam of u, which faces the camera, not show.
-  Material material;
-  material.emission = Rgb(1);
-  material.model = LambertMaterial{.albedo = Rgb(0)};
-  Scene scene = OneSphere(material);
+  Scene scene = OneSphere(Material{.emission = Rgb(1), .model = LambertMaterial{.albedo = Rgb(0)}});
   scene.camera.position = Vec3d(0, 0, -4);  // the seam is at -z
   scene.image.width = scene.image.height = 33;
   const TextureId id = AddTexture(&scene, 512, 256, [&](int x, int) {
@@ -169,14 +159,12 @@ Scene Square(MappingKind mapping) {
   scene.camera.projection = Projection::kOrthographic;
   scene.camera.height = 2;
   scene.camera.position = Vec3d(0, 0, 5);
-  Mesh mesh;
-  mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
-  mesh.triangles = {0, 1, 2, 0, 2, 3};
-  mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  mesh.material = {0};
+  Mesh mesh{.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}},
+            .uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
+            .triangles = {0, 1, 2, 0, 2, 3},
+            .material = {0}};
   scene.meshes = {mesh};
-  Material material;
-  material.emission = Rgb(1);
+  Material material{.emission = Rgb(1)};
   scene.materials = {material};
   const TextureId id = AddTexture(
       &scene, 16, 16, [](int x, int y) { return Rgb(x / 16.0, y / 16.0, (x ^ y) / 16.0); });
@@ -274,12 +262,9 @@ TEST_CASE("scenes with textures have the same bits by tiles, crops, layers and t
   scene.materials[0].normal_map = {id, 0.3};
   scene.materials[0].bump_map = {id, 0.02};
   // Others between them, so that runs begin anywhere.
-  Material other;
-  other.model = LambertMaterial{};
-  scene.materials.push_back(other);
+  scene.materials.push_back(Material{.model = LambertMaterial{}});
   scene.spheres[1].material = {1};
-  RenderSettings settings;
-  settings.threads = 1;
+  RenderSettings settings{.threads = 1};
   const Image whole = RenderImage(scene, settings);
   settings.threads = 3;
   settings.tile_size = 5;
@@ -332,12 +317,9 @@ TEST_CASE("what maps make of a light is of the hit's own texels, material and li
   const TextureId map{0};  // Square's
   const LambertMaterial lambert{.albedo = Rgb(0.9), .albedo_map = map};
   const LambertMaterial darker{.albedo = Rgb(0.4), .albedo_map = map};
-  MetallicRoughnessMaterial metallic;
-  metallic.base_color_map = map;
-  PhongMaterial phong;
-  phong.diffuse_map = map;
-  DielectricMaterial coat;
-  coat.base_color_map = map;
+  MetallicRoughnessMaterial metallic{.base_color_map = map};
+  PhongMaterial phong{.diffuse_map = map};
+  DielectricMaterial coat{.base_color_map = map};
   const Light red = {.name = "red",
                      .kind = DirectionalLight{Vec3d(-0.3, -0.2, -1), Rgb(1, 0.25, 0.125)}};
   const Light blue = {.name = "blue",
@@ -355,8 +337,7 @@ TEST_CASE("what maps make of a light is of the hit's own texels, material and li
       Scene scene = BandedWall(models);
       scene.lights = lights;
       CAPTURE(models.size(), models[0].index(), lights[0].name, lights.size());
-      RenderSettings settings;
-      settings.threads = 1;
+      RenderSettings settings{.threads = 1};
       const Image whole = RenderImage(scene, settings);
       // A pixel alone is a batch that nothing came before.
       for (int y = 3; y < 64; y += 15) {

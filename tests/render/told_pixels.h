@@ -66,8 +66,7 @@ inline std::vector<bool> ToldIn(const FramePlan& plan) {
 }
 
 inline Shares SharesOf(const Scene& scene, const Image& truth, double max_error) {
-  RenderSettings settings;
-  settings.max_error = max_error;
+  RenderSettings settings{.max_error = max_error};
   const FramePlan plan = MakePlan(scene, settings);
   RenderStats stats;
   const Image image = RenderImage(plan, settings, &stats);

@@ -31,9 +31,7 @@ Scene Square(decltype(Material::model) model) {
 }
 
 Image Render(const Scene& scene) {
-  RenderSettings settings;
-  settings.layers = {"P", "albedo", "emission", "diffuse"};
-  return RenderImage(scene, settings);
+  return RenderImage(scene, {.layers = {"P", "albedo", "emission", "diffuse"}});
 }
 
 // Affine over the square, and so between its corners: red along x, green along y, blue of neither.

@@ -24,10 +24,7 @@ TEST_CASE("a visible light is seen on the side that it shines from") {
     const Image image = RenderImage(scene, {});
     return image.Find("R")->samples[8 * 16 + 8];
   };
-  RectangleAreaLight rectangle;
-  rectangle.facing = Vec3d(0, 0, 1);
-  rectangle.up = Vec3d(0, 1, 0);
-  rectangle.radiance = Rgb(3);
+  RectangleAreaLight rectangle{.facing = Vec3d(0, 0, 1), .up = Vec3d(0, 1, 0), .radiance = Rgb(3)};
   CHECK(middle(Named("front", rectangle)) == 3);
   rectangle.facing = Vec3d(0, 0, -1);
   CHECK(middle(Named("back", rectangle)) == 0);
@@ -35,12 +32,9 @@ TEST_CASE("a visible light is seen on the side that it shines from") {
   CHECK(middle(Named("both", rectangle)) == 3);
   rectangle.visible = false;
   CHECK(middle(Named("hidden", rectangle)) == 0);
-  DiskAreaLight disk;
-  disk.facing = Vec3d(0, 0, 1);
-  disk.radiance = Rgb(3);
+  DiskAreaLight disk{.facing = Vec3d(0, 0, 1), .radiance = Rgb(3)};
   CHECK(middle(Named("disk", disk)) == 3);
-  SphereAreaLight sphere;
-  sphere.radiance = Rgb(3);
+  SphereAreaLight sphere{.radiance = Rgb(3)};
   CHECK(middle(Named("sphere", sphere)) == 3);
   scene.camera.position = Vec3d(0, 0, 0.5);  // inside
   CHECK(middle(Named("sphere", sphere)) == 0);
@@ -54,13 +48,14 @@ bool IsMet(const Scene& scene, const SphereAreaLight& light) {
   const double reach = scene.image.filter.width / 2;
   const CameraFrame frame = MakeCameraFrame(scene.camera, width, height);
   RayBatch rays;
+  FilmBatch film;
+  film.count = kSteps + 1;
   for (int row = 0; row <= kSteps; ++row) {
-    double x[kSteps + 1], y[kSteps + 1];
     for (int i = 0; i <= kSteps; ++i) {
-      x[i] = -reach + (width + 2 * reach) * i / kSteps;
-      y[i] = -reach + (height + 2 * reach) * row / kSteps;
+      film.x[static_cast<size_t>(i)] = -reach + (width + 2 * reach) * i / kSteps;
+      film.y[static_cast<size_t>(i)] = -reach + (height + 2 * reach) * row / kSteps;
     }
-    MakeCameraRays(frame, x, y, kSteps + 1, &rays);
+    MakeCameraRays(frame, film, &rays);
     for (size_t i = 0; i < rays.count; ++i) {
       const Vec3d origin(rays.origin.x[i], rays.origin.y[i], rays.origin.z[i]);
       const Vec3d direction(rays.direction.x[i], rays.direction.y[i], rays.direction.z[i]);
@@ -88,9 +83,8 @@ TEST_CASE("a light in view is shown, and one well out of view is not") {
     scene.image.filter = {FilterKind::kGaussian, 3};
     int met = 0, shown = 0;
     for (int i = 0; i < 600; ++i) {
-      SphereAreaLight light;
-      light.center = Vec3d(uniform(-12, 14), uniform(-8, 8), uniform(-6, 14));
-      light.radius = uniform(0.05, 1);
+      SphereAreaLight light{.center = Vec3d(uniform(-12, 14), uniform(-8, 8), uniform(-6, 14)),
+                            .radius = uniform(0.05, 1)};
       scene.lights = {Named("lamp", light)};
       PreparedScene prepared;
       const bool is_shown = AddVisibleLights(scene, &prepared) != nullptr;
@@ -114,22 +108,13 @@ TEST_CASE("a lamp let into a floor is seen whole") {
                 x = up.cross(Vec3d(0.1, 0.2, 1)).normalized();
     const Vec3d z = x.cross(up), at = Vec3d(0.123, -0.456, 0.789) * (1 + far);
     const auto square = [&](double low, double high) {
-      Mesh mesh;
-      mesh.positions = {at + x * low + z * low, at + x * low + z * high, at + x * high + z * high,
-                        at + x * high + z * low};
-      mesh.triangles = {0, 1, 2, 0, 2, 3};
-      return mesh;
+      return Mesh{.positions = {at + x * low + z * low, at + x * low + z * high,
+                                at + x * high + z * high, at + x * high + z * low},
+                  .triangles = {0, 1, 2, 0, 2, 3}};
     };
-    RectangleAreaLight rectangle;
-    rectangle.center = at;
-    rectangle.facing = up;
-    rectangle.width = rectangle.height = 2;
-    DiskAreaLight disk;
-    disk.center = at;
-    disk.facing = up;
-    disk.radius = 1;
-    MeshAreaLight mesh;
-    mesh.mesh = std::make_shared<Mesh>(square(-1.1, 0.9));
+    RectangleAreaLight rectangle{.center = at, .facing = up, .width = 2, .height = 2};
+    DiskAreaLight disk{.center = at, .facing = up, .radius = 1};
+    MeshAreaLight mesh{.mesh = std::make_shared<Mesh>(square(-1.1, 0.9))};
     for (const decltype(Light::kind)& kind :
          {decltype(Light::kind)(rectangle), decltype(Light::kind)(disk),
           decltype(Light::kind)(mesh)}) {

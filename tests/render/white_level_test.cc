@@ -41,10 +41,7 @@ TEST_CASE("white is as bright as all lights make it face to face") {
   // 3 from the sphere outside, 0.5 inside.
   CHECK(IsNear(WhiteLevel(Lit({PointAt({0, 0, 4}, 18)})), 2 / M_PI));
   CHECK(IsNear(WhiteLevel(Lit({PointAt({0, 0.5, 0}, 18)})), 72 / M_PI));
-  SpotLight spot;
-  spot.position = {0, -3, 0};
-  spot.intensity = {8, 8, 8};
-  spot.attenuation = {1, 0.5, 0.5};
+  SpotLight spot{.position = {0, -3, 0}, .intensity = {8, 8, 8}, .attenuation = {1, 0.5, 0.5}};
   CHECK(IsNear(WhiteLevel(Lit({Named("spot", spot)})), 2 / M_PI));
   // On the sphere itself: nothing is brighter.
   CHECK(WhiteLevel(Lit({PointAt({0, 0, 1}, 18)})) == kInfinite);
@@ -74,9 +71,7 @@ TEST_CASE("meshes and very many spheres are near lights, too") {
   Scene scene = Lit({PointAt({0, 5, 0}, M_PI)});
   scene.spheres.clear();
   CHECK(WhiteLevel(scene) == 0);
-  Mesh floor;
-  floor.positions = {{-9, 3, -9}, {9, 3, -9}, {0, 3, 9}};
-  floor.triangles = {0, 2, 1};
+  Mesh floor{.positions = {{-9, 3, -9}, {9, 3, -9}, {0, 3, 9}}, .triangles = {0, 2, 1}};
   scene.meshes = {floor};
   CHECK(IsNear(WhiteLevel(scene), 0.25));
   scene.meshes.clear();

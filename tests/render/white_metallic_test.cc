@@ -29,10 +29,8 @@ TEST_CASE("a white sphere stays white at every metallic, by numbers and by maps"
   ForEachTarget([](Target) {
     for (const Compensation compensation : {Compensation::kTurquin, Compensation::kKullaConty}) {
       CAPTURE(static_cast<int>(compensation));
-      MetallicRoughnessMaterial white;
-      white.base_color = Rgb(1);
-      white.roughness = 1;
-      white.compensation = compensation;
+      MetallicRoughnessMaterial white{
+          .base_color = Rgb(1), .roughness = 1, .compensation = compensation};
       for (const double metallic : {0.0, 0.5, 1.0}) {
         CAPTURE(metallic);
         white.metallic = metallic;

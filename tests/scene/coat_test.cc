@@ -10,22 +10,19 @@ namespace nacre {
 namespace {
 
 MetallicRoughnessMaterial CoatModel(const MetallicRoughnessMaterial& below) {
-  Material material;
-  material.model = below;
-  return std::get<MetallicRoughnessMaterial>(CoatsOf(material).at(0).model);
+  return std::get<MetallicRoughnessMaterial>(CoatsOf(Material{.model = below}).at(0).model);
 }
 
 TEST_CASE("a coat has the roughness, shadowing and maps that its material gives it") {
-  MetallicRoughnessMaterial below;
-  below.metallic = 1;
-  below.roughness = 0.9;
-  below.specular = 0.3;
-  below.compensation = Compensation::kKullaConty;
-  below.coat = 0.7;
-  below.coat_roughness = 0.25;
-  below.coat_map = TextureId{1};
-  below.coat_roughness_map = TextureId{2};
-  below.base_color_map = TextureId{3};
+  MetallicRoughnessMaterial below{.metallic = 1,
+                                  .specular = 0.3,
+                                  .roughness = 0.9,
+                                  .compensation = Compensation::kKullaConty,
+                                  .base_color_map = TextureId{3},
+                                  .coat = 0.7,
+                                  .coat_roughness = 0.25,
+                                  .coat_map = TextureId{1},
+                                  .coat_roughness_map = TextureId{2}};
   for (const Shadowing shadowing : {Shadowing::kHeightCorrelated, Shadowing::kSeparable,
                                     Shadowing::kSchlickDirect, Shadowing::kSchlickIbl}) {
     below.shadowing = shadowing;
@@ -44,12 +41,8 @@ TEST_CASE("a coat has the roughness, shadowing and maps that its material gives 
 }
 
 TEST_CASE("a coat of the index of air is none, and one next to it hardly shines at any angle") {
-  MetallicRoughnessMaterial below;
-  below.coat = 1;
-  below.coat_ior = 1;
-  Material material;
-  material.model = below;
-  CHECK(CoatsOf(material).empty());
+  MetallicRoughnessMaterial below{.coat = 1, .coat_ior = 1};
+  CHECK(CoatsOf(Material{.model = below}).empty());
   double before = 0;
   for (const double ior : {1.0001, 1.01, 1.1, 1.2, 1.3}) {
     CAPTURE(ior);

@@ -25,8 +25,7 @@ Scene WithHeights(int width, int height, const std::function<double(double, doub
   scene.images = {
       {"heights",
        std::make_shared<const MipChain>(MakeMipChain(width, height, 1, std::move(values))), 0.5f}};
-  Texture texture;
-  texture.image = ImageId{0};
+  Texture texture{.image = ImageId{0}};
   texture.sampling.wrap_v = Wrap::kClamp;
   scene.textures = {texture};
   return scene;
@@ -119,8 +118,7 @@ TEST_CASE("a displaced sphere stays closed at its seam and its poles") {
 
 TEST_CASE("a sphere's coordinates are those of the spherical mapping") {
   const Mesh mesh = TessellateSphere({{0, 0, 0}, 1, {0}}, 24);
-  Texture texture;
-  texture.mapping = MappingKind::kSpherical;
+  Texture texture{.mapping = MappingKind::kSpherical};
   for (size_t i = 0; i < mesh.positions.size(); ++i) {
     const Vec2d uv = MapToTexture(texture, mesh.positions[i]);
     CHECK(uv.y == Approx(mesh.uvs[i].y).margin(1e-14));

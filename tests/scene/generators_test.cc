@@ -51,13 +51,12 @@ TEST_CASE("a logarithmic axis has equal ratios and exact ends") {
 TEST_CASE("a grid runs downwards from the top and from left to right") {
   Scene scene;
   scene.materials.push_back(Phong());  // what is there already stays in front
-  Grid grid;
-  grid.center = Vec3d(10, 20, 30);
-  grid.spacing = Vec2d(2, 3);
-  grid.radius = 0.75;
-  grid.material = Metal();
-  grid.rows = LinearAxis("roughness", Grey(0.1), Grey(0.9), 3);
-  grid.columns = LinearAxis("metallic", Grey(0), Grey(1), 5);
+  Grid grid{.center = Vec3d(10, 20, 30),
+            .spacing = Vec2d(2, 3),
+            .radius = 0.75,
+            .material = Metal(),
+            .rows = LinearAxis("roughness", Grey(0.1), Grey(0.9), 3),
+            .columns = LinearAxis("metallic", Grey(0), Grey(1), 5)};
   AddGrid(grid, &scene);
 
   REQUIRE(scene.spheres.size() == 15);
@@ -79,11 +78,10 @@ TEST_CASE("a grid runs downwards from the top and from left to right") {
 
 TEST_CASE("a grid's labels stand at its edges") {
   Scene scene;
-  Grid grid;
-  grid.material = Metal();
-  grid.radius = 0.4;
-  grid.rows = LinearAxis("roughness", Grey(0.1), Grey(0.9), 5);
-  grid.columns = {2, "base_color", {Rgb(0.9, 0.6, 0.2), Grey(1)}};
+  Grid grid{.radius = 0.4,
+            .material = Metal(),
+            .rows = LinearAxis("roughness", Grey(0.1), Grey(0.9), 5),
+            .columns = {2, "base_color", {Rgb(0.9, 0.6, 0.2), Grey(1)}}};
   AddGrid(grid, &scene);
   REQUIRE(scene.labels.size() == 7);
   CHECK(scene.labels[0].text == "roughness 0.1");
@@ -99,8 +97,7 @@ TEST_CASE("a grid's labels stand at its edges") {
 
 TEST_CASE("one axis, repeated rows, other models") {
   Scene scene;
-  Grid grid;
-  grid.material = Phong();
+  Grid grid{.material = Phong()};
   grid.rows.count = 2;
   grid.columns = {3, "shininess", {Grey(1), Grey(1e3), Grey(1e6)}};
   AddGrid(grid, &scene);
@@ -112,8 +109,7 @@ TEST_CASE("one axis, repeated rows, other models") {
 
 TEST_CASE("grids that make no sense are refused") {
   const auto error_of = [](const std::function<void(Grid&)>& spoil) {
-    Grid grid;
-    grid.material = Metal();
+    Grid grid{.material = Metal()};
     spoil(grid);
     Scene scene;
     return ErrorOf([&] { AddGrid(grid, &scene); });
@@ -138,13 +134,11 @@ TEST_CASE("grids that make no sense are refused") {
 }
 
 PairRow TwoPairs() {
-  PairRow row;
-  row.pair_spacing = 3;
-  row.spacing = 2;
-  row.radius = 0.5;
-  row.a = {"Phong", Phong(), {2, "shininess", {Grey(30), Grey(100)}}};
-  row.b = {"PBR", Metal(), {2, "roughness", {Grey(0.5), Grey(0.25)}}};
-  return row;
+  return {.pair_spacing = 3,
+          .spacing = 2,
+          .radius = 0.5,
+          .a = {"Phong", Phong(), {2, "shininess", {Grey(30), Grey(100)}}},
+          .b = {"PBR", Metal(), {2, "roughness", {Grey(0.5), Grey(0.25)}}}};
 }
 
 TEST_CASE("stacked pairs have A above B") {
@@ -190,15 +184,13 @@ TEST_CASE("pairs need as many values on both sides") {
 }
 
 Cloud SomeCloud(uint64_t count) {
-  Cloud cloud;
-  cloud.count = count;
-  cloud.seed = 7;
-  cloud.min = Vec3d(-1, 10, 100);
-  cloud.max = Vec3d(1, 10, 300);
-  cloud.radius_min = 0.25;
-  cloud.radius_max = 0.75;
-  cloud.materials = {MaterialId{2}, MaterialId{0}, MaterialId{2}};
-  return cloud;
+  return {.count = count,
+          .seed = 7,
+          .min = Vec3d(-1, 10, 100),
+          .max = Vec3d(1, 10, 300),
+          .radius_min = 0.25,
+          .radius_max = 0.75,
+          .materials = {MaterialId{2}, MaterialId{0}, MaterialId{2}}};
 }
 
 TEST_CASE("no two spheres of a large cloud are alike") {

@@ -20,9 +20,7 @@ TEST_CASE("each model is found by its name and recognised in its materials") {
   }
   CHECK(FindModel("split") == nullptr);
   CHECK(FindModel("") == nullptr);
-  Material split;
-  split.model = SplitMaterial{};
-  CHECK(ModelOf(split) == nullptr);
+  CHECK(ModelOf(Material{.model = SplitMaterial{}}) == nullptr);
 }
 
 TEST_CASE("what is set is got, and nothing else changes") {

@@ -39,9 +39,8 @@ std::vector<Vec3d> NormalsOf(Mesh mesh, NormalWeighting weighting = NormalWeight
 
 TEST_CASE("face normals follow the right hand and do not know scale") {
   for (const double size : {1e-12, 1.0, 1e12}) {
-    Mesh mesh;
-    mesh.positions = {{0, 0, 0}, {size, 0, 0}, {0, size, 0}};
-    mesh.triangles = {0, 1, 2, 0, 2, 1, 0, 1, 1};
+    Mesh mesh{.positions = {{0, 0, 0}, {size, 0, 0}, {0, size, 0}},
+              .triangles = {0, 1, 2, 0, 2, 1, 0, 1, 1}};
     CHECK(FaceNormal(mesh, 0) == Vec3d(0, 0, 1));
     CHECK(FaceNormal(mesh, 1) == Vec3d(0, 0, -1));
     CHECK(FaceNormal(mesh, 2) == Vec3d(0, 0, 0));
@@ -53,9 +52,7 @@ TEST_CASE("a face in the plane A x + B y + C z = D has the normal (A, B, C) / |(
                              Vec3d(0.5, 1023, -2), Vec3d(-5, 1, 0.125)}) {
     // Across (B, -A, 0) x (0, C, -B) = B (A, B, C), all without rounding.
     const Vec3d along(plane.y, -plane.x, 0), across(0, plane.z, -plane.y), place(64, -32, 16);
-    Mesh mesh;
-    mesh.positions = {place, place + along, place + across};
-    mesh.triangles = {0, 1, 2};
+    Mesh mesh{.positions = {place, place + along, place + across}, .triangles = {0, 1, 2}};
     const Vec3d expected = plane * (plane.y > 0 ? 1 : -1) / plane.length();
     const Vec3d normal = FaceNormal(mesh, 0);
     for (int c = 0; c < 3; ++c) {
@@ -78,9 +75,8 @@ TEST_CASE("smooth normals do not depend on how faces are cut") {
 
 TEST_CASE("normals weighted by area, and equally") {
   // Three faces of a box's corner, of areas 1 : 2 : 3 along x, y, z, the second one cut in two.
-  Mesh mesh;
-  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 3, 0}, {0, 0, 2}, {0.5, 0, 1}};
-  mesh.triangles = {0, 2, 1, 0, 1, 4, 0, 4, 3, 0, 3, 2};
+  Mesh mesh{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 3, 0}, {0, 0, 2}, {0.5, 0, 1}},
+            .triangles = {0, 2, 1, 0, 1, 4, 0, 4, 3, 0, 3, 2}};
   const Vec3d by_area = -Vec3d(6, 2, 3).normalized();  // of the triangles: 3 x 2, 2 x 1, 1 x 3
   CHECK((NormalsOf(mesh, NormalWeighting::kArea)[0] - by_area).length() < 1e-15);
   const Vec3d by_count = -Vec3d(1, 2, 1).normalized();
@@ -106,17 +102,21 @@ TEST_CASE("faces are not averaged over creases") {
 
 TEST_CASE("a crease on one side of a vertex does not part the faces that go round the other") {
   // A book of 60 degrees on a table: the pages meet at their spine alone.
-  Mesh tent;
-  tent.positions = {{0, 0, 0}, {1, 0, 0}, {0.5, 0, 1}, {1, 1, 0}};
+  Mesh tent{.positions = {{0, 0, 0}, {1, 0, 0}, {0.5, 0, 1}, {1, 1, 0}}};
   tent.triangles = {0, 1, 2, 0, 3, 1};  // about the spine 0-1, at 90 degrees
   Mesh split = tent;
   ComputeNormals(NormalWeighting::kAngle, 60, &split);
   CHECK(split.positions.size() == 6);
   // Joined by a strip that turns in two steps of 45 degrees, they are one smooth surface.
-  Mesh ridge;
-  ridge.positions = {{0, 0, 0},  {1, 0, 0},  {1, 0, 2},  {0, 0, 2},
-                     {0, 1, -1}, {1, 1, -1}, {0, 2, -1}, {1, 2, -1}};
-  ridge.triangles = {0, 1, 2, 0, 2, 3, 4, 5, 1, 4, 1, 0, 6, 7, 5, 6, 5, 4};
+  Mesh ridge{.positions = {{0, 0, 0},
+                           {1, 0, 0},
+                           {1, 0, 2},
+                           {0, 0, 2},
+                           {0, 1, -1},
+                           {1, 1, -1},
+                           {0, 2, -1},
+                           {1, 2, -1}},
+             .triangles = {0, 1, 2, 0, 2, 3, 4, 5, 1, 4, 1, 0, 6, 7, 5, 6, 5, 4}};
   Mesh smooth = ridge;
   ComputeNormals(NormalWeighting::kAngle, 46, &smooth);
   CHECK(smooth.positions.size() == 8);
@@ -125,10 +125,9 @@ TEST_CASE("a crease on one side of a vertex does not part the faces that go roun
 }
 
 TEST_CASE("a seam of uvs is no crease, and a fan of many faces takes no time") {
-  Mesh quad;
-  quad.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0.5}, {0, 0, 0}, {1, 1, 0.5}, {0, 1, 0}};
-  quad.triangles = {0, 1, 2, 3, 4, 5};
-  quad.uvs = {{0, 0}, {1, 0}, {1, 1}, {0.5, 0}, {0.5, 1}, {0, 1}};
+  Mesh quad{.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0.5}, {0, 0, 0}, {1, 1, 0.5}, {0, 1, 0}},
+            .uvs = {{0, 0}, {1, 0}, {1, 1}, {0.5, 0}, {0.5, 1}, {0, 1}},
+            .triangles = {0, 1, 2, 3, 4, 5}};
   for (const double angle : {180.0, 80.0}) {
     Mesh mesh = quad;
     ComputeNormals(NormalWeighting::kAngle, angle, &mesh);
@@ -189,8 +188,7 @@ TEST_CASE("edges of three faces, and faces that contradict each other, have unit
 
 TEST_CASE("transforms scale, rotate about x, y, z and translate") {
   const auto moved = [](const Transform& transform) {
-    Mesh mesh;
-    mesh.positions = {{1, 2, 3}};
+    Mesh mesh{.positions = {{1, 2, 3}}};
     ApplyTransform(transform, &mesh);
     return mesh.positions[0];
   };
@@ -205,9 +203,7 @@ TEST_CASE("transforms scale, rotate about x, y, z and translate") {
 }
 
 TEST_CASE("normals stay perpendicular to a scaled surface") {
-  Mesh mesh;
-  mesh.positions = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  mesh.triangles = {0, 1, 2};
+  Mesh mesh{.positions = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, .triangles = {0, 1, 2}};
   mesh.normals.assign(3, FaceNormal(mesh, 0));
   ApplyTransform({.translate = {0, 0, 0}, .scale = {1, 5, 0.2}, .rotate_deg = {10, 20, 30}}, &mesh);
   CHECK((mesh.normals[0] - FaceNormal(mesh, 0)).length() < 1e-15);

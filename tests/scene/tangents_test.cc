@@ -101,8 +101,7 @@ void CheckAgainstBruteForce(const Mesh& mesh) {
 
 // A square of two triangles in the plane z = 0, whose u grows to +x and v to +y.
 Mesh Square() {
-  Mesh mesh;
-  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  Mesh mesh{.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}};
   mesh.normals.assign(4, Vec3d(0, 0, 1));
   mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   mesh.triangles = {0, 1, 2, 0, 2, 3};
@@ -363,9 +362,7 @@ TEST_CASE("triangles on one edge are neighbours two by two, in their order") {
 TEST_CASE("a fan of many triangles on one edge has a tangent for each of them") {
   // All go the same way along the edge, so none is a neighbour of another.
   constexpr uint32_t kTriangles = 200'000;
-  Mesh mesh;
-  mesh.positions = {{0, 0, 0}, {0, 0, 1}};
-  mesh.uvs = {{0, 0}, {0, 1}};
+  Mesh mesh{.positions = {{0, 0, 0}, {0, 0, 1}}, .uvs = {{0, 0}, {0, 1}}};
   for (uint32_t i = 0; i < kTriangles; ++i) {
     const double turn = 2 * M_PI * i / kTriangles;
     mesh.positions.emplace_back(std::cos(turn), std::sin(turn), 0);

@@ -30,10 +30,9 @@ Scene GoodScene() {
                   {"key", true, PointLight{}},
                   {"lamp", true, SpotLight{}}};
   scene.spheres = {{Vec3d(0, 0, 0), 1, MaterialId{0}}, {Vec3d(0, 0, 0), 1, MaterialId{3}}};
-  Mesh mesh;
-  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  mesh.triangles = {0, 1, 2};
-  mesh.material = MaterialId{2};
+  Mesh mesh{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+            .triangles = {0, 1, 2},
+            .material = MaterialId{2}};
   scene.meshes = {mesh};
   return scene;
 }

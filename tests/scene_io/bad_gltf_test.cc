@@ -301,9 +301,8 @@ TEST_CASE("few bytes cannot ask for much memory") {
   CHECK(Contains(MessageOf("a.glb", sparse.Binary()), "would have more than 11"));
   // Who asks for it gets it.
   const ModelFolder folder;
-  LoadOptions options;
-  options.max_primitives = 3'000'000;
-  CHECK(LoadScene(folder.Write("b.glb", file.Binary()), options).meshes.size() == 1);
+  CHECK(LoadScene(folder.Write("b.glb", file.Binary()), {.max_primitives = 3'000'000})
+            .meshes.size() == 1);
 }
 
 TEST_CASE("few bytes of OBJ and PLY cannot ask for much memory, and lists of objects end") {

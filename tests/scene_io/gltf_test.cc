@@ -685,9 +685,7 @@ TEST_CASE("--set replaces a material of a model whole, and takes its maps away")
   const ModelFolder folder;
   const auto path = folder.Write("model.glb", file.Binary());
   const auto material = [&](std::vector<std::pair<std::string, std::string>> overrides) {
-    LoadOptions options;
-    options.overrides = std::move(overrides);
-    return LoadScene(path, options).materials.at(0);
+    return LoadScene(path, {.overrides = std::move(overrides)}).materials.at(0);
   };
   const Material before = material({});
   CHECK(std::get<MetallicRoughnessMaterial>(before.model).base_color_map.valid());
@@ -743,9 +741,7 @@ TEST_CASE("--set reaches the camera, the image, the lights and the materials of 
   file.json["materials"] = Json::parse(R"([{"name": "m"}])");
   const auto path = folder.Write("model.glb", file.Binary());
   const auto load = [&](std::vector<std::pair<std::string, std::string>> overrides) {
-    LoadOptions options;
-    options.overrides = std::move(overrides);
-    return LoadScene(path, options);
+    return LoadScene(path, {.overrides = std::move(overrides)});
   };
   const auto message = [&](const std::string& pointer, const std::string& value) -> std::string {
     try {

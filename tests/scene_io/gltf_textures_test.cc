@@ -98,9 +98,9 @@ TEST_CASE("--set puts a texture of its own in the place of the file's") {
   GltfFile plain = MakeTexturedSquare();
   plain.json["materials"][0]["pbrMetallicRoughness"] = Json::object();
   plain.json["materials"][0]["name"] = "m";
-  LoadOptions options;
-  options.overrides = {{"/textures/mine", R"({"file": "mine.png", "filter": "nearest"})"},
-                       {"/materials/m/base_color_map", R"("mine")"}};
+  LoadOptions options{
+      .overrides = {{"/textures/mine", R"({"file": "mine.png", "filter": "nearest"})"},
+                    {"/materials/m/base_color_map", R"("mine")"}}};
   const auto path = folder.Write("model.glb", plain.Binary());
   CHECK_FALSE(MaterialOf(LoadScene(path)).base_color_map.valid());
   const Scene scene = LoadScene(path, options);

@@ -37,8 +37,7 @@ std::string MessageOfShapes(const std::string& shapes, uint64_t max,
   const HostileFolder folder;
   folder.Write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   folder.Write("a.ppm", "P6\n1 1\n255\nabc");
-  LoadOptions options;
-  options.max_primitives = max;
+  LoadOptions options{.max_primitives = max};
   return ErrorOf([&] {
     LoadSceneText(fmt::format(R"({{"nacre": 1, "materials": {{"a": {{"model": "lambert"}}}},
                                   "textures": {{"t": {{"file": "a.ppm"}}}},

@@ -419,8 +419,7 @@ TEST_CASE("Of files that have changed only what they make is read again", "[live
   const WatchedFolder folder;
   folder.Write("m.obj", kWatchedTriangle);
   folder.Write("s.json", WatchedText("0.5"));
-  LoadOptions options;
-  options.overrides = {{"/image/width", "64"}};
+  LoadOptions options{.overrides = {{"/image/width", "64"}}};
   LiveScene live(folder.path / "s.json", options);
   const auto read_anew = [&] { return Describe(LoadScene(folder.path / "s.json", options)); };
   CHECK_FALSE(live.FilesChanged());
@@ -651,9 +650,9 @@ TEST_CASE("lights of a model are changed by their members, and removed by null")
     return found == scene.lights.end() ? Light() : *found;
   };
   const Scene plain = LoadScene(path);
-  LoadOptions options;
-  options.overrides = {
-      {"/lights/key/irradiance", "3"}, {"/lights/fill", "null"}, {"/lights/sky/rotate_deg", "90"}};
+  LoadOptions options{.overrides = {{"/lights/key/irradiance", "3"},
+                                    {"/lights/fill", "null"},
+                                    {"/lights/sky/rotate_deg", "90"}}};
   const Scene loaded = LoadScene(path, options);
   LiveScene live(path, LoadOptions());
   for (const auto& [pointer, json] : options.overrides) live.Set(pointer, json);

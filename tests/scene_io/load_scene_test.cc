@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "catch.h"
+#include "messages.h"
 #include "scene/filter_width.h"
 #include "scene_io/text_file.h"
 
@@ -40,10 +41,6 @@ std::string MessageOf(const std::function<void()>& action) {
     return error.what();
   }
   return "no error";
-}
-
-bool Contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 TEST_CASE("a scene that says nothing has the defaults") {
@@ -462,10 +459,8 @@ TEST_CASE("an environment that the caller chooses takes the place of all lights 
   };
   const auto load = [&](const std::string& members, const std::filesystem::path& environment,
                         std::vector<std::pair<std::string, std::string>> overrides = {}) {
-    LoadOptions options;
-    options.overrides = std::move(overrides);
-    options.environment = environment;
-    return LoadScene(scene_file(members), options);
+    return LoadScene(scene_file(members),
+                     {.overrides = std::move(overrides), .environment = environment});
   };
   // The environment's light, which must be the only one.
   const auto only = [](const Scene& scene) {
@@ -536,8 +531,7 @@ TEST_CASE("an environment that is none is refused, of scenes and of models") {
   std::ofstream(folder.path / "text.exr") << "no picture";
   const auto message = [&](const std::filesystem::path& file,
                            const std::filesystem::path& environment) {
-    LoadOptions options;
-    options.environment = environment;
+    LoadOptions options{.environment = environment};
     try {
       LoadScene(file, options);
     } catch (const Error& error) {

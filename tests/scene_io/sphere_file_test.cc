@@ -203,8 +203,7 @@ TEST_CASE("what is wrong with a matrix of NumPy is told") {
 }
 
 TEST_CASE("files of spheres have no more rows than may be made") {
-  LoadOptions options;
-  options.max_primitives = 2;
+  LoadOptions options{.max_primitives = 2};
   CHECK(SpheresOf("a.csv", "1,2,3\n4,5,6\n", kAll, options).size() == 2);
   const auto refused = [&](const std::string& file, const std::string& bytes) {
     return Tells(ErrorOf([&] { SpheresOf(file, bytes, kAll, options); }),

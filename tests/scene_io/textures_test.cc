@@ -117,8 +117,7 @@ TEST_CASE("textures are the same however many threads decode them") {
   const std::string material = R"({"model": "metallic_roughness", "base_color_map": "a",
       "normal_map": {"texture": "b", "scale": 2}, "emission_map": "b", "opacity_map": "c"})";
   const auto load = [&](int threads, const std::string& maps) {
-    LoadOptions options;
-    options.threads = threads;
+    LoadOptions options{.threads = threads};
     return LoadSceneText(
         R"({"nacre": 1, "textures": )" + textures + R"(, "materials": {"m": )" + maps + "}}",
         "t.json", folder.path(), options);
@@ -280,13 +279,11 @@ TEST_CASE("a mesh without texture coordinates needs a mapping") {
   Scene scene;
   scene.images.push_back({"a", std::make_shared<MipChain>(MakeMipChain(1, 1, 1, {0.5f})), 0.5f});
   scene.textures.emplace_back().image = ImageId{0};
-  Material material;
-  material.model = LambertMaterial{.albedo_map = TextureId{0}};
+  Material material{.model = LambertMaterial{.albedo_map = TextureId{0}}};
   scene.materials.push_back(material);
-  Mesh mesh;
-  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  mesh.triangles = {0, 1, 2};
-  mesh.material = MaterialId{0};
+  Mesh mesh{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+            .triangles = {0, 1, 2},
+            .material = MaterialId{0}};
   scene.meshes = {mesh};
   REQUIRE(Validate(scene).size() == 1);
   CHECK(Validate(scene)[0].where == "/meshes/0");

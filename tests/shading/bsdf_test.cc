@@ -40,12 +40,7 @@ struct Stack {
   }
 };
 
-MetallicRoughnessMaterial Paint() {
-  MetallicRoughnessMaterial paint;
-  paint.base_color = Rgb(0.7, 0.3, 0.1);
-  paint.roughness = 0.6;
-  return paint;
-}
+MetallicRoughnessMaterial Paint() { return {.base_color = Rgb(0.7, 0.3, 0.1), .roughness = 0.6}; }
 
 template <class Model>
 void Add(const std::string& name, const Model& model, std::vector<Stack>* stacks) {
@@ -85,10 +80,8 @@ std::vector<Stack> Stacks() {
   Add("oren_nayar", OrenNayarMaterial{.albedo = Rgb(0.6), .roughness = 0.7}, &stacks);
   for (const PhongModel model :
        {PhongModel::kPhong, PhongModel::kModifiedPhong, PhongModel::kBlinnPhong}) {
-    PhongMaterial phong;
-    phong.model = model;
-    phong.convention = PhongConvention::kRadiometric;
-    phong.shininess = 12;
+    PhongMaterial phong{
+        .model = model, .convention = PhongConvention::kRadiometric, .shininess = 12};
     Add("phong " + std::to_string(static_cast<int>(model)), phong, &stacks);
     // Some half vectors of its lobe face away.
     stacks.back().whole = model != PhongModel::kBlinnPhong;

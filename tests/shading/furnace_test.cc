@@ -123,24 +123,20 @@ class LitFurnace {
 };
 
 Material White(double metallic, double roughness, Shadowing shadowing, Compensation compensation) {
-  Material material;
-  material.model = MetallicRoughnessMaterial{.base_color = Rgb(1),
+  return {.model = MetallicRoughnessMaterial{.base_color = Rgb(1),
                                              .metallic = metallic,
                                              .roughness = roughness,
                                              .shadowing = shadowing,
-                                             .compensation = compensation};
-  return material;
+                                             .compensation = compensation}};
 }
 
 Material WhiteDielectric(double roughness, DielectricFresnel fresnel, Shadowing shadowing,
                          Compensation compensation) {
-  Material material;
-  material.model = DielectricMaterial{.base_color = Rgb(1),
+  return {.model = DielectricMaterial{.base_color = Rgb(1),
                                       .roughness = roughness,
                                       .fresnel = fresnel,
                                       .shadowing = shadowing,
-                                      .compensation = compensation};
-  return material;
+                                      .compensation = compensation}};
 }
 
 // The bounds are the project's. Most of what is seen is the quadrature's own error, which is four
@@ -236,8 +232,7 @@ TEST_CASE("a white furnace stays white for a half metal on every target") {
 TEST_CASE("white Oren-Nayar surfaces reflect all light, and Burley's what is known of it") {
   const FlushDenormals flush;
   const auto furnace = [](decltype(Material::model) model, double n_dot_v) {
-    Material material;
-    material.model = std::move(model);
+    Material material{.model = std::move(model)};
     const Vec3d to_view(std::sqrt(1 - n_dot_v * n_dot_v), 0, n_dot_v);
     return LitFurnace(to_view, 1).Reflected(material).y;
   };
@@ -245,11 +240,10 @@ TEST_CASE("white Oren-Nayar surfaces reflect all light, and Burley's what is kno
     for (const double n_dot_v : {1e-4, 1e-3, 0.01, 0.1, 0.3, 0.6, 1.0}) {
       CAPTURE(roughness, n_dot_v);
       CHECK(std::abs(furnace(OrenNayarMaterial{Rgb(1), roughness}, n_dot_v) - 1) <= 1e-3);
-      DielectricMaterial coat;
-      coat.base_color = Rgb(1);
-      coat.roughness = 1;
-      coat.diffuse = DiffuseForm::kOrenNayar;
-      coat.diffuse_roughness = roughness;
+      DielectricMaterial coat{.base_color = Rgb(1),
+                              .roughness = 1,
+                              .diffuse = DiffuseForm::kOrenNayar,
+                              .diffuse_roughness = roughness};
       CHECK(std::abs(furnace(coat, n_dot_v) - 1) <= 1e-3);
     }
     CHECK(std::abs(furnace(BurleyMaterial{Rgb(1), roughness}, 1e-4) -

@@ -57,8 +57,8 @@ void FillMirrorBatch(double width, MirrorBatch* batch) {
     batch->directions.irradiance[i] = 1;
   }
   PrepareSurface(batch->hits, &batch->surface);
-  Light light;
-  light.kind = DirectionalLight{.direction_of_travel = {0, 0, -1}, .irradiance = kLightColor};
+  Light light{.kind =
+                  DirectionalLight{.direction_of_travel = {0, 0, -1}, .irradiance = kLightColor}};
   batch->light = PrepareLight(light, {0, 0, 0});
 }
 
@@ -88,10 +88,8 @@ TEST_CASE("mirrored light keeps its lobe up to light opposite the viewer") {
   const FlushDenormals flush;
   ForEachTarget([](Target) {
     for (const double roughness : {0.15, 0.2, 0.3, 0.6}) {
-      MetallicRoughnessMaterial metal;
-      metal.metallic = 1;
-      metal.base_color = Rgb(0.9, 0.5, 0.1);
-      metal.roughness = roughness;
+      MetallicRoughnessMaterial metal{
+          .base_color = Rgb(0.9, 0.5, 0.1), .metallic = 1, .roughness = roughness};
       for (const Shadowing shadowing : {Shadowing::kSchlickDirect, Shadowing::kHeightCorrelated}) {
         metal.shadowing = shadowing;
         const ShadingMaterial prepared = Prepare(metal);
@@ -100,9 +98,7 @@ TEST_CASE("mirrored light keeps its lobe up to light opposite the viewer") {
     }
     for (const double shininess : {10.0, 40.0, 200.0}) {
       for (const PhongModel model : {PhongModel::kPhong, PhongModel::kBlinnPhong}) {
-        PhongMaterial phong;
-        phong.model = model;
-        phong.shininess = shininess;
+        PhongMaterial phong{.model = model, .shininess = shininess};
         CheckMirrored(Prepare(phong), phong, 1 / std::sqrt(shininess));
       }
     }

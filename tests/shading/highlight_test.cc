@@ -34,9 +34,7 @@ double HighlightError(const ShadingMaterial& material, const Model& model, doubl
 }
 
 double GgxError(double roughness, bool double_terms) {
-  MetallicRoughnessMaterial material;
-  material.roughness = roughness;
-  ShadingMaterial prepared = Prepare(material);
+  ShadingMaterial prepared = Prepare(MetallicRoughnessMaterial{.roughness = roughness});
   auto& model = std::get<MicrofacetModel>(prepared.model);
   CHECK(model.double_terms == (roughness < kDoubleTermsRoughness));
   model.double_terms = double_terms;
@@ -44,9 +42,7 @@ double GgxError(double roughness, bool double_terms) {
 }
 
 double PhongError(PhongModel model, double shininess, bool double_terms) {
-  PhongMaterial material;
-  material.model = model;
-  material.shininess = shininess;
+  PhongMaterial material{.model = model, .shininess = shininess};
   ShadingMaterial prepared = Prepare(material);
   auto& prepared_model = std::get<PhongFamilyModel>(prepared.model);
   CHECK(prepared_model.double_terms == (shininess > kDoubleTermsShininess));

@@ -15,9 +15,7 @@ namespace {
 constexpr size_t kHitsOnSpheres = 1000;  // not a multiple of any vector
 
 Light PointAt(const Vec3d& position) {
-  Light light;
-  light.kind = PointLight{.position = position, .intensity = {1, 1, 1}, .attenuation = {}};
-  return light;
+  return {.kind = PointLight{.position = position, .intensity = {1, 1, 1}}};
 }
 
 Vec3d RandomUnit(std::mt19937* random) {
@@ -105,8 +103,7 @@ TEST_CASE("lights found from normals are where the positions say, at all scales"
 // What a material reflects of the light, in place or evaluated ahead.
 ReflectedRadiance ReflectFromSpheres(const ShadingLight& light, HitsOnSpheres* hits,
                                      bool in_place) {
-  Material material;
-  material.model = MetallicRoughnessMaterial{};
+  const Material material{.model = MetallicRoughnessMaterial{}};
   const ShadingMaterial prepared = PrepareMaterial(material);
   LightBatch evaluated;
   EvaluateLight(light, hits->batch, hits->surface, &evaluated);
@@ -155,8 +152,7 @@ TEST_CASE("lights found from normals give the same bits whichever hits share a b
 }
 
 TEST_CASE("a directional light leaves the same bits in place and evaluated ahead") {
-  Light sun;
-  sun.kind = DirectionalLight{.direction_of_travel = {1, -2, -3}, .irradiance = {3, 2, 1}};
+  Light sun{.kind = DirectionalLight{.direction_of_travel = {1, -2, -3}, .irradiance = {3, 2, 1}}};
   const ShadingLight light = PrepareLight(sun, {0, 0, 0});
   REQUIRE(EvaluatedInPlace(light));
   ForEachTarget([&](Target) {
@@ -181,9 +177,7 @@ TEST_CASE("positions are asked of lights that are near a sphere, or have no plac
   CHECK(from_normals(PointAt({1, 2, 3 + 8.001})));
   CHECK_FALSE(from_normals(PointAt({1, 2, 3 + 7.999})));
   CHECK_FALSE(from_normals(PointAt({1, 2, 3})));
-  Light sun;
-  sun.kind = DirectionalLight{};
-  CHECK_FALSE(from_normals(sun));
+  CHECK_FALSE(from_normals(Light{.kind = DirectionalLight{}}));
   ShadingLight none = PrepareLight(PointAt({9, 9, 9}), {0, 0, 0});
   CHECK_FALSE(OffsetFromSpheres({}, {0, 0, 0}, &none));
 }

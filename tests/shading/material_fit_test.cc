@@ -239,11 +239,7 @@ TEST_CASE("the base keeps its albedo") {
   CHECK(LargestDifference(DiffuseAlbedo(dielectric.fitted), DiffuseAlbedo(plastic)) < 1e-9);
 }
 
-Material Matte(decltype(Material::model) model) {
-  Material material;
-  material.model = std::move(model);
-  return material;
-}
+Material Matte(decltype(Material::model) model) { return {.model = std::move(model)}; }
 
 // A dielectric's whole lobe would add a tenth to them.
 TEST_CASE("surfaces without a lobe, or with a weak one, stay as dark as they are") {
@@ -321,9 +317,7 @@ TEST_CASE("what cannot be said is told") {
   CHECK(tells_of_plastics(as_dielectric(0.12)));
 
   CHECK_FALSE(FitMaterial(Metal(Rgb(0.5), 0, 0), "phong").notes.empty());
-  Material split;
-  split.model = SplitMaterial{};
-  CHECK_THROWS_AS(FitMaterial(split, "phong"), Error);
+  CHECK_THROWS_AS(FitMaterial(Material{.model = SplitMaterial{}}, "phong"), Error);
 }
 
 TEST_CASE("a fit is the same every time") {

@@ -36,10 +36,8 @@ void CheckEqual(const Rgb& got, const Rgb& expected) {
 }
 
 TEST_CASE("metallic-roughness mixes its base and F0") {
-  MetallicRoughnessMaterial material;
-  material.base_color = {0.8, 0.4, 0.2};
-  material.metallic = 0.25;
-  material.roughness = 0.3;
+  MetallicRoughnessMaterial material{
+      .base_color = {0.8, 0.4, 0.2}, .metallic = 0.25, .roughness = 0.3};
   const MicrofacetModel model = PrepareModel(material);
   CheckEqual(model.f0, {0.23, 0.13, 0.08});  // 0.75 x 0.04 and a quarter of the colour
   CheckEqual(model.diffuse * M_PI, {0.6, 0.3, 0.15});
@@ -60,15 +58,14 @@ TEST_CASE("a part metal reflects the mix of what the dielectric and the metal re
         for (const Shadowing shadowing :
              {Shadowing::kHeightCorrelated, Shadowing::kSchlickDirect, Shadowing::kSchlickIbl}) {
           for (const double metallic : {0.1, 0.5, 0.9}) {
-            MetallicRoughnessMaterial material;
-            material.base_color = {0.9, 0.3, 0.02};
-            material.dielectric_f0 = {0.08, 0.04, 0.3};
-            material.specular = 0.7;
-            material.f82_tint = tint;
-            material.roughness = 0.6;
-            material.compensation = compensation;
-            material.diffuse_coupling = coupling;
-            material.shadowing = shadowing;
+            MetallicRoughnessMaterial material{.base_color = {0.9, 0.3, 0.02},
+                                               .dielectric_f0 = {0.08, 0.04, 0.3},
+                                               .specular = 0.7,
+                                               .f82_tint = tint,
+                                               .roughness = 0.6,
+                                               .shadowing = shadowing,
+                                               .compensation = compensation,
+                                               .diffuse_coupling = coupling};
             const auto of = [&](double m) {
               material.metallic = m;
               return Prepare(material);
@@ -95,11 +92,10 @@ TEST_CASE("a part metal reflects the mix of what the dielectric and the metal re
 }
 
 TEST_CASE("the lesson's coupling takes from the base what the mixed F0 reflects") {
-  MetallicRoughnessMaterial material;
-  material.base_color = {0.9, 0.3, 0.02};
-  material.metallic = 0.5;
-  material.diffuse_coupling = DiffuseCoupling::kOneMinusFresnel;
-  material.compensation = Compensation::kNone;
+  MetallicRoughnessMaterial material{.base_color = {0.9, 0.3, 0.02},
+                                     .metallic = 0.5,
+                                     .compensation = Compensation::kNone,
+                                     .diffuse_coupling = DiffuseCoupling::kOneMinusFresnel};
   const Vec3d normal(0, 0, 1), v = Vec3d(0.5, 0, 1).normalized(), l = Vec3d(0, 2, 1).normalized();
   const Angles<double> a = ComputeAngles(normal, l, v);
   Rgb expected;
@@ -112,10 +108,8 @@ TEST_CASE("the lesson's coupling takes from the base what the mixed F0 reflects"
 }
 
 TEST_CASE("what is no metal reflects as much as `specular` says, at all angles") {
-  MetallicRoughnessMaterial material;
-  material.base_color = {0.8, 0.4, 0.2};
-  material.dielectric_f0 = {0.1, 0.04, 0.02};
-  material.roughness = 0.3;
+  MetallicRoughnessMaterial material{
+      .base_color = {0.8, 0.4, 0.2}, .dielectric_f0 = {0.1, 0.04, 0.02}, .roughness = 0.3};
   const MicrofacetModel whole = PrepareModel(material);
   CHECK(whole.f90 == 1);
   material.specular = 0.25;
@@ -149,13 +143,12 @@ TEST_CASE("what is no metal reflects as much as `specular` says, at all angles")
 }
 
 TEST_CASE("radiometric Phong is normalised, classic Phong is not") {
-  PhongMaterial phong;
-  phong.color = {0.5, 0.5, 0.5};
-  phong.kd = 0.5 * Rgb(1, 1, 1);
-  phong.ks = 0.25 * Rgb(1, 1, 1);
-  phong.shininess = 8;
-  phong.model = PhongModel::kModifiedPhong;
-  phong.convention = PhongConvention::kClassic;
+  PhongMaterial phong{.model = PhongModel::kModifiedPhong,
+                      .convention = PhongConvention::kClassic,
+                      .color = {0.5, 0.5, 0.5},
+                      .kd = 0.5 * Rgb(1, 1, 1),
+                      .ks = 0.25 * Rgb(1, 1, 1),
+                      .shininess = 8};
   CheckEqual(std::get<PhongFamilyModel>(Prepare(phong).model).diffuse, {0.25, 0.25, 0.25});
   CheckEqual(std::get<PhongFamilyModel>(Prepare(phong).model).specular, {0.25, 0.25, 0.25});
   phong.convention = PhongConvention::kRadiometric;
@@ -165,9 +158,7 @@ TEST_CASE("radiometric Phong is normalised, classic Phong is not") {
 }
 
 TEST_CASE("a base has the roughness that it is given, or else the lobe's") {
-  DielectricMaterial coat;
-  coat.base_color = {1, 0.5, 0};
-  coat.roughness = 0.25;
+  DielectricMaterial coat{.base_color = {1, 0.5, 0}, .roughness = 0.25};
   CHECK(PrepareModel(coat).base_form == DiffuseForm::kLambert);
   coat.diffuse = DiffuseForm::kOrenNayar;
   CHECK(PrepareModel(coat).base_roughness == 0.25);
@@ -196,27 +187,18 @@ TEST_CASE("closed forms are for Lambert's diffuse reflection alone") {
 }
 
 TEST_CASE("what materials reflect of light from everywhere") {
-  PhongMaterial phong;
-  phong.color = {1, 1, 1};
-  phong.ka = {0.25, 0.25, 0.25};
-  phong.kd = {0.75, 0.75, 0.75};
+  PhongMaterial phong{.color = {1, 1, 1}, .ka = {0.25, 0.25, 0.25}, .kd = {0.75, 0.75, 0.75}};
   CheckEqual(Prepare(phong).of_ambient, Rgb(0.25));
-  MetallicRoughnessMaterial metallic_roughness;
-  metallic_roughness.base_color = {0.5, 0.25, 1};
+  MetallicRoughnessMaterial metallic_roughness{.base_color = {0.5, 0.25, 1}};
   CheckEqual(Prepare(metallic_roughness).of_ambient, {0.5, 0.25, 1});
   // A white base under a clear coat gives back all light, a black one the coat's 9.178 % (Fresnel's
   // mean for 1.5: Egan and Hilgeman 1973).
-  DielectricMaterial dielectric;
-  dielectric.ior = 1.5;
-  dielectric.base_color = {1, 1, 1};
+  DielectricMaterial dielectric{.base_color = {1, 1, 1}, .ior = 1.5};
   CheckEqual(Prepare(dielectric).of_ambient, Rgb(1));
   dielectric.base_color = {0, 0, 0};
   CHECK(Prepare(dielectric).of_ambient.x == Approx(0.0918).margin(5e-5));
   // So does a conductor that absorbs nothing; F0 is 4 %.
-  ConductorMaterial conductor;
-  conductor.eta = {1.5, 1.5, 1.5};
-  conductor.k = {0, 0, 0};
-  const ShadingMaterial metal = Prepare(conductor);
+  const ShadingMaterial metal = Prepare(ConductorMaterial{.eta = {1.5, 1.5, 1.5}, .k = {0, 0, 0}});
   CHECK(metal.of_ambient.x == Approx(0.0918).margin(5e-5));
   CHECK(metal.albedo.x == Approx(0.04));
 }
@@ -224,10 +206,8 @@ TEST_CASE("what materials reflect of light from everywhere") {
 TEST_CASE("a white base under Kulla and Conty's lobe loses and gains nothing") {
   const QuadratureRule& rule = GaussLegendre(32);
   for (const double roughness : {0.3, 0.6, 1.0}) {
-    MetallicRoughnessMaterial material;
-    material.base_color = {1, 1, 1};
-    material.roughness = roughness;
-    material.compensation = Compensation::kKullaConty;
+    MetallicRoughnessMaterial material{
+        .base_color = {1, 1, 1}, .roughness = roughness, .compensation = Compensation::kKullaConty};
     const MicrofacetModel model = PrepareModel(material);
     // The base takes (1 - lobe(v)) (1 - lobe(l)): over all l, 1 - lobe(v) is to be left.
     double base = 0;
@@ -244,11 +224,7 @@ TEST_CASE("a white base under Kulla and Conty's lobe loses and gains nothing") {
 // the material has, averaged, and not the one that would be exact.
 TEST_CASE("Kulla and Conty's lobe takes the average of the Fresnel curve that the first lobe has") {
   std::vector<Material> materials;
-  const auto add = [&](const auto& model) {
-    Material material;
-    material.model = model;
-    materials.push_back(material);
-  };
+  const auto add = [&](const auto& model) { materials.push_back(Material{.model = model}); };
   for (const ConductorFresnel fresnel :
        {ConductorFresnel::kExact, ConductorFresnel::kF82Tint, ConductorFresnel::kSchlick}) {
     ConductorMaterial iron;  // whose three curves average to 0.497, 0.497 and 0.520 in blue
@@ -260,22 +236,20 @@ TEST_CASE("Kulla and Conty's lobe takes the average of the Fresnel curve that th
     add(iron);
   }
   for (const DielectricFresnel fresnel : {DielectricFresnel::kExact, DielectricFresnel::kSchlick}) {
-    DielectricMaterial glass;
-    glass.ior = 1.5;
-    glass.fresnel = fresnel;
-    glass.roughness = 0.7;
-    glass.compensation = Compensation::kKullaConty;
+    DielectricMaterial glass{.ior = 1.5,
+                             .roughness = 0.7,
+                             .fresnel = fresnel,
+                             .compensation = Compensation::kKullaConty};
     add(glass);
   }
   for (const double metallic : {0.0, 1.0}) {
     for (const Rgb& tint : {Rgb(1), Rgb(0.5, 0.8, 0.9)}) {
-      MetallicRoughnessMaterial mixed;
-      mixed.base_color = {0.9, 0.5, 0.1};
-      mixed.metallic = metallic;
-      mixed.specular = 0.6;
-      mixed.f82_tint = tint;
-      mixed.roughness = 0.7;
-      mixed.compensation = Compensation::kKullaConty;
+      MetallicRoughnessMaterial mixed{.base_color = {0.9, 0.5, 0.1},
+                                      .metallic = metallic,
+                                      .specular = 0.6,
+                                      .f82_tint = tint,
+                                      .roughness = 0.7,
+                                      .compensation = Compensation::kKullaConty};
       add(mixed);
     }
   }
@@ -312,11 +286,9 @@ TEST_CASE("lights and hits meet in the camera's space") {
   Surface surface;
   PrepareSurface(hits, &surface);
   Light point, spot;
-  point.kind = PointLight{.position = camera + position, .intensity = {1, 1, 1}, .attenuation = {}};
-  spot.kind = SpotLight{.position = camera + position,
-                        .direction_of_travel = -position,
-                        .intensity = {1, 1, 1},
-                        .attenuation = {}};
+  point.kind = PointLight{.position = camera + position, .intensity = {1, 1, 1}};
+  spot.kind = SpotLight{
+      .position = camera + position, .direction_of_travel = -position, .intensity = {1, 1, 1}};
   for (const Light& light : {point, spot}) {
     LightBatch batch;
     const ShadingLight prepared = PrepareLight(light, camera);
@@ -333,8 +305,7 @@ TEST_CASE("a light beside a far hit keeps its direction") {
   hits.position.x[0] = position.x;
   hits.position.y[0] = position.y;
   hits.position.z[0] = position.z;
-  Light light;
-  light.kind = PointLight{.position = position + offset, .intensity = {1, 1, 1}, .attenuation = {}};
+  Light light{.kind = PointLight{.position = position + offset, .intensity = {1, 1, 1}}};
   ForEachTarget([&](Target) {
     Surface surface;
     LightBatch batch;
@@ -375,8 +346,7 @@ TEST_CASE("runs may be prepared in any order") {
 // What the one hit reflects of a directional light of irradiance 1.
 void ReflectSun(const ShadingMaterial& material, const HitBatch& hits, const Vec3d& to_light,
                 ReflectedRadiance* radiance) {
-  Light light;
-  light.kind = DirectionalLight{.direction_of_travel = -to_light, .irradiance = {1, 1, 1}};
+  Light light{.kind = DirectionalLight{.direction_of_travel = -to_light, .irradiance = {1, 1, 1}}};
   const ShadingLight prepared = PrepareLight(light, {0, 0, 0});
   Surface surface;
   LightBatch on_hit;
@@ -388,9 +358,7 @@ void ReflectSun(const ShadingMaterial& material, const HitBatch& hits, const Vec
 }
 
 TEST_CASE("a normal that leans away from the viewer counts as seen edge-on") {
-  MetallicRoughnessMaterial material;
-  material.roughness = 0.7;
-  material.compensation = Compensation::kNone;
+  MetallicRoughnessMaterial material{.roughness = 0.7, .compensation = Compensation::kNone};
   const ShadingMaterial prepared = Prepare(material);
   const auto& model = std::get<MicrofacetModel>(prepared.model);
   const Vec3d normal(0, 1, 0), to_light = Vec3d(1, 0.5, 0).normalized();
@@ -414,8 +382,7 @@ TEST_CASE("a user's function is asked for hits that are seen from above their no
     asked += batch.count;
     for (double* const plane : rgb) std::fill_n(plane, batch.count, 1.0);
   };
-  Material material;
-  material.user = brdf;
+  const Material material{.user = brdf};
   const ShadingMaterial prepared = Prepare(material);
   const auto reflected = [&](const Vec3d& to_view) {
     ReflectedRadiance radiance;
@@ -431,9 +398,7 @@ TEST_CASE("a user's function is asked for hits that are seen from above their no
 // On spheres n.v of what is seen rounds to above -4e-7, and with it n.u: the limit of grazing
 // viewers then, and not no lobe at all.
 TEST_CASE("a hit at the limb whose half vector rounds to below the surface has its lobe") {
-  MetallicRoughnessMaterial material;
-  material.roughness = 0.7;
-  material.compensation = Compensation::kNone;
+  MetallicRoughnessMaterial material{.roughness = 0.7, .compensation = Compensation::kNone};
   const ShadingMaterial prepared = Prepare(material);
   const auto& model = std::get<MicrofacetModel>(prepared.model);
   const Vec3d to_light(1, 1e-7, 0), to_view(0, -3e-7, 1);
@@ -474,8 +439,7 @@ TEST_CASE("light exactly opposite the viewer of a normal that leans away: no hig
   const HitBatch hits = MakeHit(to_view);
   for (const DiffuseCoupling coupling :
        {DiffuseCoupling::kAlbedoScaled, DiffuseCoupling::kOneMinusFresnel}) {
-    MetallicRoughnessMaterial material;
-    material.diffuse_coupling = coupling;
+    MetallicRoughnessMaterial material{.diffuse_coupling = coupling};
     const ShadingMaterial prepared = Prepare(material);
     ForEachTarget([&](Target) {
       ReflectedRadiance radiance;

@@ -22,9 +22,9 @@ namespace nacre {
 namespace {
 
 SampledLight Prepare(const Mesh& mesh, bool two_sided = false) {
-  Light light;
-  light.kind = MeshAreaLight{
-      .mesh = std::make_shared<const Mesh>(mesh), .radiance = Rgb(1), .two_sided = two_sided};
+  Light light{.kind = MeshAreaLight{.mesh = std::make_shared<const Mesh>(mesh),
+                                    .radiance = Rgb(1),
+                                    .two_sided = two_sided}};
   KeptTables none;
   return PrepareSampledLight(light, Vec3d(0, 0, 0), &none);
 }
@@ -235,9 +235,8 @@ TEST_CASE("a ray finds the triangles of a mesh that are tested one by one") {
 }
 
 TEST_CASE("closed forms are for meshes that hide nothing of themselves") {
-  Mesh quad;
-  quad.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-  quad.triangles = {0, 1, 2, 0, 2, 3};
+  Mesh quad{.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+            .triangles = {0, 1, 2, 0, 2, 3}};
   CHECK(HasIrradiance(Prepare(quad)));
   CHECK(HasIrradiance(Prepare(quad, true)));
   const Mesh ball = MakeMesh(Icosphere{.subdivisions = 0});
@@ -329,8 +328,7 @@ TEST_CASE("the irradiance of a convex mesh is the sum of its fronts'") {
 }
 
 SampledLight Prepared(decltype(Light::kind) kind) {
-  Light light;
-  light.kind = std::move(kind);
+  Light light{.kind = std::move(kind)};
   KeptTables none;
   return PrepareSampledLight(light, Vec3d(0, 0, 0), &none);
 }
@@ -339,22 +337,13 @@ SampledLight Prepared(decltype(Light::kind) kind) {
 // where there is no end to be refined none is made.
 TEST_CASE("shadow rays end on their lights to the roundings of double") {
   const Vec3d at(1.1, 2.3, -3.7), facing = Vec3d(-0.3, -0.8, 1).normalized();
-  RectangleAreaLight rectangle;
-  rectangle.center = at;
-  rectangle.facing = facing;
-  rectangle.width = 3;
-  DiskAreaLight disk;
-  disk.center = at;
-  disk.facing = facing;
-  SphereAreaLight sphere;
-  sphere.center = at;
-  sphere.radius = 0.7;
-  Mesh triangle;
-  triangle.positions = {at, at + facing.cross(Vec3d(1, 0, 0)), at + facing.cross(Vec3d(0, 1, 0))};
-  triangle.triangles = {0, 1, 2};
-  MeshAreaLight mesh;
-  mesh.mesh = std::make_shared<const Mesh>(triangle);
-  mesh.two_sided = true;
+  RectangleAreaLight rectangle{.center = at, .facing = facing, .width = 3};
+  DiskAreaLight disk{.center = at, .facing = facing};
+  SphereAreaLight sphere{.center = at, .radius = 0.7};
+  Mesh triangle{
+      .positions = {at, at + facing.cross(Vec3d(1, 0, 0)), at + facing.cross(Vec3d(0, 1, 0))},
+      .triangles = {0, 1, 2}};
+  MeshAreaLight mesh{.mesh = std::make_shared<const Mesh>(triangle), .two_sided = true};
   const UnitPoints points = Points();
   ForEachTarget([&](Target) {
     for (const decltype(Light::kind)& kind :

@@ -37,8 +37,7 @@ struct Lit {
 void MakeLit(double angle, Lit* lit) {
   const Vec3d from_center = Vec3d{std::sin(angle), 0, std::cos(angle)} * 30;
   const Vec3d position = kSphere.center + from_center;
-  Light light;
-  light.kind = PointLight{.position = position, .intensity = {900, 800, 700}, .attenuation = {}};
+  Light light{.kind = PointLight{.position = position, .intensity = {900, 800, 700}}};
   lit->light = PrepareLight(light, {0, 0, 0});
   REQUIRE(OffsetFromSpheres({&kSphere, 1}, {0, 0, 0}, &lit->light));
   lit->hits.count = kSphereHits;

@@ -11,9 +11,7 @@ inline ShadingMaterial Prepare(const Material& material) { return PrepareMateria
 
 template <class Model>
 ShadingMaterial Prepare(const Model& model) {
-  Material material;
-  material.model = model;
-  return Prepare(material);
+  return Prepare(Material{.model = model});
 }
 
 }  // namespace nacre

@@ -52,9 +52,9 @@ Rgb At(const Soa3<float>& soa, size_t i) { return {soa.x[i], soa.y[i], soa.z[i]}
 Light MakeLight(const std::string& kind) {
   Light light;
   if (kind == "point") {
-    light.kind = PointLight{.position = {3, 4, 2}, .intensity = kLightColor, .attenuation = {}};
+    light.kind = PointLight{.position = {3, 4, 2}, .intensity = kLightColor};
   } else if (kind == "behind") {
-    light.kind = PointLight{.position = {3, 4, -14}, .intensity = kLightColor, .attenuation = {}};
+    light.kind = PointLight{.position = {3, 4, -14}, .intensity = kLightColor};
   } else if (kind == "quadratic") {
     light.kind =
         PointLight{.position = {3, 4, 2}, .intensity = kLightColor, .attenuation = {0, 0, 0.3}};
@@ -67,7 +67,6 @@ Light MakeLight(const std::string& kind) {
     light.kind = SpotLight{.position = {3, 4, 2},
                            .direction_of_travel = {-3, -4, -8},
                            .intensity = kLightColor,
-                           .attenuation = {},
                            .cutoff_deg = 20,
                            .inner_deg = 5,
                            .exponent = 3.5};
@@ -154,11 +153,10 @@ TEST_CASE("kernels agree with the models in double on every target and under eve
            {PhongModel::kPhong, PhongModel::kModifiedPhong, PhongModel::kBlinnPhong}) {
         for (const PhongConvention convention :
              {PhongConvention::kClassic, PhongConvention::kRadiometric}) {
-          PhongMaterial phong;
-          phong.model = model;
-          phong.convention = convention;
-          phong.color = Rgb(0.9, 0.5, 0.1);
-          phong.shininess = 40;
+          PhongMaterial phong{.model = model,
+                              .convention = convention,
+                              .color = Rgb(0.9, 0.5, 0.1),
+                              .shininess = 40};
           // The whole hemisphere, far tails included: n tan(theta) u, tan up to the point where
           // the lobe is 1e-30, about 5.6 for n = 40.
           CheckPlain(phong, light, 16 * 40 * 5.6 * 0x1p-24);
@@ -239,12 +237,11 @@ TEST_CASE("kernels reflect of a part metal the mix of its dielectric and its met
     for (const Compensation compensation :
          {Compensation::kTurquin, Compensation::kKullaConty, Compensation::kNone}) {
       for (const Rgb& tint : {Rgb(1), Rgb(0, 0.5, 0.9)}) {
-        MetallicRoughnessMaterial material;
-        material.base_color = {1, 0.3, 0.02};
-        material.specular = 0.7;
-        material.f82_tint = tint;
-        material.roughness = 0.7;
-        material.compensation = compensation;
+        MetallicRoughnessMaterial material{.base_color = {1, 0.3, 0.02},
+                                           .specular = 0.7,
+                                           .f82_tint = tint,
+                                           .roughness = 0.7,
+                                           .compensation = compensation};
         const auto shade = [&](double metallic) {
           material.metallic = metallic;
           return Shade(Prepare(material), MakeLight("point"));
@@ -266,9 +263,7 @@ TEST_CASE("kernels reflect of a part metal the mix of its dielectric and its met
 }
 
 TEST_CASE("a delta lobe shows no punctual light, its base does") {
-  MetallicRoughnessMaterial smooth;
-  smooth.roughness = 0;
-  const ShadingMaterial material = Prepare(smooth);
+  const ShadingMaterial material = Prepare(MetallicRoughnessMaterial{.roughness = 0});
   CHECK(HasDeltaLobe(material));
   CHECK(!HasDeltaLobe(Prepare(MetallicRoughnessMaterial{})));
   const ReflectedRadiance got = Shade(material, MakeLight("point"));
@@ -306,9 +301,7 @@ TEST_CASE("a hit's bits do not depend on its place in the batch or the run") {
 
 // Two layers of different kinds of cloth over a lobe and its base.
 ShadingMaterial UnderTwoLayers() {
-  MetallicRoughnessMaterial base;
-  base.base_color = Rgb(0.8, 0.5, 0.2);
-  base.roughness = 0.4;
+  MetallicRoughnessMaterial base{.base_color = Rgb(0.8, 0.5, 0.2), .roughness = 0.4};
   ShadingMaterial material = Prepare(base);
   material.layers = {SheenModel{Rgb(0.9, 0.3, 0.1), MakeCharlie(0.3)},
                      SheenModel{Rgb(0.1, 0.4, 0.7), MakeCharlie(0.8)}};
@@ -363,12 +356,11 @@ TEST_CASE("the black base of a metal is skipped, and no bit changes") {
        {DiffuseCoupling::kAlbedoScaled, DiffuseCoupling::kOneMinusFresnel}) {
     for (const Compensation compensation :
          {Compensation::kNone, Compensation::kTurquin, Compensation::kKullaConty}) {
-      MetallicRoughnessMaterial metal;
-      metal.metallic = 1;
-      metal.roughness = 0.4;
-      metal.diffuse_coupling = coupling;
-      metal.compensation = compensation;
-      metal.diffuse = DiffuseForm::kOrenNayar;
+      MetallicRoughnessMaterial metal{.metallic = 1,
+                                      .roughness = 0.4,
+                                      .compensation = compensation,
+                                      .diffuse_coupling = coupling,
+                                      .diffuse = DiffuseForm::kOrenNayar};
       const ShadingMaterial skipped = Prepare(metal);
       const auto& model = std::get<MicrofacetModel>(skipped.model);
       // What Fresnel's curve leaves costs nothing to ask for; an albedo does.
@@ -394,8 +386,7 @@ TEST_CASE("the black base of a metal is skipped, and no bit changes") {
 }
 
 TEST_CASE("a base that is black in one channel is none that can be skipped") {
-  MetallicRoughnessMaterial material;
-  material.base_color = {0, 0.5, 0.2};
+  MetallicRoughnessMaterial material{.base_color = {0, 0.5, 0.2}};
   const ShadingMaterial prepared = Prepare(material);
   CHECK(std::get<MicrofacetModel>(prepared.model).coupling == material.diffuse_coupling);
 }
@@ -414,8 +405,7 @@ TEST_CASE("a light near a huge, far surface keeps its direction") {
     Surface surface;
     LightBatch batch;
     PrepareSurface(hits, &surface);
-    Light light;
-    light.kind = PointLight{.position = {0, 1, 0}, .intensity = {1, 1, 1}, .attenuation = {}};
+    Light light{.kind = PointLight{.position = {0, 1, 0}, .intensity = {1, 1, 1}}};
     EvaluateLight(PrepareLight(light, {0, 0, 0}), hits, surface, &batch);
     // Rounding of the difference to float and one normalisation: a few u.
     const Vec3d offset = Vec3d(0, 1, 0) - At(hits.position, 0);
@@ -427,15 +417,10 @@ TEST_CASE("a light near a huge, far surface keeps its direction") {
 }
 
 TEST_CASE("constants of materials") {
-  Material material;
-  material.emission = Rgb(1, 2, 3);
-  material.model = LambertMaterial{Rgb(0.5, 0.5, 0.25)};
+  Material material{.emission = Rgb(1, 2, 3), .model = LambertMaterial{Rgb(0.5, 0.5, 0.25)}};
   CHECK(PrepareMaterial(material).of_ambient == Rgb(0.5, 0.5, 0.25));
   CHECK(PrepareMaterial(material).emission == Rgb(1, 2, 3));
-  PhongMaterial phong;
-  phong.ka = Rgb(0.5, 0.5, 0.5);
-  phong.color = Rgb(1, 0.5, 0.25);
-  material.model = phong;
+  material.model = PhongMaterial{.color = Rgb(1, 0.5, 0.25), .ka = Rgb(0.5, 0.5, 0.5)};
   CHECK(PrepareMaterial(material).of_ambient == Rgb(0.5, 0.25, 0.125));
 }
 

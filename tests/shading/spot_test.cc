@@ -65,17 +65,15 @@ void FillHits(const Vec3d& light, const Vec3d& axis, const Cone& cone, HitBatch*
 
 void CheckCone(const Cone& cone) {
   CAPTURE(cone.cutoff_deg, cone.inner_deg, cone.exponent, cone.edge == SpotEdge::kSquare);
-  SpotLight spot;
-  spot.position = Vec3d(0.3, 4.1, -2.7);
-  spot.direction_of_travel = Vec3d(0.5, -0.7, 0.4);
-  spot.intensity = Rgb(1);
-  spot.attenuation = {.constant = 1, .linear = 0, .quadratic = 0};
-  spot.cutoff_deg = cone.cutoff_deg;
-  spot.inner_deg = cone.inner_deg;
-  spot.exponent = cone.exponent;
-  spot.edge = cone.edge;
-  Light light;
-  light.kind = spot;
+  SpotLight spot{.position = Vec3d(0.3, 4.1, -2.7),
+                 .direction_of_travel = Vec3d(0.5, -0.7, 0.4),
+                 .intensity = Rgb(1),
+                 .attenuation = {.constant = 1, .linear = 0, .quadratic = 0},
+                 .cutoff_deg = cone.cutoff_deg,
+                 .inner_deg = cone.inner_deg,
+                 .exponent = cone.exponent,
+                 .edge = cone.edge};
+  Light light{.kind = spot};
   const ShadingLight prepared = PrepareLight(light, {0, 0, 0});
   HitBatch hits;
   FillHits(spot.position, prepared.axis, cone, &hits);

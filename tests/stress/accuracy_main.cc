@@ -149,11 +149,10 @@ double TextbookGgx(const Imath::V3f& n, const Imath::V3f& l, const Imath::V3f& v
 void PrintHighlights() {
   std::printf("| lobe | textbook formula, float | nacre |\n|---|---|---|\n");
   for (const double roughness : {0.5, 0.3, 0.1, 0.05, 0.02, 0.01, 0.001}) {
-    Material material;
-    material.model = MetallicRoughnessMaterial{.base_color = Rgb(1),
-                                               .metallic = 1,
-                                               .roughness = roughness,
-                                               .compensation = Compensation::kNone};
+    Material material{.model = MetallicRoughnessMaterial{.base_color = Rgb(1),
+                                                         .metallic = 1,
+                                                         .roughness = roughness,
+                                                         .compensation = Compensation::kNone}};
     const double alpha = AlphaFromRoughness(roughness);
     PrintHighlight(
         "GGX, roughness", roughness, PrepareMaterial(material), alpha,
@@ -163,11 +162,10 @@ void PrintHighlights() {
         });
   }
   for (const double shininess : {1e2, 1e3, 1e4, 1e5, 1e6}) {
-    Material material;
-    material.model = PhongMaterial{.model = PhongModel::kPhong,
-                                   .convention = PhongConvention::kClassic,
-                                   .ks = Rgb(1),
-                                   .shininess = shininess};
+    Material material{.model = PhongMaterial{.model = PhongModel::kPhong,
+                                             .convention = PhongConvention::kClassic,
+                                             .ks = Rgb(1),
+                                             .shininess = shininess}};
     PrintHighlight(
         "Phong, exponent", shininess, PrepareMaterial(material), 0.5 / std::sqrt(shininess),
         [&](const Vec3d& n) {

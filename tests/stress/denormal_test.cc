@@ -26,8 +26,7 @@ TEST_CASE("workers flush denormals and the caller's mode stays") {
                                 usual | kFlushToZero | kDenormalsAreZero | kRoundDown}) {
     for (const int threads : {1, 4}) {
       std::atomic<int> strips{0}, flushing{0};
-      RenderSettings settings;
-      settings.threads = threads;
+      RenderSettings settings{.threads = threads};
       settings.on_progress = [&](double) {
         ++strips;
         const unsigned both = kFlushToZero | kDenormalsAreZero;
@@ -50,8 +49,7 @@ TEST_CASE("a sink that throws leaves the caller's mode too") {
   const Scene scene = MakeEverything();
   const unsigned before = Mode();
   for (const int threads : {1, 4}) {
-    RenderSettings settings;
-    settings.threads = threads;
+    RenderSettings settings{.threads = threads};
     settings.on_progress = [](double) { throw 1; };
     CHECK_THROWS_AS(RenderImage(scene, settings), int);
     CHECK(Mode() == before);

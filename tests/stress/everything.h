@@ -58,17 +58,13 @@ inline Scene MakeEverything() {
   }
   scene.spheres.push_back({{0, -1000, 0}, 1000, {0}});
   const auto add = [&](const std::string& name, auto kind) {
-    Light light;
-    light.name = name;
-    light.kind = std::move(kind);
-    scene.lights.push_back(std::move(light));
+    scene.lights.push_back(Light{.name = name, .kind = std::move(kind)});
   };
-  add("key", PointLight{.position = {3, 5, 6}, .intensity = {90, 85, 80}, .attenuation = {}});
+  add("key", PointLight{.position = {3, 5, 6}, .intensity = {90, 85, 80}});
   add("sun", DirectionalLight{.direction_of_travel = {1, -1, -0.5}, .irradiance = {0.5, 0.6, 0.7}});
   add("spot", SpotLight{.position = {-3, 5, 3},
                         .direction_of_travel = {3, -5, -3},
                         .intensity = {150, 150, 150},
-                        .attenuation = {},
                         .cutoff_deg = 25,
                         .inner_deg = 15,
                         .exponent = 2});
@@ -78,10 +74,9 @@ inline Scene MakeEverything() {
 
 // A mesh in front of the spheres, for tests that need no truth.
 inline void AddMesh(Scene* scene) {
-  Mesh mesh;
-  mesh.positions = {{-3, 0.125, 2}, {-1.5, 0.125, 2.5}, {-2.25, 1.5, 1.875}, {-1, 1.25, 2}};
-  mesh.triangles = {0, 1, 2, 1, 3, 2};
-  mesh.material = {0};
+  Mesh mesh{.positions = {{-3, 0.125, 2}, {-1.5, 0.125, 2.5}, {-2.25, 1.5, 1.875}, {-1, 1.25, 2}},
+            .triangles = {0, 1, 2, 1, 3, 2},
+            .material = {0}};
   scene->meshes.push_back(mesh);
 }
 

@@ -18,10 +18,7 @@ namespace {
 constexpr int kWidth = 320;
 
 Image Render(const Scene& scene, int threads = 0) {
-  RenderSettings settings;
-  settings.threads = threads;
-  settings.layers = {"N", "Z", "id.object"};
-  return RenderImage(scene, settings);
+  return RenderImage(scene, {.threads = threads, .layers = {"N", "Z", "id.object"}});
 }
 
 TEST_CASE("the stability gallery is right") {

@@ -28,9 +28,8 @@ Scene MakeScene(const Vec3d& light_position, double intensity) {
   scene.spheres = {{{0, 0, -3}, 1, {0}}, {{2, 0, -2.5}, 1, {1}}, {{-2, 0, -2.5}, 1, {2}}};
   Light light;
   light.name = "light";
-  light.kind = PointLight{.position = light_position,
-                          .intensity = Rgb(intensity, intensity, intensity),
-                          .attenuation = {}};
+  light.kind =
+      PointLight{.position = light_position, .intensity = Rgb(intensity, intensity, intensity)};
   scene.lights = {light};
   return scene;
 }

@@ -129,8 +129,7 @@ class Maker {
               DirectionalLight{.direction_of_travel = random_.Direction(), .irradiance = color};
           break;
         case 1:
-          light.kind =
-              PointLight{.position = LightPosition(), .intensity = color, .attenuation = {}};
+          light.kind = PointLight{.position = LightPosition(), .intensity = color};
           break;
         default:
           light.kind = PointLight{.position = LightPosition(),

@@ -19,10 +19,9 @@ TEST_CASE("random scenes are right") {
     Scene scene = MakeRandomScene(seed);
     UsePlainForms(&scene);
     REQUIRE(Validate(scene).empty());
-    RenderSettings settings;
-    settings.layers = {"N", "Z", "id.object"};
-    settings.threads = 1;
-    const Comparison c = Compare(scene, RenderImage(scene, settings), RenderTruth(scene, 1));
+    const Comparison c =
+        Compare(scene, RenderImage(scene, {.threads = 1, .layers = {"N", "Z", "id.object"}}),
+                RenderTruth(scene, 1));
     CAPTURE(c.false_hits, c.false_misses, c.wrong_objects, c.not_finite, c.normal_error);
     CHECK(c.GeometryHolds());
     CAPTURE(c.of_bound, c.worst_material, c.radiance_error);

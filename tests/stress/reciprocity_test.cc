@@ -126,10 +126,9 @@ TEST_CASE("reciprocal models are so to 16 roundings") {
         CheckReciprocal(material, sides.get(), kBound, 1e-30);
       }
       // Lewis 1994. r is rounded before it meets v, which moves the lobe by roundings of its peak.
-      Material phong;
-      phong.model = PhongMaterial{.model = PhongModel::kModifiedPhong,
-                                  .convention = PhongConvention::kClassic,
-                                  .shininess = 8};
+      Material phong{.model = PhongMaterial{.model = PhongModel::kModifiedPhong,
+                                            .convention = PhongConvention::kClassic,
+                                            .shininess = 8}};
       CheckReciprocal(phong, sides.get(), 8 * kBound, 0.3);
     }
   });

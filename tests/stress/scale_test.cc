@@ -51,11 +51,7 @@ Scene Moved(Scene scene, const Vec3d& offset) {
   return scene;
 }
 
-Image Render(const Scene& scene) {
-  RenderSettings settings;
-  settings.layers = {"all"};
-  return RenderImage(scene, settings);
-}
+Image Render(const Scene& scene) { return RenderImage(scene, {.layers = {"all"}}); }
 
 // The far tails of lobes underflow sooner or later by what they are multiplied with first: at
 // 2^-126, times what the intensity is then still to bring, here up to 150 and 2^40. Far below

@@ -74,9 +74,7 @@ Rgb8Picture MakeTriptych(const Image& image, const TruthPicture& truth,
 // Returns whether every bound holds.
 bool RunScene(const GalleryScene& entry, const Options& options) {
   const Scene scene = LoadGalleryScene(entry.name, options.width);
-  RenderSettings settings;
-  settings.layers = {"N", "Z", "id.object"};
-  const Image image = RenderImage(scene, settings);
+  const Image image = RenderImage(scene, {.layers = {"N", "Z", "id.object"}});
   const TruthPicture truth = RenderTruth(scene);
   const Comparison c = Compare(scene, image, truth);
   const bool holds = c.GeometryHolds() && c.RadianceHolds();
@@ -118,10 +116,9 @@ bool RunRandomScenes(uint64_t count) {
   for (uint64_t seed = 0; seed < count; ++seed) {
     Scene scene = MakeRandomScene(seed);
     UsePlainForms(&scene);
-    RenderSettings settings;
-    settings.layers = {"N", "Z", "id.object"};
-    settings.threads = 1;
-    const Comparison c = Compare(scene, RenderImage(scene, settings), RenderTruth(scene, 1));
+    const Comparison c =
+        Compare(scene, RenderImage(scene, {.threads = 1, .layers = {"N", "Z", "id.object"}}),
+                RenderTruth(scene, 1));
     pixels += c.pixels;
     doubtful += c.doubtful;
     normal = std::max(normal, c.normal_error);

@@ -162,14 +162,11 @@ class BrokenModelMaker {
         light.kind = DirectionalLight{facing, color};
         break;
       case 1:
-        light.kind = PointLight{.position = place, .intensity = color, .attenuation = {}};
+        light.kind = PointLight{.position = place, .intensity = color};
         break;
       case 2:
-        light.kind = SpotLight{.position = place,
-                               .direction_of_travel = -place,
-                               .intensity = color,
-                               .attenuation = {},
-                               .cutoff_deg = 60};
+        light.kind = SpotLight{
+            .position = place, .direction_of_travel = -place, .intensity = color, .cutoff_deg = 60};
         break;
       case 3:
         light.kind =
@@ -238,8 +235,7 @@ SurfaceFuzzResult FuzzSurfaces(uint64_t scenes, const std::function<void(double)
   SurfaceFuzzResult result;
   for (uint64_t seed = 0; seed < scenes; ++seed) {
     const Scene scene = MakeBrokenModel(seed);
-    RenderSettings settings;
-    settings.threads = 1;
+    RenderSettings settings{.threads = 1};
     RenderStats stats;
     JudgePicture(seed, RenderImage(scene, settings, &stats), &result);
     result.directions_not_finite += stats.directions_not_finite;

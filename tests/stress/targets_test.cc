@@ -36,11 +36,7 @@ void CheckAgainst(const Image& reference, const Image& image, const TruthPicture
   }
 }
 
-Image Render(const Scene& scene) {
-  RenderSettings settings;
-  settings.layers = {"all"};
-  return RenderImage(scene, settings);
-}
+Image Render(const Scene& scene) { return RenderImage(scene, {.layers = {"all"}}); }
 
 void CheckTargets(const Scene& scene, const TruthPicture* truth) {
   const TargetGuard guard;
@@ -79,9 +75,8 @@ TextureId AddSteepBumps(Scene* scene) {
   }
   scene->images.push_back({"bumps", std::make_shared<const MipChain>(
                                         MakeMipChain(kWidth, kHeight, 3, std::move(texels)))});
-  Texture texture;
-  texture.image = {static_cast<uint32_t>(scene->images.size() - 1)};
-  texture.mapping = MappingKind::kSpherical;
+  Texture texture{.image = {static_cast<uint32_t>(scene->images.size() - 1)},
+                  .mapping = MappingKind::kSpherical};
   scene->textures.push_back(texture);
   return {static_cast<uint32_t>(scene->textures.size() - 1)};
 }
@@ -113,8 +108,7 @@ TEST_CASE("targets agree on mirrors and lobes of every width under normal and bu
   scene.lights.push_back(
       {.name = "lamp", .kind = SphereAreaLight{.center = Vec3d(3, 4, 5), .radiance = Rgb(9)}});
   scene.lights.push_back(
-      {.name = "key",
-       .kind = PointLight{.position = Vec3d(-4, 1, 4), .intensity = Rgb(20), .attenuation = {}}});
+      {.name = "key", .kind = PointLight{.position = Vec3d(-4, 1, 4), .intensity = Rgb(20)}});
   CheckTargets(scene, nullptr);
 }
 

@@ -23,10 +23,7 @@ Scene OneSphere(const Vec3d& center, double radius) {
 }
 
 Light MakeLight(const Vec3d& position) {
-  Light light;
-  light.name = "key";
-  light.kind = PointLight{.position = position, .intensity = {8, 8, 8}, .attenuation = {}};
-  return light;
+  return {.name = "key", .kind = PointLight{.position = position, .intensity = {8, 8, 8}}};
 }
 
 const TruthPixel& Center(const TruthPicture& picture) { return picture.pixels[32 * 65 + 32]; }
@@ -53,8 +50,7 @@ TEST_CASE("a lambertian sphere seen and lit along its axis") {
 
 TEST_CASE("lobes at their peaks") {
   const TruthVec n(0, 0, 1);
-  Material material;
-  material.model = PhongMaterial{.ks = {1, 1, 1}, .shininess = 1e6};
+  Material material{.model = PhongMaterial{.ks = {1, 1, 1}, .shininess = 1e6}};
   CHECK(static_cast<double>(ReflectTruth(material, n, n, n).specular.x) ==
         Approx((1e6 + 2) / (2 * M_PI)).epsilon(1e-15));
   material.model =

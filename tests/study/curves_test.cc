@@ -14,11 +14,7 @@ NamedMaterial Prepared(const std::string& label, const Material& material) {
   return {label, PrepareMaterial(material)};
 }
 
-Material Matte(double albedo) {
-  Material material;
-  material.model = LambertMaterial{Rgb(albedo)};
-  return material;
-}
+Material Matte(double albedo) { return {.model = LambertMaterial{Rgb(albedo)}}; }
 
 }  // namespace
 
@@ -39,8 +35,7 @@ TEST_CASE("a slice's directions have its angles, at right angles to the half vec
 }
 
 TEST_CASE("a matte slice is its albedo over pi; several slices share one scale") {
-  Material bright;
-  bright.model = MetallicRoughnessMaterial{.metallic = 1, .roughness = 0.3};
+  Material bright{.model = MetallicRoughnessMaterial{.metallic = 1, .roughness = 0.3}};
   const std::vector<Plot> plots =
       SlicePlots({Prepared("matte", Matte(0.5)), Prepared("metal", bright)}, ColorChannel::kRed);
   REQUIRE(plots.size() == 2);
@@ -71,8 +66,7 @@ TEST_CASE("a black slice has a scale of its own") {
 }
 
 TEST_CASE("lobes are drawn around the mirror direction") {
-  Material metal;
-  metal.model = MetallicRoughnessMaterial{.metallic = 1, .roughness = 0.5};
+  Material metal{.model = MetallicRoughnessMaterial{.metallic = 1, .roughness = 0.5}};
   const MaterialFit fit = FitMaterial(metal, "blinn_phong");
   const Figure figure =
       LobeFigure({{"original", metal}, {"closed form", fit.guess}, {"fit", fit.fitted}});

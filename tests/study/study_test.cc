@@ -18,9 +18,7 @@ namespace {
 
 template <class Model>
 ShadingMaterial Prepare(const Model& model) {
-  Material material;
-  material.model = model;
-  return PrepareMaterial(material);
+  return PrepareMaterial(Material{.model = model});
 }
 
 std::vector<NamedMaterial> AllModels() {
@@ -133,13 +131,11 @@ TEST_CASE(
     const double mu = TableNumber(row.at("mu")), roughness = TableNumber(row.at("roughness"));
     const double one = TableNumber(row.at("E")), schlick = TableNumber(row.at("B"));
     for (const double metallic : {0.0, 0.3, 0.8, 1.0}) {
-      MetallicRoughnessMaterial material;
-      material.base_color = {1, 0.5, 0.1};
-      material.metallic = metallic;
-      material.roughness = roughness;
-      material.specular = 0.8;
-      Material any;
-      any.model = material;
+      MetallicRoughnessMaterial material{.base_color = {1, 0.5, 0.1},
+                                         .metallic = metallic,
+                                         .specular = 0.8,
+                                         .roughness = roughness};
+      Material any{.model = material};
       const Rgb share = ReflectedShare(PrepareMaterial(any), ShareOf::kFurnace, mu);
       for (int c = 0; c < 3; ++c) {
         const double base = material.base_color[c];
@@ -204,9 +200,7 @@ TEST_CASE("A distribution of normals covers the surface once") {
 TEST_CASE("From afar every light falls off with the square of its distance") {
   const std::vector<Light> lights = [] {
     std::vector<Light> all(4);
-    PointLight point;
-    point.intensity = Rgb(2);
-    all[0].kind = point;
+    all[0].kind = PointLight{.intensity = Rgb(2)};
     all[1].kind = SphereAreaLight{.radius = 0.5, .radiance = Rgb(3)};
     all[2].kind = DiskAreaLight{.radius = 0.5, .radiance = Rgb(3)};
     all[3].kind = RectangleAreaLight{.width = 2, .height = 0.5, .radiance = Rgb(3)};
@@ -223,9 +217,7 @@ TEST_CASE("From afar every light falls off with the square of its distance") {
   // A sphere's irradiance is exactly that of a point at its centre; inside there is none.
   CHECK(*IrradianceAt(lights[1], 0.6) == Approx(intensity[1] / 0.36));
   CHECK(!IrradianceAt(lights[1], 0.4));
-  Light sky;
-  sky.kind = AmbientLight{Rgb(1)};
-  CHECK(!HasFalloff(sky));
+  CHECK(!HasFalloff(Light{.kind = AmbientLight{Rgb(1)}}));
 }
 
 TEST_CASE("Errors of hits are those that the forms are known for") {

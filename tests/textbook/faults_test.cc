@@ -214,10 +214,8 @@ TEST_CASE("words and program disagree where both are followed") {
 // The scene that holds the same set-up, one sample through each pixel's centre, and without what
 // the lesson has not got: shadows, light that bounces more than once, a base below its gloss.
 Image RenderScene(const std::string& name) {
-  LoadOptions options;
-  options.overrides = {{"/image/spp", "1"}, {"/image/shadows", "false"}};
-  Scene scene =
-      LoadScene(std::string(NACRE_SOURCE_DIR) + "/scenes/textbook/" + name + ".json", options);
+  Scene scene = LoadScene(std::string(NACRE_SOURCE_DIR) + "/scenes/textbook/" + name + ".json",
+                          {.overrides = {{"/image/spp", "1"}, {"/image/shadows", "false"}}});
   for (Material& material : scene.materials) {
     if (auto* pbr = std::get_if<MetallicRoughnessMaterial>(&material.model)) {
       pbr->compensation = Compensation::kNone;

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/visibility/bend_kernel.cc: the loop behind bend_kernel.h.
-#include <algorithm>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "visibility/bend_kernel.cc"
 #include "hwy/foreach_target.h"
@@ -9,39 +7,23 @@
 #include "hwy/highway.h"
 
 #include "hit/shading_normal-inl.h"
+#include "queries-inl.h"
 #include "visibility/bend_kernel.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
-using BendTag = hn::ScalableTag<double>;
-using BendV = hn::Vec<BendTag>;
-
-Vec3V<BendV> Gather(const std::vector<BendQuery>& queries, size_t first, Vec3d BendQuery::*vector) {
-  const BendTag d;
-  alignas(64) double lanes[3][16];
-  for (size_t i = 0; i < hn::Lanes(d); ++i) {
-    const Vec3d& from = queries[std::min(first + i, queries.size() - 1)].*vector;
-    for (int c = 0; c < 3; ++c) lanes[c][i] = from[c];
-  }
-  return Load3(d, lanes[0], lanes[1], lanes[2]);
-}
-
-void AskT(const std::vector<BendQuery>& queries, bool grazing, std::vector<Vec3d>* answers) {
-  const BendTag d;
-  for (size_t first = 0; first < queries.size(); first += hn::Lanes(d)) {
-    const Vec3V<BendV> normal = Gather(queries, first, &BendQuery::normal);
-    const Vec3V<BendV> to_view = Gather(queries, first, &BendQuery::to_view);
-    const Vec3V<BendV> bent =
+std::vector<Vec3d> AskT(const std::vector<BendQuery>& queries, bool grazing) {
+  return AskInPackets<double, Vec3d>(queries, [=](const auto& packet) {
+    const hn::ScalableTag<double> d;
+    const auto normal = packet.Vector(&BendQuery::normal);
+    const auto to_view = packet.Vector(&BendQuery::to_view);
+    packet.Store3(
         grazing ? GrazingView(d, normal, to_view)
-                : BendNormal(d, normal, Gather(queries, first, &BendQuery::surface), to_view);
-    alignas(64) double lanes[3][16];
-    Store3(bent, d, lanes[0], lanes[1], lanes[2]);
-    for (size_t i = 0; i < hn::Lanes(d) && first + i < queries.size(); ++i) {
-      answers->push_back(Vec3d(lanes[0][i], lanes[1][i], lanes[2][i]));
-    }
-  }
+                : BendNormal(d, normal, packet.Vector(&BendQuery::surface), to_view),
+        [](Vec3d & answer) -> auto& { return answer; });
+  });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -52,14 +34,10 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(AskT);
 std::vector<Vec3d> AskBend(const std::vector<BendQuery>& queries) {
-  std::vector<Vec3d> answers;
-  HWY_DYNAMIC_DISPATCH(AskT)(queries, false, &answers);
-  return answers;
+  return HWY_DYNAMIC_DISPATCH(AskT)(queries, false);
 }
 std::vector<Vec3d> AskGrazing(const std::vector<BendQuery>& queries) {
-  std::vector<Vec3d> answers;
-  HWY_DYNAMIC_DISPATCH(AskT)(queries, true, &answers);
-  return answers;
+  return HWY_DYNAMIC_DISPATCH(AskT)(queries, true);
 }
 }  // namespace nacre
 #endif

@@ -30,8 +30,7 @@ void AddChecker(Scene* scene) {
   }
   scene->images.push_back({"checker", std::make_shared<const MipChain>(
                                           MakeMipChain(kTexels, kTexels, 1, std::move(values)))});
-  Texture texture;
-  texture.image = {0};
+  Texture texture{.image = {0}};
   texture.sampling.filter = TextureFilter::kNearest;
   scene->textures.push_back(texture);
 }

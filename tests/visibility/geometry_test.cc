@@ -53,9 +53,7 @@ TEST_CASE(
 TEST_CASE("geometry is relative to the camera") {
   Scene scene;
   scene.spheres = {MakeSphere({1, 2, 3}, 1), MakeSphere({0, 0, 0}, 2)};
-  Mesh triangle;
-  triangle.positions = {{0, 0, 0}, {1, 0, 0}, {0, 30, 40}};
-  triangle.triangles = {0, 1, 2};
+  Mesh triangle{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 30, 40}}, .triangles = {0, 1, 2}};
   scene.meshes = {triangle, Mesh{}, triangle};
   const TraceGeometry geometry = MakeTraceGeometry(scene, {1, 1, 1});
   CHECK(geometry.spheres[0].center == Vec3d(0, 1, 2));

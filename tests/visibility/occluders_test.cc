@@ -12,15 +12,11 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Light PointAt(const Vec3d& position) {
-  Light light;
-  light.kind = PointLight{.position = position, .intensity = {1, 1, 1}, .attenuation = {}};
-  return light;
+  return {.kind = PointLight{.position = position, .intensity = {1, 1, 1}}};
 }
 
 Light SunAlong(const Vec3d& direction) {
-  Light light;
-  light.kind = DirectionalLight{.direction_of_travel = direction, .irradiance = {1, 1, 1}};
-  return light;
+  return {.kind = DirectionalLight{.direction_of_travel = direction, .irradiance = {1, 1, 1}}};
 }
 
 // Shadow rays from those surfaces that face the light.

@@ -11,10 +11,6 @@
 namespace nacre {
 namespace {
 
-Vec3d TableVector(const nlohmann::json& v) {
-  return {v[0].get<double>(), v[1].get<double>(), v[2].get<double>()};
-}
-
 struct TableRow {
   std::string id, family;
   Ray ray;

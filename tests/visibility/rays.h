@@ -52,8 +52,7 @@ inline Scene RandomShapes(unsigned seed) {
     scene.spheres.push_back({Vec3d(in(random), in(random), in(random)), 0.2, {0}});
   }
   for (const uint32_t material : {1u, 0u, 1u}) {
-    Mesh mesh;
-    mesh.material = {material};
+    Mesh mesh{.material = {material}};
     for (uint32_t i = 0; i < 60; ++i) {
       mesh.positions.emplace_back(in(random), in(random), in(random));
       mesh.uvs.emplace_back(in(random), in(random));

@@ -167,10 +167,9 @@ void AddSquare(const Vec3d& within, const Vec3d& normal, double half, Random* ra
   const Vec3d x = normal.cross(random->Direction()).normalized(), y = normal.cross(x);
   const Vec3d center =
       within + x * random->Uniform(-0.9, 0.9) * half + y * random->Uniform(-0.9, 0.9) * half;
-  Mesh mesh;
-  mesh.positions = {center - x * half - y * half, center + x * half - y * half,
-                    center + x * half + y * half, center - x * half + y * half};
-  mesh.triangles = {0, 1, 2, 0, 2, 3};
+  Mesh mesh{.positions = {center - x * half - y * half, center + x * half - y * half,
+                          center + x * half + y * half, center - x * half + y * half},
+            .triangles = {0, 1, 2, 0, 2, 3}};
   scene->meshes.push_back(mesh);
 }
 

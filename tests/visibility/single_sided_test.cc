@@ -102,9 +102,8 @@ TEST_CASE("rays pass through the backs of single-sided triangles, light through 
 TEST_CASE(
     "a closed single-sided mesh has no gaps: all rays from outside meet it, from inside none") {
   // An octahedron of unequal axes.
-  Mesh closed;
-  closed.positions = {{1, 0.1, 0},  {-0.9, 0, 0.2}, {0, 1.1, 0},
-                      {0.1, -1, 0}, {0, 0, 1.2},    {0, 0, -1}};
+  Mesh closed{.positions = {
+                  {1, 0.1, 0}, {-0.9, 0, 0.2}, {0, 1.1, 0}, {0.1, -1, 0}, {0, 0, 1.2}, {0, 0, -1}}};
   for (const uint32_t x : {0u, 1u}) {
     for (const uint32_t y : {2u, 3u}) {
       for (const uint32_t z : {4u, 5u}) {

@@ -30,8 +30,7 @@ TEST_CASE("a shading normal turns to the viewer, whichever way it and the triang
   for (const double side : {1.0, -1.0}) {
     for (const std::vector<uint32_t>& winding : {std::vector<uint32_t>{0, 1, 2}, {0, 2, 1}}) {
       Scene scene;
-      Mesh mesh;
-      mesh.positions = {{-9, -9, -5}, {9, -9, -5}, {0, 9, -5}};
+      Mesh mesh{.positions = {{-9, -9, -5}, {9, -9, -5}, {0, 9, -5}}};
       mesh.normals.assign(3, Vec3d(0, 0.6, 0.8) * side);
       mesh.triangles = winding;
       scene.meshes = {mesh};

@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/sampled_kernel.h: the SIMD loops of sampled_lights.cc over the hits of a batch. Products
-// and sums are never fused, so that every target gives the same bits.
+// render/lighting_kernel.h: the SIMD loops of the direct integrator over the hits of a batch.
+// Products and sums are never fused, so that every target gives the same bits.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
+#include "hit/batch.h"
+#include "shading/light.h"
 #include "shading/light_sampling.h"
 
 namespace nacre {
+
+// Makes rays [0, rays->count): ray r starts from hit from[r], at origin[from[r]], and goes to the
+// light. Entries after them, up to a whole vector, are overwritten.
+void FillShadowRays(const ShadingLight& light, const HitBatch& hits, const Soa3<double>& origin,
+                    const AlignedArray<uint32_t>& from, ShadowRayBatch* rays);
 
 // Sets `light` to a light of irradiance 1 from the sampled directions, and 0 where the direction
 // misses the light or is below the horizon (LowestHeight). Returns how many directions are not
@@ -21,11 +28,10 @@ size_t IlluminateAlong(const LightDirections& directions, const Surface& surface
 void AimShadowRays(const LightDirections& directions, const float* irradiance, size_t count,
                    ShadowRayBatch* rays);
 
-// The sum of two pdfs, each of which may be null.
-void AddPdfs(const float* a, const float* b, size_t count, float* sum);
-
-// weight = 1 / pdf; 0 where the irradiance or the pdf is 0.
-void ComputeWeights(const float* irradiance, const float* pdf, size_t count, float* weight);
+// weight = 1 / (a + b), where a and b are pdfs, each of which may be null; 0 where the irradiance
+// or the sum is 0.
+void ComputeWeights(const float* irradiance, const float* a, const float* b, size_t count,
+                    float* weight);
 
 // sum += part * weight * color, also times `radiance` unless that is null.
 void AddWeighted(const Soa3<float>& part, const float* weight, const Soa3<float>* radiance,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/sampled_kernel.h"
+#include "render/lighting_kernel.h"
 
 #include <cmath>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "render/sampled_kernel.cc"
+#define HWY_TARGET_INCLUDE "render/lighting_kernel.cc"
 #include "hwy/foreach_target.h"
 
 #include "shading/soa-inl.h"
@@ -18,6 +18,47 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
 using DD = hn::ScalableTag<double>;
+
+// Fills one coordinate of the rays' origins, and of their directions to a light at `light`.
+HWY_INLINE void FillCoordinate(const double* HWY_RESTRICT origin, double light,
+                               const uint32_t* HWY_RESTRICT from, size_t count,
+                               double* HWY_RESTRICT ray_origin, double* HWY_RESTRICT direction) {
+  const hn::ScalableTag<double> d;
+  const hn::Rebind<int64_t, decltype(d)> di;
+  const hn::Rebind<uint32_t, decltype(d)> du;
+  const auto place = hn::Set(d, light);
+  for (size_t ray = 0; ray < count; ray += hn::Lanes(d)) {
+    const auto hit = hn::BitCast(
+        di, hn::PromoteTo(hn::RebindToUnsigned<decltype(di)>(), hn::LoadU(du, from + ray)));
+    const auto start = hn::GatherIndex(d, origin, hit);
+    hn::Store(start, d, ray_origin + ray);
+    hn::Store(hn::Sub(place, start), d, direction + ray);
+  }
+}
+
+void FillShadowRaysT(const ShadingLight& light, const HitBatch& hits, const Soa3<double>& origin,
+                     const AlignedArray<uint32_t>& from, ShadowRayBatch* rays) {
+  const Vec3d& place = light.position;
+  const size_t count = rays->count;
+  ShadowRayBatch& r = *rays;
+  const uint32_t* const hit = from.data();
+  FillCoordinate(origin.x.data(), place.x, hit, count, r.origin.x.data(), r.direction.x.data());
+  FillCoordinate(origin.y.data(), place.y, hit, count, r.origin.y.data(), r.direction.y.data());
+  FillCoordinate(origin.z.data(), place.z, hit, count, r.origin.z.data(), r.direction.z.data());
+  const hn::ScalableTag<double> d;
+  const auto t_max = hn::Set(d, light.TMax());
+  for (size_t ray = 0; ray < count; ray += hn::Lanes(d)) hn::Store(t_max, d, r.t_max.data() + ray);
+  for (size_t ray = 0; ray < count; ++ray) r.primitive[ray] = hits.primitive[hit[ray]];
+  if (light.form != LightForm::kDirectional) return;
+  const auto x = hn::Set(d, light.to_light.x);
+  const auto y = hn::Set(d, light.to_light.y);
+  const auto z = hn::Set(d, light.to_light.z);
+  for (size_t ray = 0; ray < count; ray += hn::Lanes(d)) {
+    hn::Store(x, d, r.direction.x.data() + ray);
+    hn::Store(y, d, r.direction.y.data() + ray);
+    hn::Store(z, d, r.direction.z.data() + ray);
+  }
+}
 
 size_t IlluminateAlongT(const LightDirections& directions, const Surface& surface, size_t count,
                         LightBatch* light) {
@@ -66,22 +107,16 @@ void AimShadowRaysT(const LightDirections& directions, const float* irradiance, 
   }
 }
 
-void AddPdfsT(const float* a, const float* b, size_t count, float* sum) {
-  const D d;
-  const auto at = [&](const float* pdf, size_t i)
-                      HWY_ATTR { return pdf != nullptr ? hn::LoadU(d, pdf + i) : hn::Zero(d); };
-  for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-    hn::StoreU(hn::Add(at(a, i), at(b, i)), d, sum + i);
-  }
-}
-
-void ComputeWeightsT(const float* irradiance, const float* pdf, size_t count, float* weight) {
+void ComputeWeightsT(const float* irradiance, const float* a, const float* b, size_t count,
+                     float* weight) {
   const D d;
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const auto at = [&](const float* pdf, size_t i)
+                      HWY_ATTR { return pdf != nullptr ? hn::LoadU(d, pdf + i) : zero; };
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const V chosen = hn::LoadU(d, pdf + i);
-    const auto counts = hn::And(hn::Gt(hn::LoadU(d, irradiance + i), zero), hn::Gt(chosen, zero));
-    const V inverse = hn::Div(one, hn::IfThenElse(counts, chosen, one));
+    const V pdf = hn::Add(at(a, i), at(b, i));
+    const auto counts = hn::And(hn::Gt(hn::LoadU(d, irradiance + i), zero), hn::Gt(pdf, zero));
+    const V inverse = hn::Div(one, hn::IfThenElse(counts, pdf, one));
     hn::StoreU(hn::IfThenElseZero(counts, inverse), d, weight + i);
   }
 }
@@ -115,11 +150,16 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace nacre {
+HWY_EXPORT(FillShadowRaysT);
 HWY_EXPORT(IlluminateAlongT);
 HWY_EXPORT(AimShadowRaysT);
-HWY_EXPORT(AddPdfsT);
 HWY_EXPORT(ComputeWeightsT);
 HWY_EXPORT(AddWeightedT);
+
+void FillShadowRays(const ShadingLight& light, const HitBatch& hits, const Soa3<double>& origin,
+                    const AlignedArray<uint32_t>& from, ShadowRayBatch* rays) {
+  HWY_DYNAMIC_DISPATCH(FillShadowRaysT)(light, hits, origin, from, rays);
+}
 
 size_t IlluminateAlong(const LightDirections& directions, const Surface& surface, size_t count,
                        LightBatch* light) {
@@ -131,12 +171,9 @@ void AimShadowRays(const LightDirections& directions, const float* irradiance, s
   HWY_DYNAMIC_DISPATCH(AimShadowRaysT)(directions, irradiance, count, rays);
 }
 
-void AddPdfs(const float* a, const float* b, size_t count, float* sum) {
-  HWY_DYNAMIC_DISPATCH(AddPdfsT)(a, b, count, sum);
-}
-
-void ComputeWeights(const float* irradiance, const float* pdf, size_t count, float* weight) {
-  HWY_DYNAMIC_DISPATCH(ComputeWeightsT)(irradiance, pdf, count, weight);
+void ComputeWeights(const float* irradiance, const float* a, const float* b, size_t count,
+                    float* weight) {
+  HWY_DYNAMIC_DISPATCH(ComputeWeightsT)(irradiance, a, b, count, weight);
 }
 
 void AddWeighted(const Soa3<float>& part, const float* weight, const Soa3<float>* radiance,
