@@ -100,7 +100,8 @@ void BenchMapped(benchmark::State& state, const Material& material, Target targe
   const FlushDenormals flush;
   const Scene scene = MakeScene(material);
   KeptTables tables;
-  const TextureScene textures = PrepareTextures(scene, MakeFrame(), 1, 0, &tables);
+  const TextureScene textures = PrepareTextures(scene, 1, 0, &tables);
+  const CameraFrame camera = MakeFrame();
   const ShadingMaterial prepared = PrepareMaterial(scene.materials[0]);
   HitBatch hits = MakeHits();
   Surface surface;
@@ -113,7 +114,7 @@ void BenchMapped(benchmark::State& state, const Material& material, Target targe
   ReflectedRadiance radiance;
   for (auto _ : state) {
     if (prepared.scene_material != nullptr) {
-      TextureHits({textures, prepared, 0, kHits, hits, surface, *texture_hits});
+      TextureHits({textures, prepared, 0, kHits, hits, surface, *texture_hits, {&camera}});
     }
     PrepareRun(prepared, 0, kHits, &surface, texture_hits.get());
     EvaluateLight(shading_light, hits, surface, &on_hits);

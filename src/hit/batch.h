@@ -189,7 +189,8 @@ struct ShadowRayBatch {
   // which is never occluded.
   AlignedArray<double> t_max{kBatchCapacity};
   AlignedArray<uint32_t> primitive{kBatchCapacity};  // where the ray starts
-  // kLeavesOutward and its like: outward from spheres that were hit from outside and face the light
+  // One of the numbers above: kLeavesOutward for rays from spheres that were hit from outside and
+  // face the light.
   AlignedArray<double> own_after{kBatchCapacity};
   AlignedArray<uint8_t> occluded{kBatchCapacity};  // the result: 1 if occluded
 };

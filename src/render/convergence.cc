@@ -58,18 +58,10 @@ void MeasurePixel(const ErrorBound& error, const Rgb& background, uint32_t pixel
   c->intervals.tolerance[pixel] = strictest;
 }
 
-// Measures the pixels of the blocks that have active ones, and judges whether they have samples
-// enough. Outline pixels that are no longer active keep their intervals.
+// Measures the active pixels, and judges whether they have samples enough. The others keep their
+// intervals: they take no samples that would change them.
 void MeasureActive(const ErrorBound& error, const Rgb& background, CellState* c) {
-  uint32_t active[kCellBlocks] = {};  // pixels, as bits
-  for (const uint32_t pixel : c->active) active[pixel / kBlockPixels] |= 1u << pixel % kBlockPixels;
-  for (uint32_t pixel = 0; pixel < kCellPixels; ++pixel) {
-    const uint32_t of_block = active[pixel / kBlockPixels];
-    const bool is_active = (of_block >> pixel % kBlockPixels & 1) != 0;
-    if (is_active || (of_block != 0 && !c->outlines.on_outline[pixel])) {
-      MeasurePixel(error, background, pixel, c);
-    }
-  }
+  for (const uint32_t pixel : c->active) MeasurePixel(error, background, pixel, c);
   RequireEvidence(c);
 }
 

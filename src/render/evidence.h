@@ -80,7 +80,7 @@ void ClearEvidence(CellEvidence* evidence);
 struct CellState {
   std::vector<uint32_t> active;  // pixels that need more samples
   CellSamples samples;
-  CellIntervals intervals;  // of blocks with active pixels
+  CellIntervals intervals;  // of pixels that are or were active
   BlockEdges edges;
   OutlinePixels outlines;
   CellDust dust;

@@ -122,6 +122,7 @@ void ShadePoints(const MeshShading& plans, const Point* points, size_t count, Me
   Surfaces& surfaces = room->surfaces;
   const BatchRadiance& radiance = room->radiance;
   MakeHits(plans.direct.shapes.camera, points, count, &surfaces);
+  surfaces.footprints = {&plans.surfaces.camera};
   surfaces.runs = {{to->material, &plans.surfaces.materials[to->material.index], 0, count, false}};
   PrepareSurfaces(plans.surfaces, &surfaces);
   // Over the samples, in double, by array of a SideRadiance.

@@ -54,8 +54,13 @@ void NoteMirrors(const NotedMaterials& of, const char* parameter, MaterialTrait 
   int count = 0;
   const std::string names = NameMaterials(of, trait, [&](size_t i) {
     const Material& material = of.scene.materials[i];
-    const bool of_coat = trait == MaterialTrait::kCoatMirror;
-    greatest = std::max(greatest, LobeRoughness(of_coat ? CoatsOf(material).front() : material));
+    if (trait == MaterialTrait::kMirror) greatest = std::max(greatest, LobeRoughness(material));
+    if (trait == MaterialTrait::kCoatMirror) {
+      for (const Coat& coat : CoatsOf(material)) {
+        const double roughness = LobeRoughness(coat.material);
+        if (roughness < kDeltaRoughness) greatest = std::max(greatest, roughness);
+      }
+    }
     ++count;
     return true;
   });

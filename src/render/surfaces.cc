@@ -177,11 +177,13 @@ size_t CopyCoats(Surfaces* s) {
 }
 
 // Looks up the maps of a run's material or of one of its coats.
-void LookUpMaps(const SurfacePlan& plan, const ShadingMaterial& material, const MaterialRun& run,
-                HitBatch* hits, Surface* surface, std::unique_ptr<HitParameters>* textures) {
+void LookUpMaps(const SurfacePlan& plan, const RayFootprints& footprints,
+                const ShadingMaterial& material, const MaterialRun& run, HitBatch* hits,
+                Surface* surface, std::unique_ptr<HitParameters>* textures) {
   if (material.scene_material == nullptr) return;
   if (!*textures) *textures = std::make_unique<HitParameters>();
-  TextureHits({plan.textures, material, run.begin, run.end, *hits, *surface, **textures});
+  TextureHits(
+      {plan.textures, material, run.begin, run.end, *hits, *surface, **textures, footprints});
 }
 
 bool MapsNormals(const ShadingMaterial& material) {
@@ -207,19 +209,19 @@ void LookUpMaps(const SurfacePlan& plan, size_t coats, Surfaces* s) {
   }
   if (!plan.textured) return;
   for (const MaterialRun& run : s->runs) {
-    LookUpMaps(plan, *run.shading, run, &s->hits, &s->surface, &s->textures);
+    LookUpMaps(plan, s->footprints, *run.shading, run, &s->hits, &s->surface, &s->textures);
   }
   for (const MaterialRun& run : LitRuns(*s)) {
     for (size_t k = 0; k < run.shading->coats.size(); ++k) {
       CoatHits& coat = s->coats[k];
-      LookUpMaps(plan, *run.shading->coats[k], run, &coat.hits, &coat.surface, &coat.textures);
+      LookUpMaps(plan, s->footprints, *run.shading->coats[k], run, &coat.hits, &coat.surface,
+                 &coat.textures);
     }
   }
 }
 
-void PlanTextures(const Scene& scene, const RenderSettings& settings, const CameraFrame& camera,
-                  const std::vector<bool>& used, KeptTables* tables, SurfacePlan* plan,
-                  Explanation* why) {
+void PlanTextures(const Scene& scene, const RenderSettings& settings, const std::vector<bool>& used,
+                  KeptTables* tables, SurfacePlan* plan, Explanation* why) {
   const std::vector<MaterialTraits>& traits = plan->prepared->traits;
   size_t count = 0;
   const bool any = Has(plan->prepared->any, MaterialTrait::kTextured);
@@ -234,7 +236,7 @@ void PlanTextures(const Scene& scene, const RenderSettings& settings, const Came
   // assumed.
   const double samples = settings.max_error > 0 ? 64 : scene.image.spp;
   const double footprint = std::max(1 / std::sqrt(samples), 0.125);
-  plan->textures = PrepareTextures(scene, camera, footprint, settings.threads, tables);
+  plan->textures = PrepareTextures(scene, footprint, settings.threads, tables);
   size_t bytes = 0;
   for (const SceneImage& image : scene.images) bytes += image.texels->ImageBytes();
   why->items.push_back(
@@ -263,6 +265,7 @@ SurfacePlan PlanSurfaces(const Scene& scene, const RenderSettings& settings,
                          const std::vector<bool>& used, KeptTables* tables, Explanation* why) {
   SurfacePlan plan;
   plan.primitives = NumberPrimitives(scene);
+  plan.camera = camera;
   plan.frame_width = scene.image.width;
   why->items.push_back({"ambient light", !IsBlack(ambient),
                         IsBlack(ambient)
@@ -277,7 +280,7 @@ SurfacePlan PlanSurfaces(const Scene& scene, const RenderSettings& settings,
       {"coats", coated,
        coated ? "over some materials, each with a lobe of its own" : "no material has any"});
   plan.interpolates = std::any_of(scene.meshes.begin(), scene.meshes.end(), InterpolatesRadiance);
-  PlanTextures(scene, settings, camera, used, tables, &plan, why);
+  PlanTextures(scene, settings, used, tables, &plan, why);
   plan.textures.ambient = ambient;
   return plan;
 }
@@ -297,6 +300,7 @@ void ResolveSurfaces(const SurfacePlan& plan, const double* film_x, CameraHits* 
     return;
   }
   SortHits(plan, film_x, hits, room, surfaces);
+  surfaces->footprints = {&plan.camera};
   PrepareSurfaces(plan, surfaces);
 }
 
@@ -305,16 +309,17 @@ namespace {
 // Attenuates the emission and the reflected ambient light of a hit below a coat, which the radiance
 // of lights does not include, by the coat's transmittance, and adds the ambient light that the coat
 // reflects: its albedo times the radiance.
-void CoverByCoat(const Rgb& ambient, const CoatHits& coat, const MaterialRun& run,
+void CoverByCoat(const Rgb& ambient, const CoatHits& coat, size_t number, const MaterialRun& run,
                  HitParameters* below) {
+  const Rgb& tint = run.shading->coats[number]->tint;
   for (int c = 0; c < 3; ++c) {
     const AlignedArray<float>& left = ChannelOf(coat.surface.transmittance, c);
     AlignedArray<float>& reflected = ChannelOf(below->ambient, c);
     AlignedArray<float>& emission = ChannelOf(below->emission, c);
     for (size_t i = run.begin; i < run.end; ++i) {
-      reflected[i] =
-          static_cast<float>(left[i] * double{reflected[i]} + (1 - double{left[i]}) * ambient[c]);
-      emission[i] *= left[i];
+      const double albedo = 1 - double{left[i]}, transmittance = left[i] * tint[c];
+      reflected[i] = static_cast<float>(transmittance * reflected[i] + albedo * ambient[c]);
+      emission[i] = static_cast<float>(transmittance * emission[i]);
     }
   }
 }
@@ -332,7 +337,7 @@ void PrepareSurfaces(const SurfacePlan& plan, Surfaces* surfaces) {
     PrepareBsdf(*run.shading, run.begin, run.end, s.textures.get(), &s.surface, s.coats);
     if (!run.shading->by_hit.parameters) continue;
     for (size_t k = 0; k < run.shading->coats.size(); ++k) {
-      CoverByCoat(plan.textures.ambient, s.coats[k], run, s.textures.get());
+      CoverByCoat(plan.textures.ambient, s.coats[k], k, run, s.textures.get());
     }
   }
 }

@@ -21,6 +21,7 @@ namespace nacre {
 
 struct SurfacePlan {
   PrimitiveNumbers primitives;
+  CameraFrame camera;
   int frame_width = 0;  // in pixels, for split materials
   std::shared_ptr<const PreparedMaterials> prepared;
   std::span<const ShadingMaterial> materials;  // PreparedMaterials::all
@@ -59,6 +60,7 @@ struct MaterialRun {
 
 struct Surfaces {
   HitBatch hits;
+  RayFootprints footprints;  // of the rays that hit
   Surface surface;
   std::vector<MaterialRun> runs;  // those that are not interpolated come first
   size_t lit_runs = 0;            // number of runs that are shaded by lights, not interpolated

@@ -139,9 +139,9 @@ std::shared_ptr<const TexelMaps> FindTexelMaps(const Scene& scene, const LightsP
     if (ModelOf(material) == nullptr) continue;
     AddLooks(scene, material, max_error, &looks);
     AddNormals(scene, material, &normals);
-    for (const Material& coat : CoatsOf(material)) {
-      AddLooks(scene, coat, max_error, &looks);
-      AddNormals(scene, coat, &normals);
+    for (const Coat& coat : CoatsOf(material)) {
+      AddLooks(scene, coat.material, max_error, &looks);
+      AddNormals(scene, coat.material, &normals);
     }
     AddOpacity(scene, material, &opacities);
     maps->any_looks = maps->any_looks || !looks.empty();

@@ -76,7 +76,7 @@ struct Circles {
 };
 
 Circles CirclesOf(const Plot& plot) {
-  const Range radius = RangeOf(plot, Which::kY);
+  const AxisRange radius = RangeOf(plot, Which::kY);
   const double step = std::isfinite(plot.y.step) ? plot.y.step : NiceStep(radius.high / 6);
   const double end =
       std::isfinite(plot.y.high) ? plot.y.high : step * std::ceil(radius.high / step - 1e-9);
@@ -142,7 +142,7 @@ std::string CurveStyleText(const Curve& curve, size_t place) {
   return fmt::format("with lines {} dt {}", line, kDashes[look.form]);
 }
 
-std::string AxisText(char name, const Axis& axis, const Range& range) {
+std::string AxisText(char name, const Axis& axis, const AxisRange& range) {
   std::string text = fmt::format("set {}label {} noenhanced\n", name, GnuplotQuote(axis.label));
   text += fmt::format("{} logscale {}\n", axis.log ? "set" : "unset", name);
   text += fmt::format("set {}range [{}:{}]\n", name, Number(range.low), Number(range.high));

@@ -18,9 +18,10 @@ bool IsShown(double value, const Axis& axis) {
 }
 
 // The range of the data; low > high if there is none.
-Range DataRange(const Plot& plot, Which which) {
+AxisRange DataRange(const Plot& plot, Which which) {
   const Axis& axis = which == Which::kX ? plot.x : plot.y;
-  Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  AxisRange range{std::numeric_limits<double>::infinity(),
+                  -std::numeric_limits<double>::infinity()};
   for (const Curve& curve : plot.curves) {
     for (const double value : which == Which::kX ? curve.x : curve.y) {
       if (!IsShown(value, axis)) continue;
@@ -34,7 +35,7 @@ Range DataRange(const Plot& plot, Which which) {
 constexpr double kRounding = 1e-9;  // of a step: a value on a tick must stay on it
 
 // Extends the range to the next ticks.
-Range RoundLinear(const Range& range) {
+AxisRange RoundLinear(const AxisRange& range) {
   const double step = NiceStep((range.high - range.low) / 8);
   return {step * std::floor(range.low / step + kRounding),
           step * std::ceil(range.high / step - kRounding)};
@@ -42,7 +43,7 @@ Range RoundLinear(const Range& range) {
 
 // Extends the range to 1, 2 or 5 times a power of ten, or, if it has many decades, to whole
 // decades.
-Range RoundLogarithmic(const Range& range) {
+AxisRange RoundLogarithmic(const AxisRange& range) {
   if (IsManyDecades(range)) {
     return {std::pow(10, std::floor(std::log10(range.low) + kRounding)),
             std::pow(10, std::ceil(std::log10(range.high) - kRounding))};
@@ -53,17 +54,18 @@ Range RoundLogarithmic(const Range& range) {
 
 }  // namespace
 
-double PlaceOf(double value, const Axis& axis, const Range& range) {
+double PlaceOf(double value, const Axis& axis, const AxisRange& range) {
   if (!axis.log) return (value - range.low) / (range.high - range.low);
   return std::log(value / range.low) / std::log(range.high / range.low);
 }
 
-Range RangeOf(const Plot& plot, Which which) {
+AxisRange RangeOf(const Plot& plot, Which which) {
   const Axis& axis = which == Which::kX ? plot.x : plot.y;
-  Range range = DataRange(plot, which);
+  AxisRange range = DataRange(plot, which);
   if (!(range.low <= range.high)) range = {1, 10};  // nothing to show
   if (range.low == range.high) {
-    range = axis.log ? Range{range.low / 10, range.low * 10} : Range{range.low - 1, range.low + 1};
+    range = axis.log ? AxisRange{range.low / 10, range.low * 10}
+                     : AxisRange{range.low - 1, range.low + 1};
   }
   range = axis.log ? RoundLogarithmic(range) : RoundLinear(range);
   if (std::isfinite(axis.low)) range.low = axis.low;
@@ -73,7 +75,7 @@ Range RangeOf(const Plot& plot, Which which) {
   return range;
 }
 
-bool IsManyDecades(const Range& range) { return range.high > 300 * range.low; }
+bool IsManyDecades(const AxisRange& range) { return range.high > 300 * range.low; }
 
 double NiceStep(double step) {
   const double decade = std::pow(10, std::floor(std::log10(step)));
@@ -85,8 +87,8 @@ double NiceStep(double step) {
 
 void ForEachPlottedPoint(const Plot& plot, const std::function<void(double x, double y)>& call) {
   constexpr double kSpacing = 0.02;
-  const Range x_range = RangeOf(plot, Which::kX);
-  const Range y_range = RangeOf(plot, Which::kY);
+  const AxisRange x_range = RangeOf(plot, Which::kX);
+  const AxisRange y_range = RangeOf(plot, Which::kY);
   for (const Curve& curve : plot.curves) {
     double last_x = kFromData;
     double last_y = kFromData;

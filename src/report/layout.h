@@ -15,7 +15,7 @@ namespace nacre {
 // ---- Ranges -------------------------------------------------------------------------------------
 
 // low < high; both are above 0 if the axis is logarithmic.
-struct Range {
+struct AxisRange {
   double low = 0, high = 1;
 };
 
@@ -23,13 +23,13 @@ enum class Which : uint8_t { kX, kY };
 
 // The range that the axis sets, or, for ends that it does not set, that of the curves, extended to
 // round numbers.
-Range RangeOf(const Plot& plot, Which which);
+AxisRange RangeOf(const Plot& plot, Which which);
 
 // The position of a value on its axis: 0 at range.low, 1 at range.high.
-double PlaceOf(double value, const Axis& axis, const Range& range);
+double PlaceOf(double value, const Axis& axis, const AxisRange& range);
 
 // For a logarithmic axis: whether ticks at powers of ten suffice.
-bool IsManyDecades(const Range& range);
+bool IsManyDecades(const AxisRange& range);
 
 // The smallest of 1, 2 and 5 times a power of ten that is at least `step`, which is above 0.
 double NiceStep(double step);

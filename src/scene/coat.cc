@@ -22,7 +22,7 @@ double GrazingReflectance(double ior, double f0) {
 
 }  // namespace
 
-std::vector<Material> CoatsOf(const Material& material) {
+std::vector<Coat> CoatsOf(const Material& material) {
   const auto* below = std::get_if<MetallicRoughnessMaterial>(&material.model);
   if (below == nullptr || below->coat == 0 || below->coat_ior == 1) return {};
   MetallicRoughnessMaterial model;
@@ -38,7 +38,7 @@ std::vector<Material> CoatsOf(const Material& material) {
   // Most of the light that the coat's microfacets block after one bounce is transmitted at the next
   // bounce, so the layers below get all that the coat does not reflect in one bounce.
   model.compensation = Compensation::kNone;
-  return {Material{.name = material.name, .model = model, .normal_map = below->coat_normal_map}};
+  return {{Material{.name = material.name, .model = model, .normal_map = below->coat_normal_map}}};
 }
 
 bool RemoveCoats(Material* material) {

@@ -87,13 +87,14 @@ void SampleModelLobe(const MaterialHits& level, const float* u, const float* v, 
 // light * share, but 0 for a share of 0 even if the light has overflowed to infinity.
 float Attenuated(float light, float share) { return share > 0 ? light * share : 0; }
 
-// below = below * transmittance + over.
-void Cover(const Soa3<float>& transmittance, const Soa3<float>& over, size_t begin, size_t end,
-           Soa3<float>* below) {
-  for (size_t i = begin; i < end; ++i) {
-    below->x[i] = Attenuated(below->x[i], transmittance.x[i]) + over.x[i];
-    below->y[i] = Attenuated(below->y[i], transmittance.y[i]) + over.y[i];
-    below->z[i] = Attenuated(below->z[i], transmittance.z[i]) + over.z[i];
+// below = below * the transmittance of the coat + over.
+void Cover(const MaterialHits& coat, const Soa3<float>& over, Soa3<float>* below) {
+  const Soa3<float>& left = coat.surface.transmittance;
+  const Vec3f tint(coat.material.tint);
+  for (size_t i = coat.begin; i < coat.end; ++i) {
+    below->x[i] = Attenuated(below->x[i], left.x[i] * tint.x) + over.x[i];
+    below->y[i] = Attenuated(below->y[i], left.y[i] * tint.y) + over.y[i];
+    below->z[i] = Attenuated(below->z[i], left.z[i] * tint.z) + over.z[i];
   }
 }
 
@@ -255,8 +256,9 @@ void TakeChosen(const MaterialHits& at, const StackRoom& room, size_t lobe, cons
 std::array<CoatInView, kMostCoats> CoatsInView(const MaterialHits& at, size_t i) {
   std::array<CoatInView, kMostCoats> coats;
   for (size_t k = 0; k < at.material.coats.size(); ++k) {
-    coats[k] = {Rgb(VectorAt(at.coats[k].surface.transmittance, i)),
-                IsMirror(LevelOf(at, 1 + k), i)};
+    const MaterialHits coat = LevelOf(at, 1 + k);
+    const Rgb left(VectorAt(coat.surface.transmittance, i));
+    coats[k] = {Rgb(1) - left, left * coat.material.tint, IsMirror(coat, i)};
   }
   return coats;
 }
@@ -322,11 +324,10 @@ void EvaluateBsdf(const LitHits& lit, BsdfRoom* room, const LobePdfs& pdfs) {
     ShadeRun(level, &room->shade);
     if (level.material.by_hit.normal) AddMirroredLobe(level, room);
     if (k == 0) continue;
-    const Soa3<float>& transmittance = level.surface.transmittance;
-    Cover(transmittance, own->sum, lit.begin, lit.end, &lit.radiance->sum);
+    Cover(level, own->sum, &lit.radiance->sum);
     if (!lit.components) continue;
-    Cover(transmittance, own->diffuse, lit.begin, lit.end, &lit.radiance->diffuse);
-    Cover(transmittance, own->specular, lit.begin, lit.end, &lit.radiance->specular);
+    Cover(level, own->diffuse, &lit.radiance->diffuse);
+    Cover(level, own->specular, &lit.radiance->specular);
   }
   if (pdfs.diffuse != nullptr) FindDiffusePdf(lit, *lit.on_hits, pdfs.diffuse);
   if (pdfs.glossy != nullptr) FindGlossyPdf(lit, *lit.on_hits, room, pdfs.glossy);
@@ -379,7 +380,7 @@ bool SampleMirror(const MaterialHits& at, size_t level, Soa3<float>* to_light,
       reflected = VectorAt(*weight, i);
       if (level == 0) reflected *= TransmittedByLayers(at, i);
       for (size_t k = level; k < at.material.coats.size(); ++k) {
-        reflected *= VectorAt(at.coats[k].surface.transmittance, i);
+        reflected *= CoatsInView(at, i)[k].transmittance;
       }
     }
     SetVector(reflected, i, weight);

@@ -12,6 +12,7 @@
 
 #include "hwy/highway.h"
 
+#include "base/basis-inl.h"
 #include "base/vec3-inl.h"
 #include "shading/soa-inl.h"
 #include "texture/mapping-inl.h"
@@ -41,24 +42,50 @@ HWY_INLINE Vec3V<V> NextPixel(const Vec3V<V>& step, const Vec3V<V>& along, const
           hn::NegMulAdd(along.z, back, step.z)};
 }
 
-void FindSteps(const TexturedRun& run) {
+// Stores the steps from pixel to pixel at a packet of hits. `step_x` and `step_y` are those of the
+// rays, along which they are projected to the surface.
+HWY_INLINE void StoreSteps(const Vec3V<V>& step_x, const Vec3V<V>& step_y, const Vec3V<V>& along,
+                           size_t i, HitParameters* t) {
   const D d;
-  const HitBatch& hits = run.hits;
-  HitParameters* const t = &run.textures;
-  const CameraFrame& camera = run.scene.camera;
+  const Vec3V<V> normal = LoadSoa(d, t->geometric, i);
+  const Vec3V<V> scaled = Scale(normal, hn::Div(hn::Set(d, 1.0), FusedDot(along, normal)));
+  StoreSoa(d, NextPixel(step_x, along, scaled), i, &t->dp_dx);
+  StoreSoa(d, NextPixel(step_y, along, scaled), i, &t->dp_dy);
+}
+
+void FindCameraSteps(const TexturedRun& run, const CameraFrame& camera) {
+  const D d;
   const bool perspective = camera.projection == Projection::kPerspective;
   const Vec3V<V> forward = SetVec3(d, camera.forward);
   const Vec3V<V> step_x = SetVec3(d, camera.step_x * run.scene.footprint);
   const Vec3V<V> step_y = SetVec3(d, camera.step_y * run.scene.footprint);
   for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
-    const Vec3V<V> position = LoadSoa(d, hits.position, i), normal = LoadSoa(d, t->geometric, i);
+    const Vec3V<V> position = LoadSoa(d, run.hits.position, i);
     // In perspective, steps grow with the depth, because the film's rays have a dot product of 1
     // with `forward`.
     const V depth = perspective ? FusedDot(position, forward) : hn::Set(d, 1.0);
-    const Vec3V<V> along = perspective ? position : forward;
-    const Vec3V<V> scaled = Scale(normal, hn::Div(hn::Set(d, 1.0), FusedDot(along, normal)));
-    StoreSoa(d, NextPixel(Scale(step_x, depth), along, scaled), i, &t->dp_dx);
-    StoreSoa(d, NextPixel(Scale(step_y, depth), along, scaled), i, &t->dp_dy);
+    StoreSteps(Scale(step_x, depth), Scale(step_y, depth), perspective ? position : forward, i,
+               &run.textures);
+  }
+}
+
+// The cross-section of a cone is a disk. Of its diameters, the one in the plane of incidence
+// projects to the longest on the surface, and the one across it to the shortest, so that footprints
+// do not depend on a choice of axes.
+void FindConeSteps(const TexturedRun& run, const double* cone_diameter) {
+  const D d;
+  for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
+    const Vec3V<V> to_view = LoadSoa(d, run.hits.to_view, i);
+    const Vec3V<V> normal = LoadSoa(d, run.textures.geometric, i);
+    const Vec3V<V> leaning = Sub(normal, Scale(to_view, FusedDot(normal, to_view)));
+    const V length = hn::Sqrt(FusedDot(leaning, leaning));
+    // From straight above, any axes will do.
+    const auto leans = hn::Gt(length, hn::Set(d, 1e-8));
+    const Vec3V<V> axis =
+        Select(leans, Scale(leaning, hn::Div(hn::Set(d, 1.0), length)), BasisAbout(d, to_view).x);
+    const V diameter = hn::Mul(hn::LoadU(d, cone_diameter + i), hn::Set(d, run.scene.footprint));
+    StoreSteps(Scale(axis, diameter), Scale(FusedCross(to_view, axis), diameter), to_view, i,
+               &run.textures);
   }
 }
 
@@ -128,7 +155,9 @@ void MakeCoordinatesT(const TexturedRun& run, const PreparedTexture& texture) {
   const D d;
   HitParameters* const t = &run.textures;
   const bool own = texture.mapping == MappingKind::kUv;
-  FindSteps(run);
+  const RayFootprints& rays = run.footprints;
+  rays.camera != nullptr ? FindCameraSteps(run, *rays.camera)
+                         : FindConeSteps(run, rays.cone_diameter);
   if (t->any_mesh && !own) PlaceMeshPoints(run, texture);
   MapRun(run, texture);  // at hits on meshes with their own (u, v), the result is not used
   if (t->any_mesh && own) FindMeshCoordinates(run, texture);

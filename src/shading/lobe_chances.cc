@@ -109,18 +109,9 @@ double LayerChance(const LayerModel& layer, double n_dot_v, double below_albedo)
   return Fraction(LargestChannel(albedo.lobe), albedo.below * below_albedo);
 }
 
-namespace {
-
-double AlbedoOf(const CoatInView& coat) {
-  const Rgb& t = coat.transmittance;
-  return 1 - std::min({t.x, t.y, t.z});
-}
-
-}  // namespace
-
 void FindCoatChances(std::span<const CoatInView> coats, double glossy, std::span<double> chances) {
   for (size_t k = 0; k < coats.size(); ++k) {
-    const double albedo = coats[k].is_mirror ? 0 : AlbedoOf(coats[k]);
+    const double albedo = coats[k].is_mirror ? 0 : LargestChannel(coats[k].albedo);
     glossy *= LargestChannel(coats[k].transmittance);
     chances[k] = std::clamp(Fraction(albedo, glossy), 0.0, 1.0);
     glossy += albedo;
@@ -134,7 +125,7 @@ KindChances ChancesOfKinds(const std::vector<LayerModel>& layers, double n_dot_v
   double left = 1;
   KindChances chances{.diffuse = 0};
   for (size_t k = coats.size(); k-- > 0;) {
-    const double reflected = left * AlbedoOf(coats[k]);
+    const double reflected = left * LargestChannel(coats[k].albedo);
     if (!coats[k].is_mirror) {
       chances.glossy += reflected;
     } else if (mirrors) {

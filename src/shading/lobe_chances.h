@@ -47,8 +47,8 @@ ModelAlbedos AlbedosOf(const ShadingMaterial& material, double n_dot_v);
 ModelAlbedos AlbedosAt(const ShadingMaterial& material, const HitParameters* maps,
                        const Surface& surface, size_t i, double n_dot_v);
 
-// About the albedo of the diffuse base in its brightest channel, with the same bits for a constant
-// map as for its constant, so that this changes no direction.
+// An estimate of the albedo of the diffuse base in its brightest channel. A map of one constant
+// gives the same bits as the constant itself, so that both sample the same directions.
 double BaseAlbedo(const ShadingMaterial& material, const HitParameters* maps = nullptr,
                   size_t i = 0);
 
@@ -56,9 +56,10 @@ double BaseAlbedo(const ShadingMaterial& material, const HitParameters* maps = n
 // `below_albedo` by itself.
 double LayerChance(const LayerModel& layer, double n_dot_v, double below_albedo);
 
-// One coat, seen from the viewer. Its albedo is 1 - `transmittance`.
+// One coat, seen from the viewer.
 struct CoatInView {
-  Rgb transmittance;
+  Rgb albedo;
+  Rgb transmittance;  // of the light from below
   bool is_mirror;
 };
 

@@ -283,12 +283,13 @@ void FinishModel(ShadingMaterial* prepared) {
                          microfacet->coupling == DiffuseCoupling::kAlbedoScaled;
 }
 
-std::shared_ptr<const ShadingMaterial> PrepareCoat(const Material& coat) {
-  const auto own = std::make_shared<const Material>(coat);
+std::shared_ptr<const ShadingMaterial> PrepareCoat(const Coat& coat) {
+  const auto own = std::make_shared<const Material>(coat.material);
   // SkipBlackBase is not called: the coat's base is black, but 1 - the coat's albedo is needed as
   // the coat's transmittance.
   ShadingMaterial prepared = PrepareUncoated(*own);
   prepared.own = own;
+  prepared.tint = coat.tint;
   FinishModel(&prepared);
   return std::make_shared<const ShadingMaterial>(std::move(prepared));
 }
@@ -300,7 +301,7 @@ ShadingMaterial PrepareMaterial(const Material& material, bool in_ambient) {
   prepared.in_ambient = in_ambient;
   SkipBlackBase(&prepared);
   FinishModel(&prepared);
-  for (const Material& coat : CoatsOf(material)) prepared.coats.push_back(PrepareCoat(coat));
+  for (const Coat& coat : CoatsOf(material)) prepared.coats.push_back(PrepareCoat(coat));
   // The stack's buffers have room for no more (bsdf.cc).
   if (prepared.coats.size() > kMostCoats || prepared.layers.size() > kMostLayers) {
     throw Error(ExitCode::kInternal, "material \"" + material.name + "\"",
@@ -327,9 +328,13 @@ void DropMaps(ShadingMaterial* material) {
   }
 }
 
-Rgb TransmittedByCoat(const ShadingMaterial& coat, double n_dot_v) {
+Rgb CoatAlbedo(const ShadingMaterial& coat, double n_dot_v) {
   const auto& model = std::get<MicrofacetModel>(coat.model);
-  return MakeRgb([&](int c) { return std::max(1 - CoverAlbedo(model, n_dot_v, c), 0.0); });
+  return MakeRgb([&](int c) { return std::min(CoverAlbedo(model, n_dot_v, c), 1.0); });
+}
+
+Rgb TransmittedByCoat(const ShadingMaterial& coat, double n_dot_v) {
+  return coat.tint * (Rgb(1) - CoatAlbedo(coat, n_dot_v));
 }
 
 double CoverAlbedo(const MicrofacetModel& model, double n_dot_v, int channel) {

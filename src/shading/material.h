@@ -20,6 +20,7 @@ struct VariesByHit {
   bool model = false;       // parameters of reflection are among them, not of emission alone
   bool width = false;       // so is the roughness or exponent of the lobe
   bool normal = false;      // the material is normal-mapped or bump-mapped
+  bool tangent = false;     // a lobe reads Surface::tangent; the material is normal-mapped
 };
 
 // A material prepared for shading. The model of a split is std::monostate.
@@ -36,6 +37,7 @@ struct ShadingMaterial {
   // Clear coats (scene/coat.h) over the model and its layers, from the bottom up. Each is a
   // material without a diffuse base, and has a shading normal of its own.
   std::vector<std::shared_ptr<const ShadingMaterial>> coats;
+  Rgb tint{1, 1, 1};  // of a coat: Coat::tint
   // The scene material of a coat, to which its `scene_material` points. Owned here, because the
   // scene has none. Null for other materials.
   std::shared_ptr<const Material> own;
@@ -49,7 +51,11 @@ ShadingMaterial PrepareMaterial(const Material& material, bool in_ambient = fals
 // Removes the maps, so that all hits have the maps' factors as parameters.
 void DropMaps(ShadingMaterial* material);
 
-// The transmittance of a coat for light from below, seen from n.v: 1 minus its albedo.
+// The albedo of a coat, seen from n.v, at most 1.
+Rgb CoatAlbedo(const ShadingMaterial& coat, double n_dot_v);
+
+// The transmittance of a coat for light from below, seen from n.v: 1 minus its albedo, times its
+// tint.
 Rgb TransmittedByCoat(const ShadingMaterial& coat, double n_dot_v);
 
 // One channel of the directional albedo, seen from n.v and including compensation, of the lobe that

@@ -18,7 +18,7 @@ namespace nacre {
 // shading normals, parameters and constants. Entries of hits without this coat are not used.
 struct CoatHits {
   HitBatch hits;
-  Surface surface;                          // Surface::transmittance is that of the coat
+  Surface surface;  // Surface::transmittance is what the coat does not reflect, before its tint
   std::unique_ptr<HitParameters> textures;  // made for the first coat with maps
   // The probability of sampling the coat's lobe rather than a glossy lobe below it; 0 for mirrors.
   AlignedArray<float> chance{kBatchCapacity};

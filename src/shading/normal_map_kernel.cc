@@ -10,6 +10,7 @@
 
 #include "hwy/highway.h"
 
+#include "base/basis-inl.h"
 #include "hit/shading_normal-inl.h"
 #include "shading/soa-inl.h"
 
@@ -91,6 +92,11 @@ HWY_INLINE Frame FrameOfCorners(const HitParameters& t, size_t i, const Frame& o
           Select(own, Scale(otherwise.normal, length), otherwise.normal)};
 }
 
+HWY_INLINE Frame FrameAt(const HitParameters& t, size_t i, const Vec3V<V>& n, bool frames) {
+  const Frame frame = FrameOfGradients(t, i, n);
+  return frames ? FrameOfCorners(t, i, frame) : frame;
+}
+
 void MapNormalsT(const TexturedRun& run, float middle, float scale, bool frames) {
   const D d;
   const HitParameters& t = run.textures;
@@ -99,8 +105,7 @@ void MapNormalsT(const TexturedRun& run, float middle, float scale, bool frames)
   const V stretch = hn::Set(d, 1 / (1 - double{middle}));
   for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
     const Vec3V<V> n = LoadSoa(d, run.hits.normal, i);
-    Frame frame = FrameOfGradients(t, i, n);
-    if (frames) frame = FrameOfCorners(t, i, frame);
+    const Frame frame = FrameAt(t, i, n, frames);
     const auto component = [&](const AlignedArray<float>& from) HWY_ATTR {
       return hn::Mul(hn::Sub(PromoteAt(d, from, i), middle_v), stretch);
     };
@@ -129,6 +134,22 @@ void MapNormalsBySlopesT(const TexturedRun& run, double distance) {
                                   Scale(LoadSoa(d, t.gradient_v, i), slope_v));
     const Vec3V<V> mapped = Normalized(Sub(n, Across(gradient, n)));
     StoreNormal(mapped, hn::And(hn::Eq(slope_u, zero), hn::Eq(slope_v, zero)), i, run);
+  }
+}
+
+// The tangents of a sphere's mapping are undefined at its poles, those of a mesh where it has none,
+// and a normal map may turn the normal into the tangent: any direction across the normal then has
+// to do.
+void StoreTangentsT(const TexturedRun& run, bool frames) {
+  const D d;
+  const F f;
+  for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
+    const Vec3V<V> n = LoadSoa(d, run.hits.normal, i);
+    const Vec3V<V> along = Normalized(FrameAt(run.textures, i, n, frames).tangent);
+    const Vec3V<V> across = Across(along, n);
+    const auto sound = hn::Gt(FusedDot(across, across), hn::Set(d, 1e-12));
+    const Vec3V<V> tangent = Select(sound, Normalized(across), BasisAbout(d, n).x);
+    BlendedStoreSoa(f, Demote3(d, tangent), hn::FirstN(f, run.end - i), i, &run.surface.tangent);
   }
 }
 
@@ -195,6 +216,7 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(MapNormalsT);
 HWY_EXPORT(MapNormalsBySlopesT);
+HWY_EXPORT(StoreTangentsT);
 HWY_EXPORT(HideUnreflectedLightT);
 HWY_EXPORT(RaiseAboveHorizonT);
 HWY_EXPORT(MirrorAtHorizonT);
@@ -205,6 +227,10 @@ void MapNormals(const TexturedRun& run, float middle, float scale, bool frames) 
 
 void MapNormalsBySlopes(const TexturedRun& run, double distance) {
   HWY_DYNAMIC_DISPATCH(MapNormalsBySlopesT)(run, distance);
+}
+
+void StoreTangents(const TexturedRun& run, bool frames) {
+  HWY_DYNAMIC_DISPATCH(StoreTangentsT)(run, frames);
 }
 
 void HideUnreflectedLight(const MaterialHits& at, LightBatch* light) {

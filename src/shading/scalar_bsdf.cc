@@ -272,7 +272,9 @@ StackChances ChancesOf(const ShadingMaterial& material, const StackNormals& norm
   std::vector<CoatInView> coats;
   for (size_t k = 0; k < material.coats.size(); ++k) {
     const ShadingMaterial& coat = *material.coats[k];
-    coats.push_back({TransmittedByCoat(coat, CosineTo(normals.coat(k), v)), HasDeltaLobe(coat)});
+    const double n_dot_v_of_coat = CosineTo(normals.coat(k), v);
+    coats.push_back({CoatAlbedo(coat, n_dot_v_of_coat), TransmittedByCoat(coat, n_dot_v_of_coat),
+                     HasDeltaLobe(coat)});
   }
   const ModelAlbedos albedos = AlbedosOf(material, n_dot_v);
   StackChances chances;

@@ -18,10 +18,13 @@ struct Surface : HitDirections {
   // shading normals of all hits before that.
   bool normal_mapped = false;
   Soa3<float> interpolated_normal;
+  // Set by TextureHits if the material asks for it (VariesByHit::tangent): unit, perpendicular to
+  // the shading normal, along dP/du of the coordinates of its normal map.
+  Soa3<float> tangent;
   // Set by PrepareRun for hits on microfacet materials:
   AlignedArray<float> multiple{kBatchCapacity};  // the weight of multiple scattering
   // If the coupling is kAlbedoScaled: 1 minus the albedo, at n.v, of the lobe over the base, which
-  // is the fraction of light that the diffuse base gets, and a coat lets through.
+  // is the fraction of light that the diffuse base gets, and that a coat does not reflect.
   Soa3<float> transmittance;
 };
 

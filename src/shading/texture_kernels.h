@@ -26,7 +26,8 @@ bool FindTangents(const TexturedRun& run, const PreparedTexture& texture);
 // Stores interpolated vertex colours in `texels`, white on shapes without them (surface_points.cc).
 void FindVertexColors(const TexturedRun& run);
 
-// Fills u, v, gradients and footprints for a texture (coordinates_kernel.cc).
+// Fills u, v, gradients and footprints for a texture, at rays from a camera or in cones
+// (coordinates_kernel.cc).
 void MakeCoordinates(const TexturedRun& run, const PreparedTexture& texture);
 
 // Replace shading normals by normal-mapped ones (normal_map_kernel.cc). MapNormals reads the normal
@@ -35,6 +36,10 @@ void MakeCoordinates(const TexturedRun& run, const PreparedTexture& texture);
 // map from x and y of textures.texels, and multiplies them by `distance`.
 void MapNormals(const TexturedRun& run, float middle, float scale, bool frames);
 void MapNormalsBySlopes(const TexturedRun& run, double distance);
+
+// Sets Surface::tangent by the gradients of the coordinates and, if `frames`, by FindTangents, at
+// final shading normals (normal_map_kernel.cc).
+void StoreTangents(const TexturedRun& run, bool frames);
 
 // Compute HitParameters::numbers (mapped_kernel.cc). StartNumbers sets the material's own
 // parameters at every hit, MultiplyNumber multiplies one of them by the last texels that were

@@ -44,7 +44,6 @@ struct MapTangents {
 // The data for texture look-ups at all hits of a plan.
 struct TextureScene {
   const Scene* scene = nullptr;
-  CameraFrame camera;
   Rgb ambient{0, 0, 0};  // radiance of the scene's ambient light
   // The width of a sample's footprint, in pixels: with many samples per pixel, each stands for a
   // small part of it.
@@ -55,6 +54,15 @@ struct TextureScene {
   std::vector<std::vector<MapTangents>> mesh_tangents;  // by mesh; empty if no mesh has any
 };
 
+// How far the points that the rays of a batch hit are apart from one pixel to the next.
+struct RayFootprints {
+  // The camera whose rays they are, by the differentials of its rays (Igehy 1999). Null for others.
+  const CameraFrame* camera = nullptr;
+  // Of other rays: the diameters, at the hits of the batch, of the cones around them that stand for
+  // one pixel (Amanatides 1984), in world units. Padded like the arrays of the batch.
+  const double* cone_diameter = nullptr;
+};
+
 // Hits [begin, end) of a batch, all of one material with maps, and where the results are stored.
 struct TexturedRun {
   const TextureScene& scene;
@@ -63,6 +71,7 @@ struct TexturedRun {
   HitBatch& hits;
   Surface& surface;
   HitParameters& textures;
+  RayFootprints footprints;
 };
 
 }  // namespace nacre

@@ -94,6 +94,7 @@ class RunTexturer {
     const Material& material = *run_.material.scene_material;
     if (material.normal_map.texture.valid()) ApplyNormalMap(material.normal_map);
     if (material.bump_map.texture.valid()) ApplyBumpMap(material.bump_map);
+    if (run_.material.by_hit.tangent) FindTangent(material.normal_map.texture);
     const MaterialModel& model = *ModelOf(material);
     StartNumbers(run_);
     if (material.vertex_colors == VertexColors::kBase) {
@@ -160,6 +161,8 @@ class RunTexturer {
     MapNormalsBySlopes(run_, map.distance);
   }
 
+  void FindTangent(TextureId map) { StoreTangents(run_, FindTangents(run_, FindCoordinates(map))); }
+
   // Each layer reflects its albedo of ambient light, and attenuates what is reflected below it.
   void CoverAmbient() {
     const ShadingMaterial& material = run_.material;
@@ -184,15 +187,13 @@ class RunTexturer {
 
 }  // namespace
 
-TextureScene PrepareTextures(const Scene& scene, const CameraFrame& camera, double footprint,
-                             int threads, KeptTables* kept) {
+TextureScene PrepareTextures(const Scene& scene, double footprint, int threads, KeptTables* kept) {
   // Drops tangents that no plan uses any more, such as those of a rotation that a slider has
   // passed.
   std::erase_if(kept->tangents,
                 [](const KeptTangents& entry) { return entry.tangents.use_count() == 1; });
   TextureScene prepared;
   prepared.scene = &scene;
-  prepared.camera = camera;
   prepared.footprint = footprint;
   prepared.textures.reserve(scene.textures.size());
   for (size_t i = 0; i < scene.textures.size(); ++i) {

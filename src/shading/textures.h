@@ -4,7 +4,6 @@
 #pragma once
 
 #include "hit/batch.h"
-#include "hit/camera_frame.h"
 #include "scene/scene.h"
 #include "shading/hit_parameters.h"
 #include "shading/kept_tables.h"
@@ -15,12 +14,11 @@ namespace nacre {
 
 // `threads` is as in ParallelFor. Tangents are taken from `kept`, whose tangents must be of the
 // same meshes, or made and added to it. `scene` must outlive the result.
-TextureScene PrepareTextures(const Scene& scene, const CameraFrame& camera, double footprint,
-                             int threads, KeptTables* kept);
+TextureScene PrepareTextures(const Scene& scene, double footprint, int threads, KeptTables* kept);
 
 // Looks up the maps of a run of hits: replaces the shading normals of its hits and surface by those
-// of normal and bump maps, and stores all other results in run.textures. The hits must have exact
-// directions.
+// of normal and bump maps, sets tangents if the material asks for them, and stores all other
+// results in run.textures. The hits must have exact directions.
 void TextureHits(const TexturedRun& run);
 
 }  // namespace nacre

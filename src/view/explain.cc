@@ -395,10 +395,11 @@ Json ExplainPixel(const Scene& scene, const PixelLayers& layers, const PixelWith
     return LayerOf(pixel_with(number - 1, other), "N", "XYZ").normalized();
   };
   bool any_mapped = base_mapped;
-  for (const Material& coat : CoatsOf(own)) {
-    any_mapped = any_mapped || coat.normal_map.texture.valid();
-    const bool has_own = base_mapped || coat.normal_map.texture.valid();
-    explained.coat_normals.push_back(has_own ? normal_with(coat) : point.normal);
+  for (const Coat& coat : CoatsOf(own)) {
+    const bool mapped = coat.material.normal_map.texture.valid();
+    any_mapped = any_mapped || mapped;
+    explained.coat_normals.push_back(base_mapped || mapped ? normal_with(coat.material)
+                                                           : point.normal);
   }
   if (any_mapped) {
     Material unmapped = own;

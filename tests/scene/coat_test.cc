@@ -10,7 +10,8 @@ namespace nacre {
 namespace {
 
 MetallicRoughnessMaterial CoatModel(const MetallicRoughnessMaterial& below) {
-  return std::get<MetallicRoughnessMaterial>(CoatsOf(Material{.model = below}).at(0).model);
+  return std::get<MetallicRoughnessMaterial>(
+      CoatsOf(Material{.model = below}).at(0).material.model);
 }
 
 TEST_CASE("a coat has the roughness, shadowing and maps that its material gives it") {

@@ -31,6 +31,9 @@ struct Stack {
   // Shading normals over a surface whose normal is kUp.
   Vec3d normal = kUp;
   std::vector<Vec3d> coat_normals = {};
+  // If any, the coat of `material` lies over it as often as this, with these tints: no material has
+  // more than one, or a tint, but stacks may.
+  std::vector<Rgb> tints = {};
 
   bool Mapped() const { return !coat_normals.empty(); }
   StackNormals Normals() const {
@@ -40,13 +43,25 @@ struct Stack {
   }
 };
 
+ShadingMaterial Prepared(const Stack& stack) {
+  ShadingMaterial material = PrepareMaterial(stack.material);
+  if (stack.tints.empty()) return material;
+  ShadingMaterial coat = *material.coats.at(0);
+  material.coats.clear();
+  for (const Rgb& tint : stack.tints) {
+    coat.tint = tint;
+    material.coats.push_back(std::make_shared<const ShadingMaterial>(coat));
+  }
+  return material;
+}
+
 MetallicRoughnessMaterial Paint() { return {.base_color = Rgb(0.7, 0.3, 0.1), .roughness = 0.6}; }
 
 template <class Model>
 void Add(const std::string& name, const Model& model, std::vector<Stack>* stacks) {
   Stack stack{name, {}};
-  // Modified Phong, and metals without compensation and with Kulla and Conty's.
-  constexpr std::array kReciprocal = {"lambert", "oren_nayar", "phong 1", "metal 1", "metal 2"};
+  constexpr std::array kReciprocal = {"lambert", "oren_nayar", "modified phong",
+                                      "metal without compensation", "metal, Kulla and Conty"};
   stack.reciprocal = std::find(kReciprocal.begin(), kReciprocal.end(), name) != kReciprocal.end();
   stack.material.model = model;
   stacks->push_back(stack);
@@ -78,20 +93,23 @@ std::vector<Stack> Stacks() {
   std::vector<Stack> stacks;
   Add("lambert", LambertMaterial{.albedo = Rgb(0.6)}, &stacks);
   Add("oren_nayar", OrenNayarMaterial{.albedo = Rgb(0.6), .roughness = 0.7}, &stacks);
-  for (const PhongModel model :
-       {PhongModel::kPhong, PhongModel::kModifiedPhong, PhongModel::kBlinnPhong}) {
+  for (const auto& [name, model] : {std::pair{"phong", PhongModel::kPhong},
+                                    {"modified phong", PhongModel::kModifiedPhong},
+                                    {"blinn phong", PhongModel::kBlinnPhong}}) {
     PhongMaterial phong{
         .model = model, .convention = PhongConvention::kRadiometric, .shininess = 12};
-    Add("phong " + std::to_string(static_cast<int>(model)), phong, &stacks);
+    Add(name, phong, &stacks);
     // Some half vectors of its lobe face away.
     stacks.back().whole = model != PhongModel::kBlinnPhong;
   }
-  for (const Compensation compensation :
-       {Compensation::kNone, Compensation::kTurquin, Compensation::kKullaConty}) {
+  for (const auto& [name, compensation] :
+       {std::pair{"metal without compensation", Compensation::kNone},
+        {"metal, Turquin", Compensation::kTurquin},
+        {"metal, Kulla and Conty", Compensation::kKullaConty}}) {
     MetallicRoughnessMaterial metal = Paint();
     metal.metallic = 1;
     metal.compensation = compensation;
-    Add("metal " + std::to_string(static_cast<int>(compensation)), metal, &stacks);
+    Add(name, metal, &stacks);
   }
   MetallicRoughnessMaterial paint = Paint();
   Add("paint", paint, &stacks);
@@ -101,6 +119,8 @@ std::vector<Stack> Stacks() {
   paint.coat = 0.8;
   paint.coat_roughness = 0.5;
   Add("sheen and coat", paint, &stacks);
+  Add("sheen and two tinted coats", paint, &stacks);
+  stacks.back().tints = {Rgb(0.9, 0.5, 0.2), Rgb(1, 0.8, 0.4)};
   paint.metallic = 1;
   Add("metal, sheen and coat", paint, &stacks);
   paint.coat_roughness = 0;
@@ -112,6 +132,12 @@ std::vector<Stack> Stacks() {
   Add("smooth plastic, sheen and coat", paint, &stacks);
   Add("glass, opaque", DielectricMaterial{.roughness = 0.6}, &stacks);
   AddMapped(&stacks);
+  paint.roughness = 0.6;
+  paint.coat_normal_map.texture = TextureId{0};
+  Add("two tinted coats with normals of their own", paint, &stacks);
+  stacks.back().tints = {Rgb(0.9, 0.5, 0.2), Rgb(1, 0.8, 0.4)};
+  stacks.back().coat_normals = {Vec3d(-0.2, 0.5, 1).normalized(), Vec3d(0.3, 0.1, 1).normalized()};
+  stacks.back().material.normal_map.texture = TextureId{0};
   return stacks;
 }
 
@@ -136,7 +162,7 @@ TEST_CASE("samples of a stack follow its pdf") {
   constexpr int kSamples = 40000;
   constexpr size_t kSteps = 60;  // of the midpoint rule, each way in a cell
   for (const Stack& stack : Stacks()) {
-    const ShadingMaterial material = PrepareMaterial(stack.material);
+    const ShadingMaterial material = Prepared(stack);
     const StackNormals normals = stack.Normals();
     for (const double n_dot_v : kViewCosines) {
       CAPTURE(stack.name, n_dot_v);
@@ -202,7 +228,7 @@ double Asymmetry(const ShadingMaterial& material) {
 TEST_CASE("stacks are reciprocal where their models are") {
   for (const Stack& stack : Stacks()) {
     if (stack.Mapped()) continue;
-    const double asymmetry = Asymmetry(PrepareMaterial(stack.material));
+    const double asymmetry = Asymmetry(Prepared(stack));
     CAPTURE(stack.name, asymmetry);
     CHECK((stack.reciprocal ? asymmetry < 1e-12 : asymmetry > 1e-3));
   }
@@ -274,7 +300,7 @@ TEST_CASE("the mean weight of samples is the albedo, and kernels agree with the 
     std::mt19937 random(7);
     std::uniform_real_distribution<float> unit(0, 1);
     for (const Stack& stack : Stacks()) {
-      const ShadingMaterial material = PrepareMaterial(stack.material);
+      const ShadingMaterial material = Prepared(stack);
       const StackNormals normals = stack.Normals();
       for (const double n_dot_v : kViewCosines) {
         CAPTURE(stack.name, n_dot_v);

@@ -231,7 +231,7 @@ TEST_CASE("scaling a scene by a power of two changes no bit") {
   const std::vector<Ray> rays = CameraRays(&random, 2000);
   const Intersector unscaled(scene, eye);
   const std::vector<Hit> hits = Trace(unscaled, rays);
-  const std::vector<Surface> surfaces = TraceSurfaces(unscaled, rays);
+  const std::vector<HitSurface> surfaces = TraceSurfaces(unscaled, rays);
   for (const int exponent : {-40, -20, -7, 1, 13, 20, 39}) {
     const double scale = std::ldexp(1.0, exponent);
     Scene scaled = scene;
@@ -244,7 +244,7 @@ TEST_CASE("scaling a scene by a power of two changes no bit") {
     for (size_t i = 0; i < rays.size(); ++i) {
       REQUIRE(scaled_hits[i] == Hit{hits[i].primitive, hits[i].t * scale});
     }
-    const std::vector<Surface> scaled_surfaces = TraceSurfaces(intersector, rays);
+    const std::vector<HitSurface> scaled_surfaces = TraceSurfaces(intersector, rays);
     REQUIRE(scaled_surfaces.size() == surfaces.size());
     for (size_t i = 0; i < surfaces.size(); ++i) {
       REQUIRE(scaled_surfaces[i].normal == surfaces[i].normal);

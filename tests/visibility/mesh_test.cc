@@ -125,11 +125,11 @@ TEST_CASE("refined triangle hits lie on the triangle, with the normal on the ray
     const TraceGeometry geometry = MakeTraceGeometry(scene, Vec3d(0));
     const std::vector<Ray> rays = CameraRays(&random, 2000);
     ForEachTarget([&](Target) {
-      const std::vector<Surface> surfaces = TraceSurfaces(Intersector(scene, Vec3d(0)), rays);
+      const std::vector<HitSurface> surfaces = TraceSurfaces(Intersector(scene, Vec3d(0)), rays);
       REQUIRE(surfaces.size() == rays.size());  // the outer mesh is all around
       std::set<uint32_t> objects;
       for (size_t i = 0; i < rays.size(); ++i) {
-        const Surface& surface = surfaces[i];
+        const HitSurface& surface = surfaces[i];
         // The sphere, then 320 faces, then the others.
         const uint32_t object = surface.primitive == 0 ? 0 : surface.primitive - 1 < 320 ? 1 : 2;
         objects.insert(object);
@@ -167,7 +167,7 @@ TEST_CASE("a mesh shadows others and not the triangle that a ray leaves") {
     const auto seams = RaysAtSeams(scene.meshes[0], Vec3d(0), 1000, &random);
     rays.insert(rays.end(), seams.begin(), seams.end());
     std::vector<ShadowRay> outward, inward;
-    for (const Surface& surface : TraceSurfaces(intersector, rays)) {
+    for (const HitSurface& surface : TraceSurfaces(intersector, rays)) {
       // Away from the convex mesh and from the other one.
       const auto& corners = geometry.triangles[surface.primitive];
       const Vec3d face = (geometry.positions[corners[1]] - geometry.positions[corners[0]])
@@ -203,7 +203,7 @@ TEST_CASE("coplanar neighbours and duplicates do not shadow a floor") {
   scene.meshes.push_back(floor);
   const Intersector intersector(scene, Vec3d(0));
   std::vector<ShadowRay> shadows;
-  for (const Surface& surface : TraceSurfaces(intersector, CameraRays(&random, 3000))) {
+  for (const HitSurface& surface : TraceSurfaces(intersector, CameraRays(&random, 3000))) {
     Vec3d direction = random.Direction();
     if (direction.dot(surface.normal) < 0) direction = -direction;
     shadows.push_back({{surface.position, direction}, 1e9, surface.primitive});

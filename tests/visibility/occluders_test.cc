@@ -21,10 +21,10 @@ Light SunAlong(const Vec3d& direction) {
 
 // Shadow rays from those surfaces that face the light.
 std::vector<ShadowRay> RaysTo(const Light& light, const Vec3d& eye,
-                              const std::vector<Surface>& surfaces) {
+                              const std::vector<HitSurface>& surfaces) {
   const ShadowLight target = MakeShadowLight(light, eye);
   std::vector<ShadowRay> rays;
-  for (const Surface& surface : surfaces) {
+  for (const HitSurface& surface : surfaces) {
     const Vec3d direction =
         target.positional ? target.position - surface.position : target.to_light;
     if (surface.normal.dot(direction) <= 0) continue;
@@ -63,7 +63,7 @@ size_t CheckBatches(const Intersector& intersector, const std::vector<ShadowRay>
 // Checks that the tree and the light's occluders give the same occlusion for each ray. Returns the
 // number of batches for which MayOcclude is false.
 size_t CheckLight(const Scene& scene, const Light& light, const Vec3d& eye, bool outward,
-                  const std::vector<Surface>& surfaces) {
+                  const std::vector<HitSurface>& surfaces) {
   const TraceGeometry geometry = MakeTraceGeometry(scene, eye);
   std::vector<ShadowRay> rays = RaysTo(light, eye, surfaces);
   std::stable_sort(rays.begin(), rays.end(), [](const ShadowRay& a, const ShadowRay& b) {
@@ -302,7 +302,7 @@ TEST_CASE("rays of one batch leave outward, inward and to either side") {
     for (const Light& light : {PointAt({1, 4, -2}), SunAlong({0.3, -1, 0.2})}) {
       const ShadowLight target = MakeShadowLight(light, eye);
       std::vector<ShadowRay> rays;
-      for (const Surface& surface : surfaces) {
+      for (const HitSurface& surface : surfaces) {
         const Vec3d to_light =
             target.positional ? target.position - surface.position : target.to_light;
         const Vec3d out = surface.position - geometry.spheres[surface.primitive].center;
@@ -367,7 +367,7 @@ TEST_CASE("bins of a camera that has moved are those of a new one") {
       moving.ForgetOccluders();
       moving.FindOccluders({&lights[0], &lights[1]}, false);
       const Intersector fresh(scene, eye);
-      const std::vector<Surface> surfaces = TraceSurfaces(fresh, camera_rays);
+      const std::vector<HitSurface> surfaces = TraceSurfaces(fresh, camera_rays);
       for (uint32_t light = 0; light < 2; ++light) {
         const std::vector<ShadowRay> rays = RaysTo(lights[light], eye, surfaces);
         REQUIRE(moving.Occluders(light).bins);
@@ -393,7 +393,7 @@ TEST_CASE("bins of spheres that have changed are those of new ones") {
     REQUIRE(changing.ChangeSpheres(scene, eye));
     changing.FindOccluders({&lights[0], &lights[1]}, false);
     const Intersector fresh(scene, eye);
-    const std::vector<Surface> surfaces = TraceSurfaces(fresh, camera_rays);
+    const std::vector<HitSurface> surfaces = TraceSurfaces(fresh, camera_rays);
     for (uint32_t light = 0; light < 2; ++light) {
       const std::vector<ShadowRay> rays = RaysTo(lights[light], eye, surfaces);
       REQUIRE(changing.Occluders(light).bins);
@@ -414,7 +414,7 @@ TEST_CASE("bins of spheres that have changed are those of new ones") {
   scene.spheres[9] = scene.spheres[5];  // which has never changed, and is the one that is hit
   scene.spheres[7] = MakeSphere({1e4, 0, 0}, 2);
   check();
-  for (const Surface& surface : TraceSurfaces(Intersector(scene, eye), camera_rays)) {
+  for (const HitSurface& surface : TraceSurfaces(Intersector(scene, eye), camera_rays)) {
     hits_on_5 += surface.primitive == 5 ? 1 : 0;
   }
   CHECK(hits_on_5 > 5);
@@ -458,10 +458,10 @@ TEST_CASE("a changed sphere coincides with another once the camera has moved") {
     ray.direction = scene.spheres[7].center + random.Direction() * 0.5 - eye;
   }
   const Intersector fresh(scene, eye);
-  const std::vector<Surface> surfaces = TraceSurfaces(fresh, rays);
+  const std::vector<HitSurface> surfaces = TraceSurfaces(fresh, rays);
   const std::vector<ShadowRay> shadows = RaysTo(sun, eye, surfaces);
   size_t on_7 = 0;
-  for (const Surface& surface : surfaces) on_7 += surface.primitive == 7 ? 1 : 0;
+  for (const HitSurface& surface : surfaces) on_7 += surface.primitive == 7 ? 1 : 0;
   CHECK(on_7 > 20);
   CHECK(TraceShadows(changing, shadows, 0) == TraceShadows(fresh, shadows));
 }
@@ -493,7 +493,7 @@ TEST_CASE("bins are those of the light that is asked for") {
   changed.FindOccluders({&before}, false);
   changed.ForgetOccluders();
   changed.FindOccluders({&now}, false);
-  const std::vector<Surface> surfaces = TraceSurfaces(changed, CameraRays(&random, 600));
+  const std::vector<HitSurface> surfaces = TraceSurfaces(changed, CameraRays(&random, 600));
   const std::vector<ShadowRay> rays = RaysTo(now, Vec3d(0), surfaces);
   CHECK(TraceShadows(changed, rays, 0) == TraceShadows(changed, rays));
 }

@@ -188,10 +188,10 @@ TEST_CASE("refined hits are the scalar test's, on every target") {
   const std::vector<Ray> rays = CameraRays(&random, 3000);
   ForEachTarget([&](Target) {
     const Intersector intersector(scene, Vec3d(0));
-    const std::vector<Surface> surfaces = TraceSurfaces(intersector, rays);
+    const std::vector<HitSurface> surfaces = TraceSurfaces(intersector, rays);
     REQUIRE(surfaces.size() == rays.size());
     for (size_t i = 0; i < rays.size(); ++i) {
-      const Surface& surface = surfaces[i];
+      const HitSurface& surface = surfaces[i];
       const auto& [center, radius] = geometry.spheres[surface.primitive];
       const Vec3d& direction = rays[i].direction;
       const auto hit = TestSphere(center, direction, radius, TargetProducts());

@@ -30,7 +30,7 @@ struct Hit {
   bool operator==(const Hit&) const = default;
 };
 
-struct Surface {
+struct HitSurface {
   uint32_t primitive;
   Vec3d position, normal, to_view;
 };
@@ -100,9 +100,9 @@ inline std::vector<Hit> Trace(const Intersector& intersector, const std::vector<
 }
 
 // The surfaces that are hit, in the order of their rays.
-inline std::vector<Surface> TraceSurfaces(const Intersector& intersector,
-                                          const std::vector<Ray>& rays) {
-  std::vector<Surface> surfaces;
+inline std::vector<HitSurface> TraceSurfaces(const Intersector& intersector,
+                                             const std::vector<Ray>& rays) {
+  std::vector<HitSurface> surfaces;
   ClosestHits closest;
   HitBatch hits;
   HitDirections rounded;

@@ -11,10 +11,10 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Shadow rays from the hits of camera rays, to a light or in a direction without one.
-std::vector<ShadowRay> ShadowRays(const std::vector<Surface>& surfaces, const Vec3d* light,
+std::vector<ShadowRay> ShadowRays(const std::vector<HitSurface>& surfaces, const Vec3d* light,
                                   const Vec3d& to_light) {
   std::vector<ShadowRay> rays;
-  for (const Surface& surface : surfaces) {
+  for (const HitSurface& surface : surfaces) {
     const Vec3d direction = light != nullptr ? *light - surface.position : to_light;
     rays.push_back(
         {{surface.position, direction}, light != nullptr ? 1 : kInfinity, surface.primitive});
@@ -52,7 +52,7 @@ TEST_CASE("occlusion is brute force's in all directions in a large tree") {
   const Scene scene = RandomSpheres(&random, 1500);
   const auto surfaces = TraceSurfaces(Intersector(scene, Vec3d(0)), CameraRays(&random, 1500));
   std::vector<ShadowRay> rays;
-  for (const Surface& surface : surfaces) {
+  for (const HitSurface& surface : surfaces) {
     rays.push_back({{surface.position, random.Direction()}, kInfinity, surface.primitive});
   }
   CheckOccluded(scene, rays);
@@ -69,7 +69,7 @@ TEST_CASE("a convex body does not shadow itself") {
         ray.direction = scene.spheres[0].center + random.Direction() * radius * 0.99;
       }
       std::vector<ShadowRay> shadows;
-      for (const Surface& surface : TraceSurfaces(Intersector(scene, Vec3d(0)), rays)) {
+      for (const HitSurface& surface : TraceSurfaces(Intersector(scene, Vec3d(0)), rays)) {
         Vec3d direction = random.Direction();
         // The rounding of the position may tilt the tangent plane by as much.
         if (surface.normal.dot(direction) < 4e-16 * distance) direction = -direction;

@@ -21,7 +21,7 @@ constexpr double kSides[] = {kLeavesOutward, kLeavesInward, kLeavesToEitherSide}
 
 struct Arrival {
   Hit hit;
-  Surface surface;  // where there is a hit
+  HitSurface surface;  // where there is a hit
 };
 
 std::vector<Arrival> Follow(const Intersector& intersector, const std::vector<SurfaceRay>& rays) {
@@ -65,9 +65,9 @@ void AddTriangle(const std::array<uint32_t, 3>& corners, Mesh* mesh) {
 }
 
 // In all directions, along the surface among them, and to all sides in turn.
-std::vector<SurfaceRay> RaysFrom(const std::vector<Surface>& surfaces, Random* random) {
+std::vector<SurfaceRay> RaysFrom(const std::vector<HitSurface>& surfaces, Random* random) {
   std::vector<SurfaceRay> rays;
-  for (const Surface& surface : surfaces) {
+  for (const HitSurface& surface : surfaces) {
     Vec3d direction = random->Direction();
     if (rays.size() % 3 == 0) {
       const Vec3d along = direction.cross(surface.normal);
@@ -176,7 +176,7 @@ TEST_CASE("light that is mirrored inside a sphere stays inside") {
         const std::vector<Arrival> arrivals = Follow(intersector, rays);
         for (size_t i = 0; i < rays.size(); ++i) {
           REQUIRE(arrivals[i].hit.primitive == 0);
-          const Surface& at = arrivals[i].surface;
+          const HitSurface& at = arrivals[i].surface;
           // The position is rounded at coordinates of up to four radii.
           REQUIRE(std::abs((at.position - center).length() / radius - 1) < 4e-15);
           // On the far side, seen from inside.
@@ -232,7 +232,7 @@ TEST_CASE("light in a room of triangles stays in it, and never meets the wall th
       for (size_t i = 0; i < rays.size(); ++i) {
         REQUIRE(arrivals[i].hit.primitive != kNoPrimitive);
         if (bounce > 0) REQUIRE(arrivals[i].hit.primitive / 2 != rays[i].start / 2);
-        const Surface& at = arrivals[i].surface;
+        const HitSurface& at = arrivals[i].surface;
         REQUIRE(at.normal.dot(rays[i].ray.direction) < 0);
         // Anywhere above the wall, and nearly along it where it is 1e-5 to the next one: rays have
         // then risen by 1e-12 there, which is far more than the 1e-15 that their origin is off by.
