@@ -140,17 +140,6 @@ template <class Found>
 HWY_INLINE void ForEachMeshLightHit(const MeshLight& light, const LightBoxRays& rays, size_t lane,
                                     const Vec3d& point, const Vec3d& direction,
                                     const Found& found) {
-  if (light.is_flat_list) {
-    uint64_t leaves = 0;
-    for (size_t i = 0; i < light.nodes.size(); ++i) {
-      leaves |= uint64_t{IntersectBoxes(light.nodes[i], rays, lane)} << (i * kMeshLightWidth);
-    }
-    for (; leaves != 0; leaves &= leaves - 1) {
-      ForEachLeafHit(light.leaves[hwy::Num0BitsBelowLS1Bit_Nonzero64(leaves)], point, direction,
-                     found);
-    }
-    return;
-  }
   uint32_t stack[kMeshLightStack];
   size_t size = 0;
   stack[size++] = 0;

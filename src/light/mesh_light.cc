@@ -69,26 +69,9 @@ class TreeBuilder {
   TreeBuilder(const std::vector<Range>& ranges, MeshLight* light)
       : ranges_(ranges), light_(*light) {}
 
-  void Build() {
-    std::vector<uint32_t> leaves;
-    ListLeaves(0, &leaves);
-    light_.is_flat_list = leaves.size() <= kMaxListedLeaves;
-    if (!light_.is_flat_list) {
-      AddNode(ChildrenOf(0));
-      return;
-    }
-    for (size_t i = 0; i < leaves.size(); i += kMeshLightWidth) {
-      AddNode(std::span(leaves).subspan(i, std::min(kMeshLightWidth, leaves.size() - i)));
-    }
-  }
+  void Build() { AddNode(ChildrenOf(0)); }
 
  private:
-  void ListLeaves(uint32_t range, std::vector<uint32_t>* leaves) const {
-    if (ranges_[range].count() <= kMeshLightLeaf) return leaves->push_back(range);
-    ListLeaves(ranges_[range].halves + 1, leaves);
-    ListLeaves(ranges_[range].halves, leaves);
-  }
-
   uint32_t AddNode(std::span<const uint32_t> children) {
     const auto node = static_cast<uint32_t>(light_.nodes.size());
     light_.nodes.emplace_back();

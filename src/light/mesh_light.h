@@ -20,9 +20,6 @@ namespace nacre {
 
 inline constexpr size_t kMeshLightWidth = 16;  // maximum children of a node: a vector of floats
 inline constexpr size_t kMeshLightLeaf = 8;    // maximum triangles of a leaf: a vector of doubles
-// With up to this many leaves, a ray is tested against the boxes of all leaves, which takes as many
-// vectors as the nodes that it would meet in a tree, and no branches between them.
-inline constexpr size_t kMaxListedLeaves = 4 * kMeshLightWidth;
 
 // A node of a bounding volume hierarchy. The children's boxes are rounded outwards to floats.
 struct MeshLightNode {
@@ -46,12 +43,9 @@ struct MeshLight {
   std::vector<Vec3d> crosses;                    // edge_x cross edge_y of each
   std::vector<double> probabilities;             // area over the sum of all
   std::vector<CdfEntry> by_area;
-  // The first node is the root. If is_flat_list, however, there is no tree: rays are tested against
-  // all nodes, whose children are the leaves in order.
-  std::vector<MeshLightNode> nodes;
+  std::vector<MeshLightNode> nodes;  // the first is the root
   std::vector<MeshLightLeaf> leaves;
-  bool is_flat_list = false;  // true for up to kMaxListedLeaves leaves
-  double radius = 0;          // of the ball around the origin that holds all triangles
+  double radius = 0;  // of the ball around the origin that holds all triangles
   // Convex: no corner lies in front of any triangle's plane, so that from no point a front face
   // hides another one. Flat: no corner lies behind one either.
   bool is_convex = false;

@@ -46,30 +46,30 @@ double LobeRoughness(const Material& material) {
 }
 
 // Notes perfect mirrors where there are lights, but none with an extent: a mirror reflects only
-// what has an extent. `parameter` is the name of the roughness that makes materials of this trait,
-// or their coats, mirrors.
-void NoteMirrors(const NotedMaterials& of, const char* parameter, MaterialTrait trait,
-                 std::vector<std::string>* notes) {
+// what has an extent. `trait` is kMirror or kCoatMirror.
+void NoteMirrors(const NotedMaterials& of, MaterialTrait trait, std::vector<std::string>* notes) {
   double greatest = 0;
+  std::string_view parameter = "roughness";  // of the greatest
   int count = 0;
   const std::string names = NameMaterials(of, trait, [&](size_t i) {
     const Material& material = of.scene.materials[i];
     if (trait == MaterialTrait::kMirror) greatest = std::max(greatest, LobeRoughness(material));
-    if (trait == MaterialTrait::kCoatMirror) {
-      for (const Coat& coat : CoatsOf(material)) {
-        const double roughness = LobeRoughness(coat.material);
-        if (roughness < kDeltaRoughness) greatest = std::max(greatest, roughness);
-      }
+    for (const Coat& coat : CoatsOf(material)) {
+      const double roughness = LobeRoughness(coat.material);
+      if (trait == MaterialTrait::kMirror || roughness >= kDeltaRoughness) continue;
+      if (roughness >= greatest) parameter = coat.roughness;
+      greatest = std::max(greatest, roughness);
     }
     ++count;
     return true;
   });
   if (names.empty()) return;
-  notes->push_back(fmt::format(
-      "{}: {}{} {:.6g}{} is below 2^-20 ({:.3g}) and so a perfect mirror, in which point, spot and "
-      "directional lights have no highlight; a {} of 2^-20 or more gives them one",
-      names, count > 1 ? "the greatest " : "", count > 1 ? std::string(parameter) + "," : parameter,
-      greatest, count > 1 ? "," : "", kDeltaRoughness, parameter));
+  notes->push_back(
+      fmt::format("{}: {}{}{} {:.6g}{} is below 2^-20 ({:.3g}) and so a perfect mirror, in which "
+                  "point, spot and "
+                  "directional lights have no highlight; a {} of 2^-20 or more gives them one",
+                  names, count > 1 ? "the greatest " : "", parameter, count > 1 ? "," : "",
+                  greatest, count > 1 ? "," : "", kDeltaRoughness, parameter));
 }
 
 void NoteGain(const NotedMaterials& of, std::vector<std::string>* notes) {
@@ -189,8 +189,8 @@ void NoteMaterials(const NotedMaterials& of, bool sampled_lights, std::vector<st
   const std::vector<Light>& lights = of.scene.lights;
   const bool has_punctual = std::any_of(lights.begin(), lights.end(), IsPunctual);
   if (!sampled_lights && has_punctual) {
-    NoteMirrors(of, "roughness", MaterialTrait::kMirror, notes);
-    NoteMirrors(of, "coat_roughness", MaterialTrait::kCoatMirror, notes);
+    NoteMirrors(of, MaterialTrait::kMirror, notes);
+    NoteMirrors(of, MaterialTrait::kCoatMirror, notes);
   }
   NoteGain(of, notes);
   NotePhongGain(of, notes);

@@ -311,13 +311,14 @@ namespace {
 // reflects: its albedo times the radiance.
 void CoverByCoat(const Rgb& ambient, const CoatHits& coat, size_t number, const MaterialRun& run,
                  HitParameters* below) {
-  const Rgb& tint = run.shading->coats[number]->tint;
+  const ShadingMaterial& material = *run.shading->coats[number];
   for (int c = 0; c < 3; ++c) {
     const AlignedArray<float>& left = ChannelOf(coat.surface.transmittance, c);
     AlignedArray<float>& reflected = ChannelOf(below->ambient, c);
     AlignedArray<float>& emission = ChannelOf(below->emission, c);
     for (size_t i = run.begin; i < run.end; ++i) {
-      const double albedo = 1 - double{left[i]}, transmittance = left[i] * tint[c];
+      const double albedo = 1 - double{left[i]},
+                   transmittance = left[i] * TintAt(material, coat.textures.get(), i)[c];
       reflected[i] = static_cast<float>(transmittance * reflected[i] + albedo * ambient[c]);
       emission[i] = static_cast<float>(transmittance * emission[i]);
     }

@@ -16,8 +16,9 @@ namespace {
 // Adds the measures by which the texels of a map that multiplies a parameter are compared. Radiance
 // is a linear function of most parameters, so that texels that change the mean by less than half
 // the wanted error do not matter. Dielectric texels among metal may be bright, too, and so may
-// lobes of a low exponent among sharp ones, beside the peaks of these.
-void AddMeasures(const MapTarget& target, const Material& material, double max_error,
+// lobes of a low exponent among sharp ones, beside the peaks of these. So may what a tinted coat
+// leaves free.
+void AddMeasures(const MapTarget& target, const Material& material, bool tints, double max_error,
                  std::vector<TexelMeasure>* measures) {
   using enum TexelMeasure::Kind;
   if (IsBlack(target.factor(material))) return;
@@ -31,7 +32,8 @@ void AddMeasures(const MapTarget& target, const Material& material, double max_e
     // The height of a microfacet lobe's peak is proportional to its roughness to the power of -4.
     add(kPower, is_width && !is_exponent ? -4 : 1);
     if (is_exponent) add(kPower, -1);
-    if (target.number == MappedNumber::kMetallic) add(kRest, 0);
+    const bool covers = tints && target.number == MappedNumber::kSpecular;
+    if (target.number == MappedNumber::kMetallic || covers) add(kRest, 0);
   }
 }
 
@@ -51,14 +53,14 @@ void AddMap(const Scene& scene, TextureId texture, std::vector<TexelMeasure> mea
   if (!kept.empty()) maps->push_back({texture, std::move(kept)});
 }
 
-void AddLooks(const Scene& scene, const Material& material, double max_error,
+void AddLooks(const Scene& scene, const Material& material, bool tints, double max_error,
               std::vector<TexelMap>* maps) {
   for (const MaterialMap& map : ModelOf(material)->maps) {
     const TextureId texture = map.get(material);
     if (!texture.valid()) continue;
     std::vector<TexelMeasure> measures;
     for (const MapTarget& target : TargetsOf(map)) {
-      AddMeasures(target, material, max_error, &measures);
+      AddMeasures(target, material, tints, max_error, &measures);
     }
     AddMap(scene, texture, std::move(measures), maps);
   }
@@ -137,10 +139,10 @@ std::shared_ptr<const TexelMaps> FindTexelMaps(const Scene& scene, const LightsP
     std::vector<LobeNormalMap>& normals = maps->normals.emplace_back();
     std::vector<TexelMap>& opacities = maps->opacities.emplace_back();
     if (ModelOf(material) == nullptr) continue;
-    AddLooks(scene, material, max_error, &looks);
+    AddLooks(scene, material, false, max_error, &looks);
     AddNormals(scene, material, &normals);
     for (const Coat& coat : CoatsOf(material)) {
-      AddLooks(scene, coat.material, max_error, &looks);
+      AddLooks(scene, coat.material, coat.tint != Rgb(1), max_error, &looks);
       AddNormals(scene, coat.material, &normals);
     }
     AddOpacity(scene, material, &opacities);

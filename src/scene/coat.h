@@ -2,6 +2,7 @@
 // scene/coat.h: the clear coats of a material as materials of their own.
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "scene/material.h"
@@ -16,13 +17,14 @@ struct Coat {
   // metallic_roughness with a black base and a dielectric highlight, whose weight `specular` is the
   // strength of the coat, and with the coat's own roughness and normal map.
   Material material;
-  // How a coat colours the light from below that it does not reflect, in [0, 1].
+  // How a coat colours the light from below that it does not reflect, in [0, 1]. Where a map of its
+  // strength leaves less of the coat, it colours less.
   Rgb tint{1, 1, 1};
+  std::string_view roughness = "coat_roughness";  // the parameter that is its roughness
 };
 
-// Returns the clear coats of `material` from the bottom up. What lies below a coat gets the share
-// of the light that the coat's albedo leaves, times its tint. Only metallic_roughness has a coat
-// today, and one at most, which is clear.
+// Returns the coats of `material` from the bottom up. What lies below a coat gets the share of the
+// light that the coat's albedo leaves, times its tint. Of all models, metallic_roughness has coats.
 std::vector<Coat> CoatsOf(const Material& material);
 
 // Removes the coats from a material. Returns whether it had any.

@@ -1,42 +1,64 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/idle_layers.h"
 
-#include <variant>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "scene/material_parameters.h"
 
 namespace nacre {
+namespace {
+
+bool IsBlack(const Scene& scene, TextureId id) {
+  if (id.index >= scene.textures.size()) return false;
+  const ImageId image = scene.textures[id.index].image;
+  return image.index < scene.images.size() && scene.images[image.index].is_black;
+}
+
+// Removes the map of this name, if the material has it.
+bool RemoveMap(const MaterialModel& model, std::string_view name, Material* material) {
+  bool had = false;
+  for (const MaterialMap& map : model.maps) {
+    if (map.name != name || !map.get(*material).valid()) continue;
+    map.set(*material, {});
+    had = true;
+  }
+  for (const MaterialNormalMap& map : model.normal_maps) {
+    if (map.name != name || !map.of(*material).texture.valid()) continue;
+    map.of(*material) = {};
+    had = true;
+  }
+  return had;
+}
+
+// Whether the parameter, or its map, is 0 all over. If it is the map, the parameter becomes 0.
+bool LeavesNothing(const Scene& scene, const MaterialModel& model,
+                   const MaterialParameter& parameter, Material* material) {
+  const std::string name = std::string(parameter.name) + "_map";
+  for (const MaterialMap& map : model.maps) {
+    if (map.name == name && IsBlack(scene, map.get(*material))) parameter.set(*material, Rgb(0));
+  }
+  return nacre::IsBlack(parameter.get(*material));
+}
+
+}  // namespace
 
 std::optional<Material> RemoveIdleLayers(const Scene& scene, Material* material) {
-  const auto is_black = [&](TextureId id) {
-    if (id.index >= scene.textures.size()) return false;
-    const ImageId image = scene.textures[id.index].image;
-    return image.index < scene.images.size() && scene.images[image.index].is_black;
-  };
-  auto* const model = std::get_if<MetallicRoughnessMaterial>(&material->model);
-  const bool emission = (IsBlack(material->emission) || is_black(material->emission_map)) &&
-                        (material->emission != Rgb(0) || material->emission_map.valid());
-  const bool coat = model != nullptr && (model->coat == 0 || is_black(model->coat_map)) &&
-                    (model->coat != 0 || model->coat_map.valid() ||
-                     model->coat_roughness_map.valid() || model->coat_normal_map.texture.valid());
-  const bool sheen = model != nullptr &&
-                     (IsBlack(model->sheen_color) || model->sheen_roughness == 0 ||
-                      is_black(model->sheen_color_map) || is_black(model->sheen_roughness_map)) &&
-                     (model->sheen_color != Rgb(0) || model->sheen_color_map.valid() ||
-                      model->sheen_roughness_map.valid());
-  if (!emission && !coat && !sheen) return std::nullopt;
+  const MaterialModel* const model = ModelOf(*material);
+  if (model == nullptr) return std::nullopt;
   Material whole = *material;
-  if (emission) {
-    material->emission = Rgb(0);
-    material->emission_map = {};
+  bool removed = false;
+  for (const MaterialParameter& parameter : model->parameters) {
+    if (parameter.layer.empty() || !LeavesNothing(scene, *model, parameter, material)) continue;
+    const std::string prefix = std::string(parameter.layer) + "_";
+    const auto remove = [&](std::string_view name) {
+      if (name.starts_with(prefix)) removed = RemoveMap(*model, name, material) || removed;
+    };
+    for (const MaterialMap& map : model->maps) remove(map.name);
+    for (const MaterialNormalMap& map : model->normal_maps) remove(map.name);
   }
-  if (coat) {
-    model->coat = 0;
-    model->coat_map = model->coat_roughness_map = {};
-    model->coat_normal_map = {};
-  }
-  if (sheen) {
-    model->sheen_color = Rgb(0);
-    model->sheen_color_map = model->sheen_roughness_map = {};
-  }
+  if (!removed) return std::nullopt;
   return whole;
 }
 

@@ -26,6 +26,9 @@ struct MaterialParameter {
   Rgb (*get)(const Material&);
   void (*set)(Material&, const Rgb&);
   std::string_view meaning;  // for people: a sentence or two
+  // If not empty, 0 leaves nothing of this layer, whose parameters and maps have names that begin
+  // with it and "_" (idle_layers.h).
+  std::string_view layer = {};
 };
 
 // A parameter with named options, numbered from 0. A "preset" sets other parameters, so choices are

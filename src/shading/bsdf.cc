@@ -90,8 +90,8 @@ float Attenuated(float light, float share) { return share > 0 ? light * share : 
 // below = below * the transmittance of the coat + over.
 void Cover(const MaterialHits& coat, const Soa3<float>& over, Soa3<float>* below) {
   const Soa3<float>& left = coat.surface.transmittance;
-  const Vec3f tint(coat.material.tint);
   for (size_t i = coat.begin; i < coat.end; ++i) {
+    const Vec3f tint(TintAt(coat.material, coat.textures, i));
     below->x[i] = Attenuated(below->x[i], left.x[i] * tint.x) + over.x[i];
     below->y[i] = Attenuated(below->y[i], left.y[i] * tint.y) + over.y[i];
     below->z[i] = Attenuated(below->z[i], left.z[i] * tint.z) + over.z[i];
@@ -258,7 +258,7 @@ std::array<CoatInView, kMostCoats> CoatsInView(const MaterialHits& at, size_t i)
   for (size_t k = 0; k < at.material.coats.size(); ++k) {
     const MaterialHits coat = LevelOf(at, 1 + k);
     const Rgb left(VectorAt(coat.surface.transmittance, i));
-    coats[k] = {Rgb(1) - left, left * coat.material.tint, IsMirror(coat, i)};
+    coats[k] = {Rgb(1) - left, left * TintAt(coat.material, coat.textures, i), IsMirror(coat, i)};
   }
   return coats;
 }

@@ -283,6 +283,8 @@ void FinishModel(ShadingMaterial* prepared) {
                          microfacet->coupling == DiffuseCoupling::kAlbedoScaled;
 }
 
+}  // namespace
+
 std::shared_ptr<const ShadingMaterial> PrepareCoat(const Coat& coat) {
   const auto own = std::make_shared<const Material>(coat.material);
   // SkipBlackBase is not called: the coat's base is black, but 1 - the coat's albedo is needed as
@@ -293,8 +295,6 @@ std::shared_ptr<const ShadingMaterial> PrepareCoat(const Coat& coat) {
   FinishModel(&prepared);
   return std::make_shared<const ShadingMaterial>(std::move(prepared));
 }
-
-}  // namespace
 
 ShadingMaterial PrepareMaterial(const Material& material, bool in_ambient) {
   ShadingMaterial prepared = PrepareUncoated(material);

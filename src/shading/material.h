@@ -12,6 +12,8 @@
 
 namespace nacre {
 
+struct Coat;
+
 struct Material;
 
 // What differs from hit to hit.
@@ -47,6 +49,9 @@ struct ShadingMaterial {
 
 // `in_ambient` is true in a scene with ambient light. `material` must outlive the result.
 ShadingMaterial PrepareMaterial(const Material& material, bool in_ambient = false);
+
+// A coat by itself. `coat` is copied.
+std::shared_ptr<const ShadingMaterial> PrepareCoat(const Coat& coat);
 
 // Removes the maps, so that all hits have the maps' factors as parameters.
 void DropMaps(ShadingMaterial* material);

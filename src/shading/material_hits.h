@@ -5,8 +5,10 @@
 
 #include <memory>
 #include <span>
+#include <variant>
 
 #include "hit/batch.h"
+#include "scene/material.h"
 #include "shading/hit_parameters.h"
 #include "shading/light.h"
 #include "shading/material.h"
@@ -23,6 +25,14 @@ struct CoatHits {
   // The probability of sampling the coat's lobe rather than a glossy lobe below it; 0 for mirrors.
   AlignedArray<float> chance{kBatchCapacity};
 };
+
+// The tint of a coat at hit i. `maps` are the parameters of the coat's hits, or null if none has
+// its own: a map of the strength of a coat weighs its tint, too.
+inline Rgb TintAt(const ShadingMaterial& coat, const HitParameters* maps, size_t i) {
+  if (maps == nullptr || !coat.by_hit.model || coat.tint == Rgb(1)) return coat.tint;
+  const double whole = std::get<MetallicRoughnessMaterial>(coat.own->model).specular;
+  return Rgb(1) - (Rgb(1) - coat.tint) * (NumbersOf(*maps, MappedNumber::kSpecular)[i] / whole);
+}
 
 // Hits [begin, end) of a batch, all of one material.
 struct MaterialHits {

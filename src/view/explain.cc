@@ -152,8 +152,9 @@ Json CoatTermsJson(const ShadingMaterial& material, size_t k, const StackNormals
 }
 
 // The light that the material reflects of `irradiance` from this direction. If its model is covered
-// by layers or a coat, `json` gets, from bottom to top, what each of these reflects, and the factor
-// by which it attenuates everything below.
+// by layers or a coat, or its lobe is mirrored at the horizon of a normal map, `json` gets, from
+// bottom to top, what each of these reflects, and the factor by which it attenuates everything
+// below.
 Reflection ReflectedJson(const ExplainedMaterial& material, const Point& point,
                          const Vec3d& to_light, const Rgb& irradiance, Json* json) {
   const ShadingMaterial& prepared = material.prepared;
@@ -161,9 +162,12 @@ Reflection ReflectedJson(const ExplainedMaterial& material, const Point& point,
   const Vec3d& v = point.to_view;
   const Reflection sum = Reflect(prepared, normals, to_light, v);
   const Reflection reflected = {sum.diffuse * irradiance, sum.specular * irradiance};
-  if (prepared.layers.empty() && prepared.coats.empty()) return reflected;
   const std::vector<StackLevel> levels = ReflectByLevel(prepared, normals, to_light, v);
-  if (levels.empty()) return reflected;
+  const bool mirrored = std::any_of(levels.begin(), levels.end(), [](const StackLevel& level) {
+    return level.name == kMirroredLevel;
+  });
+  const bool covered = !prepared.layers.empty() || !prepared.coats.empty();
+  if (levels.empty() || (!covered && !mirrored)) return reflected;
   // The normals of model and coats may differ: then some of them may face the light alone.
   const auto find = [&](std::string_view name, size_t index) {
     const auto found = std::find_if(levels.begin(), levels.end(), [&](const StackLevel& level) {
@@ -180,7 +184,7 @@ Reflection ReflectedJson(const ExplainedMaterial& material, const Point& point,
   const auto cover = [&](std::string_view name, size_t index, Json terms) {
     const StackLevel level = find(name, index);
     Json own = own_json(level);
-    own["name"] = std::string(name);
+    own["name"] = std::string(name) + (index > 0 ? " " + std::to_string(index + 1) : "");
     own["below"] = TripleJson(level.below);
     own["terms"] = std::move(terms);
     covers.push_back(std::move(own));
@@ -345,6 +349,27 @@ Material MaterialAtHit(const Material& material, size_t index, const PixelWith& 
   return at_hit;
 }
 
+// Prepares `at_hit`, which is MaterialAtHit of `material`. Maps of coats multiply parameters of the
+// coats, which are materials of their own.
+ShadingMaterial PrepareAtHit(const Material& material, const Material& at_hit, size_t index,
+                             const PixelWith& pixel_with, Json* parameters) {
+  ShadingMaterial prepared = PrepareMaterial(at_hit);
+  const std::vector<Coat> coats = CoatsOf(material);
+  for (size_t k = 0; k < coats.size(); ++k) {
+    Json of_coat = Json::object();
+    Coat coat = coats[k];
+    coat.material = MaterialAtHit(coats[k].material, index, pixel_with, &of_coat);
+    if (of_coat.empty()) continue;
+    const auto strength = [](const Coat& of) {
+      return std::get<MetallicRoughnessMaterial>(of.material.model).specular;
+    };
+    coat.tint = Rgb(1) - (Rgb(1) - coat.tint) * (strength(coat) / strength(coats[k]));
+    prepared.coats[k] = PrepareCoat(coat);
+    for (const auto& [name, value] : of_coat.items()) (*parameters)["coat " + name] = value;
+  }
+  return prepared;
+}
+
 Vec3d ToView(const Camera& camera, const Vec3d& position) {
   const Vec3d way = camera.projection == Projection::kPerspective
                         ? camera.position - position
@@ -377,7 +402,6 @@ Json ExplainPixel(const Scene& scene, const PixelLayers& layers, const PixelWith
                                     : "mesh " + std::to_string(object - spheres);
   json["material"] = Printable(material.name);
   json["model"] = model == nullptr ? "split" : std::string(model->name);
-  json["mapped"] = std::move(mapped);
   json["position"] = TripleJson(point.position);
   json["normal"] = TripleJson(point.normal);
   json["to_view"] = TripleJson(point.to_view);
@@ -386,7 +410,7 @@ Json ExplainPixel(const Scene& scene, const PixelLayers& layers, const PixelWith
   }
   Json lights = Json::array();
   ExplainedMaterial explained;
-  explained.prepared = PrepareMaterial(material);
+  explained.prepared = PrepareAtHit(own, material, number - 1, pixel_with, &mapped);
   explained.base = explained.prepared;
   explained.base.layers.clear();
   explained.base.coats.clear();
@@ -411,6 +435,7 @@ Json ExplainPixel(const Scene& scene, const PixelLayers& layers, const PixelWith
     if (std::holds_alternative<AmbientLight>(light.kind)) continue;
     lights.push_back(LightJson(light, explained, point, layers));
   }
+  json["mapped"] = std::move(mapped);
   json["lights"] = std::move(lights);
   json["lobe"] = LobeJson(explained, point);
   json["curves"] = CurvesJson(explained.prepared);

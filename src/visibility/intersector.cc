@@ -25,7 +25,9 @@ struct Intersector::State {
   IntersectorSettings settings;
   TraceGeometry geometry;
   bool nested = false;
-  size_t changes = 0;  // how many spheres have changed since AreNested was last asked
+  // Since AreNested was last asked: how many spheres have changed, and the extent then.
+  size_t changes = 0;
+  double asked_extent = 0;
   std::vector<LightOccluders> occluders;  // by index of the light
   std::vector<LightOccluders> forgotten;  // kept until the next FindOccluders
   CameraFrame camera;
@@ -48,6 +50,7 @@ Intersector::Intersector(const Scene& scene, const Vec3d& camera_position,
   s.geometry = MakeTraceGeometry(scene, camera_position, settings.threads);
   s.geometry.eye_reach = std::min(settings.eye_reach, 2 * s.geometry.extent);
   s.nested = s.HasShells();
+  s.asked_extent = s.geometry.extent;
   if (settings.tree) BuildTree();
 }
 
@@ -69,7 +72,10 @@ bool Intersector::MoveTo(const Scene& scene, const Vec3d& camera_position) {
   s.bins = {};
   MoveGeometry(scene, camera_position, s.settings.threads, &s.geometry);
   ForgetOccluders();
-  // Spheres that are nearly nested may become nested when other coordinates are rounded.
+  // Spheres that are nearly nested may become nested where their coordinates are rounded to fewer
+  // digits, farther from the eye.
+  if (s.geometry.extent <= 2 * s.asked_extent) return true;
+  s.asked_extent = s.geometry.extent;
   return !AreNested(s.geometry.spheres);
 }
 

@@ -189,26 +189,43 @@ class ProtocolTest(unittest.TestCase):
         for through, without_flakes in zip(coat['below'], over_smooth['below']):
             self.assertAlmostEqual(through, without_flakes, places=6)
 
+    def test_a_coat_under_maps_of_its_own_adds_up(self):
+        sun = {'type': 'directional', 'direction_of_travel': [0.3, -0.5, -1], 'irradiance': 2}
+        _, page = self.open(SOURCE / 'scenes/coat_and_sheen.json', *SIZE, '--spp', 1, '--set', f'/lights/sun={json.dumps(sun)}',
+                            '--set', '/textures/grain={"file": "textures/wood.png", "mapping": "spherical"}',
+                            '--set', '/materials/car paint/coat_map="grain"', '--set', '/materials/car paint/coat_roughness=0.8',
+                            '--set', '/materials/car paint/coat_roughness_map="grain"')
+        page.until(is_done)
+        seen = 0
+        for x, y in ((46, 34), (42, 30), (50, 40)):
+            page.send({'explain': x, 'y': y})
+            answer = page.until(lambda m: 'explained' in m)['explained']
+            self.assertEqual(answer['material'], 'car paint')
+            self.assertLess(answer['mapped']['coat specular'], 0.9)
+            seen += self.adds_up(answer)
+        self.assertGreater(seen, 0)
+
     def test_a_lobe_that_leans_below_the_surface_adds_up(self):
         """What it loses there is reflected by way of the horizon, which the explanation of a pixel names."""
         sun = {'type': 'directional', 'direction_of_travel': [0.9, -0.4, -0.6], 'irradiance': 2}
-        _, page = self.open(SOURCE / 'scenes/coat_and_sheen.json', *SIZE, '--spp', 1, '--set', f'/lights/sun={json.dumps(sun)}',
-                            '--set', '/materials/car paint/normal_map={"texture": "flakes", "scale": 4}',
-                            '--set', '/materials/car paint/roughness=0.9')
-        page.until(is_done)
-        by_way_of_the_horizon = 0
-        for x in range(36, 58, 2):
-            for y in range(26, 44, 2):
-                page.send({'explain': x, 'y': y})
-                answer = page.until(lambda m: 'explained' in m)['explained']
-                if answer.get('material') != 'car paint':
-                    continue
-                with self.subTest(x=x, y=y):
-                    self.adds_up(answer)
-                sun = next(light for light in answer['lights'] if light['name'] == 'sun')
-                by_way_of_the_horizon += sun['state'] == 'lit' and any(
-                    cover['name'] == 'mirrored at the horizon' and cover['specular'][1] > 1e-3 for cover in sun.get('covers', []))
-        self.assertGreater(by_way_of_the_horizon, 3)
+        for coat in 1, 0:
+            _, page = self.open(SOURCE / 'scenes/coat_and_sheen.json', *SIZE, '--spp', 1, '--set', f'/lights/sun={json.dumps(sun)}',
+                                '--set', '/materials/car paint/normal_map={"texture": "flakes", "scale": 4}',
+                                '--set', '/materials/car paint/roughness=0.9', '--set', f'/materials/car paint/coat={coat}')
+            page.until(is_done)
+            by_way_of_the_horizon = 0
+            for x in range(36, 58, 2):
+                for y in range(26, 44, 2):
+                    page.send({'explain': x, 'y': y})
+                    answer = page.until(lambda m: 'explained' in m)['explained']
+                    if answer.get('material') != 'car paint':
+                        continue
+                    with self.subTest(x=x, y=y, coat=coat):
+                        self.adds_up(answer)
+                    sun_there = next(light for light in answer['lights'] if light['name'] == 'sun')
+                    by_way_of_the_horizon += sun_there['state'] == 'lit' and any(
+                        cover['name'] == 'mirrored at the horizon' and cover['specular'][1] > 1e-3 for cover in sun_there.get('covers', []))
+            self.assertGreater(by_way_of_the_horizon, 3)
 
     def test_an_explained_lobe_lies_opposite_the_viewer(self):
         _, page = self.open(SOURCE / 'scenes/first_scene.json', *SIZE, '--spp', 1, '--set', '/materials/red/roughness=0.1')

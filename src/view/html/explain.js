@@ -71,8 +71,8 @@ class Explanation {
           rows.push(row(`${name}: ${label}`, of(({terms}) => term in terms ? Array.isArray(terms[term]) ? three(terms[term]) : show(terms[term], 5) : '')));
         }
       }
-      rows.push(row(`${name} leaves of it`, of(({below}) => three(below))),
-                row(`${name} adds`, of(({diffuse, specular}) => three(sum3([diffuse, specular])))));
+      if (covered.some(l => l.covers[i].below.some(share => share !== 1))) rows.push(row(`${name} leaves of it`, of(({below}) => three(below))));
+      rows.push(row(`${name} adds`, of(({diffuse, specular}) => three(sum3([diffuse, specular])))));
     });
     return rows;
   }
