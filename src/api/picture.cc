@@ -111,12 +111,11 @@ Picture ToneMap(const Image& image, const ToneMapSettings& settings) {
     const size_t pixels = image.channels[0].samples.size();
     picture.rgba.resize(4 * pixels, 255);
     constexpr size_t kBlock = size_t{1} << 14;
-    ParallelFor((pixels + kBlock - 1) / kBlock, 0, [&](size_t block) {
-      const size_t first = block * kBlock, count = std::min(kBlock, pixels - first);
+    ParallelForBlocks(pixels, kBlock, 0, [&](size_t first, size_t end) {
       std::array<uint8_t, 3 * kBlock> rgb8;
-      EncodePixels(shown, first, count, rgb8.data());
-      for (size_t i = 0; i < count; ++i) {
-        std::copy_n(rgb8.data() + 3 * i, 3, picture.rgba.data() + 4 * (first + i));
+      EncodePixels(shown, first, end - first, rgb8.data());
+      for (size_t i = first; i < end; ++i) {
+        std::copy_n(rgb8.data() + 3 * (i - first), 3, picture.rgba.data() + 4 * i);
       }
     });
     return picture;

@@ -58,13 +58,6 @@ struct Scene::Impl {
   mutable std::shared_ptr<const nacre::Scene> made_;
 };
 
-template <class Item>
-std::vector<std::string> NamesOf(const std::vector<Item>& items) {
-  std::vector<std::string> names;
-  for (const Item& item : items) names.push_back(item.name);
-  return names;
-}
-
 // Converts the functions of a user's model. Throws nacre::Error (kUsage) if some are missing.
 std::shared_ptr<const nacre::UserBrdf> ToOwn(const UserBrdf& brdf, const std::string& name);
 

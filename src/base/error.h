@@ -57,4 +57,12 @@ std::string NearestName(const std::string& word, const std::vector<std::string>&
 std::string NearestHint(const std::string& word, const std::vector<std::string>& candidates,
                         const std::string& otherwise);
 
+// The names of items, which are such candidates.
+template <class Items>
+std::vector<std::string> NamesOf(const Items& items) {
+  std::vector<std::string> names;
+  for (const auto& item : items) names.emplace_back(item.name);
+  return names;
+}
+
 }  // namespace nacre

@@ -108,13 +108,11 @@ std::vector<std::string> CheckFiles(const ConvertArguments& arguments) {
 
 // Draws the page with both materials and their difference, and returns their measures; null if no
 // page was asked for.
-Json DrawPage(const ConvertArguments& arguments, const Json& given, const Material& original,
-              const MaterialFit& fit, const std::vector<std::string>& outputs) {
+Json DrawPage(const ConvertArguments& arguments, const Json& source, const std::string& label,
+              const Material& original, const MaterialFit& fit,
+              const std::vector<std::string>& outputs) {
   if (arguments.options.outputs.empty()) return {};
   const Json fitted = MaterialJson(fit.fitted);
-  Json source = given;
-  source.erase("name");
-  const std::string label = MaterialLabel(given);
   DifferencePage page{source, fitted, label, arguments.to, {}, {}};
   page.title = SheetTitle(arguments.sheet, fmt::format("{} as {}", label, arguments.to));
   page.footer = {"A  " + DescribeMaterial(MaterialJson(original)), "B  " + DescribeMaterial(fitted),
@@ -128,13 +126,13 @@ Json DrawPage(const ConvertArguments& arguments, const Json& given, const Materi
 void RunConvert(const ConvertArguments& arguments, const CLI::App& command) {
   RefuseWhatCannotApply(arguments, command);
   const std::vector<std::string> outputs = CheckFiles(arguments);
-  const Json given = ParseMaterialText("MATERIAL", arguments.material);
-  Json source = given;
+  Json source = ParseMaterialText("MATERIAL", arguments.material);
+  const std::string label = MaterialLabel(source);
   source.erase("name");
   const Material original = LoadMaterialText(JsonText(source), "MATERIAL");
   const MaterialFit fit = FitMaterial(original, arguments.to);
-  const Json difference = DrawPage(arguments, given, original, fit, outputs);
-  DrawCurves(arguments, original, MaterialLabel(given), fit);
+  const Json difference = DrawPage(arguments, source, label, original, fit, outputs);
+  DrawCurves(arguments, original, label, fit);
   const Json fitted = MaterialJson(fit.fitted);
   if (!arguments.json) {
     PrintOut(JsonText(fitted) + "\n" + (arguments.options.quiet ? "" : Table(fit)));

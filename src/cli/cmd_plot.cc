@@ -178,11 +178,9 @@ void RefuseWhatCannotApply(const PlotKind& kind, const CLI::App& command) {
 }
 
 const PlotKind& FindKind(const std::string& name) {
-  std::vector<std::string> names;
-  for (const PlotKind& kind : kPlotKinds) {
-    if (name == kind.name) return kind;
-    names.emplace_back(kind.name);
-  }
+  const auto found = std::ranges::find(kPlotKinds, name, &PlotKind::name);
+  if (found != kPlotKinds.end()) return *found;
+  const std::vector<std::string> names = NamesOf(kPlotKinds);
   throw Error(ExitCode::kUsage, "", fmt::format("unknown plot \"{}\"", name),
               NearestHint(name, names, fmt::format("the plots are {}", fmt::join(names, ", "))));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <initializer_list>
+#include <iterator>
 #include <memory>
 #include <new>
 #include <sstream>
@@ -20,7 +21,6 @@
 #include "base/version.h"
 #include "cli/commands.h"
 #include "cli/help_text.h"
-#include "cli/known_environment.h"
 #include "cli/option_text.h"
 #include "cli/print.h"
 #include "cli/progress.h"
@@ -165,9 +165,52 @@ void KeepFreedMemory() {
 #endif
 }
 
+constexpr std::string_view kKnownVariables[] = {
+    "PATH", "LD_LIBRARY_PATH", "HOME", "USER", "LOGNAME", "TMPDIR", "TERM", "COLUMNS", "LANG",
+    "FONTCONFIG_FILE", "FONTCONFIG_PATH",
+    // The desktop, for the browser:
+    "DISPLAY", "WAYLAND_DISPLAY", "XAUTHORITY", "DBUS_SESSION_BUS_ADDRESS", "DESKTOP_SESSION",
+    "KDE_FULL_SESSION", "KDE_SESSION_VERSION", "GNOME_DESKTOP_SESSION_ID", "BROWSER",
+    "SSH_CONNECTION"};
+constexpr std::string_view kKnownVariableBeginnings[] = {"LC_", "XDG_", "NACRE_"};
+
+// For variables of the C library, some of whose values name files to read. Accepts only values that
+// name the library's own files.
+bool NamesNoFile(std::string_view name, std::string_view value) {
+  if (name == "LANGUAGE") return value.find('/') == std::string_view::npos;
+  // "Europe/Berlin" is a file of the time zone database, and so are values that begin like it;
+  // TZDIR is not kept.
+  return name == "TZ" && !value.starts_with('/') && !value.starts_with(":/") &&
+         value.find("..") == std::string_view::npos;
+}
+
+bool IsKnown(std::string_view name, std::string_view value) {
+  return NamesNoFile(name, value) ||
+         std::ranges::find(kKnownVariables, name) != std::end(kKnownVariables) ||
+         std::ranges::any_of(kKnownVariableBeginnings,
+                             [&](std::string_view begin) { return name.starts_with(begin); });
+}
+
+// Removes all variables from an environment except those that the program, or programs that it
+// starts (gnuplot, a browser), need: where programs, libraries, fonts and a display are, who the
+// user is, and the language and time zone, if these name no user's files. The libraries in use read
+// hundreds of other variables, and some of these name code to load: OIIO_LIBRARY_PATH,
+// INTEL_LIBITTNOTIFY64 (oneTBB), GCONV_PATH (glibc), LIBHEIF_PLUGIN_PATH, OPENSSL_CONF, ... The
+// array is changed in place without allocating, so that no library, not even the C library, must
+// have been initialised.
+void KeepKnownEnvironment(char** environment) {
+  char** kept = environment;
+  for (char** entry = environment; *entry != nullptr; ++entry) {
+    const std::string_view text = *entry;
+    const size_t end = std::min(text.find('='), text.size());
+    if (IsKnown(text.substr(0, end), text.substr(std::min(end + 1, text.size())))) *kept++ = *entry;
+  }
+  *kept = nullptr;
+}
+
 // Runs before the constructors of libraries, in which oneTBB (since 2021.12) loads the code that an
 // environment variable names.
-void Start(int, char**, char** environment) { nacre::KeepKnownEnvironment(environment); }
+void Start(int, char**, char** environment) { KeepKnownEnvironment(environment); }
 [[gnu::section(".preinit_array"), gnu::used]] void (*const g_start)(int, char**, char**) = Start;
 
 // Does not format or allocate, since that may be what failed.
@@ -182,7 +225,7 @@ int FailPlainly(std::initializer_list<std::string_view> message) {
 
 // Handles what Run does not: exceptions before or during its own reports, and of unknown type.
 int main(int argc, char** argv) {
-  nacre::KeepKnownEnvironment(environ);  // again, for C libraries that do not call Start
+  KeepKnownEnvironment(environ);  // again, for C libraries that do not call Start
   KeepFreedMemory();
   try {
     return Run(argc, argv);

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "cli/outputs.h"
@@ -15,8 +14,6 @@
 
 namespace nacre {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // Describes {"model": "phong", "shininess": 64} as "phong, shininess 64". `kind` is "model" or
 // "type".
@@ -67,14 +64,6 @@ std::optional<Scene> LoadInputScene(const PlotInputs& inputs) {
 
 bool IsJson(const std::string& text) { return text.find('{') != std::string::npos; }
 
-template <class Item>
-std::vector<std::string> ItemNames(const std::vector<Item>& items) {
-  std::vector<std::string> names;
-  names.reserve(items.size());
-  for (const Item& item : items) names.push_back(item.name);
-  return names;
-}
-
 // Curves show a single set of numbers: the constant factors, without maps.
 NamedMaterial Prepare(const std::string& label, const Material& material) {
   NamedMaterial named{label, PrepareMaterial(material)};
@@ -104,7 +93,7 @@ std::vector<std::pair<std::string, Item>> Collect(const PlotInputs& inputs, cons
     if (scene && !IsJson(item.text)) {
       const std::vector<Item>& all = (*scene).*items;
       const auto at = std::ranges::find(all, item.text, &Item::name);
-      if (at == all.end()) FailUnknown(inputs, what, item.text, ItemNames(all));
+      if (at == all.end()) FailUnknown(inputs, what, item.text, NamesOf(all));
       found.emplace_back(item.text, *at);
       continue;
     }

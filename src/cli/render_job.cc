@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/seconds_since.h"
 #include "cli/outputs.h"
@@ -63,10 +64,7 @@ void TellForecast(const RenderOptions& options, const FramePlan& plan, const For
 
 void Summarize(const RenderOptions& options, const FramePlan& plan, const RenderStats& stats,
                const JobTimes& times) {
-  std::string files;
-  for (const std::string& path : FilesAmong(options.outputs)) {
-    files += (files.empty() ? "" : ", ") + path;
-  }
+  std::string files = fmt::format("{}", fmt::join(FilesAmong(options.outputs), ", "));
   if (files.empty()) files = "no file";
   const PixelSampleCounts& counts = stats.pixel_samples;
   const std::string samples =

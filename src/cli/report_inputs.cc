@@ -21,7 +21,6 @@ namespace nacre {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
 constexpr uint64_t kMaxJsonBytes = uint64_t{1} << 30;  // as for scenes

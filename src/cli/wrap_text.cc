@@ -2,8 +2,8 @@
 #include "cli/wrap_text.h"
 
 #include <algorithm>
-#include <charconv>
 
+#include "base/numbers.h"
 #include "base/printable.h"
 #include "image_io/draw_text.h"
 
@@ -84,13 +84,6 @@ bool Fits(const LabelRow& row, const FittedLabels& fitted, double room) {
     }
   }
   return true;
-}
-
-bool IsNumber(const std::string& text) {
-  double number = 0;
-  const char* const end = text.data() + text.size();
-  const auto result = std::from_chars(text.data(), end, number);
-  return result.ec == std::errc() && result.ptr == end;
 }
 
 FittedLabels Fit(const LabelRow& row, const std::vector<size_t>& places, double size_px,
@@ -183,7 +176,7 @@ FittedLabels FitLabels(const std::vector<std::string>& labels, double size_px, d
   }
   size_t last_tiers = 1;
   double room = width;
-  const bool are_numbers = std::all_of(labels.begin(), labels.end(), IsNumber);
+  const bool are_numbers = std::all_of(labels.begin(), labels.end(), ParseNumber);
   for (size_t tiers = 2; tiers <= 4 && !are_numbers; ++tiers) {
     fitted = FitTiers(row, places, tiers, 0.7 * size_px);
     last_tiers = tiers;

@@ -53,11 +53,10 @@ bool SumRow(const float* got, const float* reference, size_t count, ErrorSums* s
             LargestErrors* relative);
 
 // Marks samples whose error exceeds max_abs + max_rel |reference|: for each, sets a bit in `marks`,
-// which has ExcessBytes(count) bytes, at a position that depends only on the column. Raises
+// which has `count` bytes, at a position that depends only on the column. Raises
 // *largest to their errors. Returns false if any sample is not finite; then `marks` and `largest`
 // are invalid.
 bool MarkExcess(const float* got, const float* reference, size_t count, double max_abs,
                 double max_rel, uint8_t* marks, double* largest);
-inline size_t ExcessBytes(size_t count) { return count; }
 
 }  // namespace nacre

@@ -37,7 +37,7 @@ class RowExcess {
       : pair_(pair),
         tolerances_(tolerances),
         width_(static_cast<size_t>(pair.window.width())),
-        marks_((ExcessBytes(width_) + sizeof(uint64_t) - 1) / sizeof(uint64_t)) {}
+        marks_((width_ + sizeof(uint64_t) - 1) / sizeof(uint64_t)) {}
 
   void Add(int y, Excess* excess) {
     std::fill(marks_.begin(), marks_.end(), uint64_t{0});

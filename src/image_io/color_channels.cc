@@ -104,10 +104,10 @@ size_t ConvertColors(const Imath::M33d& matrix, const std::array<float*, 3>& rgb
   constexpr double kRounding = 1e-6;
   std::atomic<size_t> outside{0};
   constexpr double kMost = std::numeric_limits<float>::max();
-  ParallelFor((count + kPiece - 1) / kPiece, threads, [&](size_t piece) {
+  ParallelForBlocks(count, kPiece, threads, [&](size_t begin, size_t end) {
     const DefaultFloatMode keeps_denormals;
     size_t outside_here = 0;
-    for (size_t i = piece * kPiece; i < std::min(count, (piece + 1) * kPiece); ++i) {
+    for (size_t i = begin; i < end; ++i) {
       const Vec3d from(rgb[0][i * step], rgb[1][i * step], rgb[2][i * step]);
       if (!std::isfinite(from.x + from.y + from.z)) continue;
       const Vec3d to = from * matrix;

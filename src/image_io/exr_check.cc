@@ -182,7 +182,7 @@ bool InflateWhole(std::span<const uint8_t> packed, std::span<uint8_t> unpacked) 
   return isal_inflate_stateless(&state) == ISAL_DECOMP_OK && state.total_out == unpacked.size();
 }
 
-// Undoes SplitAndPredict (image_io/zip.h). `bytes` holds 2 * words.size().
+// Undoes SplitAndPredict (image_io/exr_chunk.h). `bytes` holds 2 * words.size().
 void JoinPredicted(std::span<const uint8_t> bytes, std::span<uint16_t> words) {
   constexpr uint32_t kOffset = 128;  // adding and subtracting it are the same modulo 256
   const size_t count = words.size();

@@ -11,7 +11,6 @@
 #include "base/error.h"
 #include "image_io/deflate.h"
 #include "image_io/exr_types.h"
-#include "image_io/zip.h"
 
 namespace nacre {
 

@@ -40,11 +40,7 @@ std::optional<Compression> FindForm(const Test& test) {
 
 }  // namespace
 
-std::vector<std::string> CompressionNames() {
-  std::vector<std::string> names;
-  for (const CompressionForm& form : kForms) names.emplace_back(form.name);
-  return names;
-}
+std::vector<std::string> CompressionNames() { return NamesOf(kForms); }
 
 std::string CompressionName(Compression compression) { return FormOf(compression).name; }
 

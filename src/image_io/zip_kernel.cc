@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// image_io/zip_kernel.cc: SplitAndPredict of image_io/zip.h.
+// image_io/zip_kernel.cc: SplitAndPredict of image_io/exr_chunk.h.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "image_io/zip_kernel.cc"
 #include "hwy/foreach_target.h"
 
 #include "hwy/highway.h"
 
-#include "image_io/zip.h"
+#include "image_io/exr_chunk.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {

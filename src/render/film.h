@@ -12,8 +12,8 @@
 #include "hit/camera_frame.h"
 #include "render/explanation.h"
 #include "render/film_kernel.h"
-#include "render/layers.h"
 #include "render/lights_plan.h"
+#include "render/output_layers.h"
 #include "render/settings.h"
 #include "sampling/pixel_sampler.h"
 

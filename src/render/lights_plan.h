@@ -9,7 +9,7 @@
 
 #include "render/explanation.h"
 #include "render/hits_plan.h"
-#include "render/layers.h"
+#include "render/output_layers.h"
 #include "render/prepared_scene.h"
 #include "render/settings.h"
 #include "sampling/pair_sampler.h"

@@ -32,19 +32,25 @@ double RootNearZero(double a, double b, double c) {
   return -c / (b + std::copysign(root, b));
 }
 
-// Positions along an axis.
+// Positions along an axis, in ascending order.
 struct Breakpoints {
   double at[6];
   int count = 0;
+
+  void Insert(double place) {
+    int i = count++;
+    for (; i > 0 && at[i - 1] > place; --i) at[i] = at[i - 1];
+    at[i] = place;
+  }
 };
 
-// Adds the roots of a s^2 + 2 b s + c whose absolute values are less than `half_side`.
-void AddRoots(double a, double b, double c, double half_side, Breakpoints* breakpoints) {
+// Inserts the roots of a s^2 + 2 b s + c whose absolute values are less than `half_side`.
+void InsertRoots(double a, double b, double c, double half_side, Breakpoints* breakpoints) {
   const double discriminant = b * b - a * c;
   if (!(discriminant > 0)) return;
   const double q = -(b + std::copysign(std::sqrt(discriminant), b));
   for (const double root : {q / a, c / q}) {
-    if (std::abs(root) < half_side) breakpoints->at[breakpoints->count++] = root;
+    if (std::abs(root) < half_side) breakpoints->Insert(root);
   }
 }
 
@@ -100,11 +106,10 @@ double CoveredShare(const OutlineForm& outline, double half_side) {
   // crossing to crossing.
   Breakpoints breakpoints;
   for (const double side : {-half_side, half_side}) {
-    breakpoints.at[breakpoints.count++] = side;
-    AddRoots(f.xx, f.x + f.xy * side, f.one + side * (2 * f.y + f.yy * side), half_side,
-             &breakpoints);
+    breakpoints.Insert(side);
+    InsertRoots(f.xx, f.x + f.xy * side, f.one + side * (2 * f.y + f.yy * side), half_side,
+                &breakpoints);
   }
-  std::sort(breakpoints.at, breakpoints.at + breakpoints.count);
   double area = 0;
   for (int i = 0; i + 1 < breakpoints.count; ++i) {
     const double half = (breakpoints.at[i + 1] - breakpoints.at[i]) / 2;

@@ -39,7 +39,7 @@ struct RenderSettings {
   Window region{};                    // pixels to render; empty: the whole frame
   FrameBand band{};                   // if its count is above 0: the pixels to render, not `region`
   int band_rows = kStripRows;         // bands begin at multiples of this; a multiple of kStripRows
-  std::vector<std::string> layers{};  // besides R G B A; names as in render/layers.h
+  std::vector<std::string> layers{};  // besides R G B A; names as in render/output_layers.h
   int tile_size = 0;  // width of tiles in pixels, [1, 64]; 0: the plan chooses. Changes no bit
   IntersectorChoice intersector = IntersectorChoice::kAuto;
   // Adaptive sampling (adaptive.h) if max_error is above 0: the largest error of a pixel relative

@@ -16,16 +16,16 @@ bool IsBlack(const Scene& scene, TextureId id) {
   return image.index < scene.images.size() && scene.images[image.index].is_black;
 }
 
-// Removes the map of this name, if the material has it.
-bool RemoveMap(const MaterialModel& model, std::string_view name, Material* material) {
+// Removes the maps whose names begin with `prefix`. Returns whether the material had any.
+bool RemoveMaps(const MaterialModel& model, std::string_view prefix, Material* material) {
   bool had = false;
   for (const MaterialMap& map : model.maps) {
-    if (map.name != name || !map.get(*material).valid()) continue;
+    if (!map.name.starts_with(prefix) || !map.get(*material).valid()) continue;
     map.set(*material, {});
     had = true;
   }
   for (const MaterialNormalMap& map : model.normal_maps) {
-    if (map.name != name || !map.of(*material).texture.valid()) continue;
+    if (!map.name.starts_with(prefix) || !map.of(*material).texture.valid()) continue;
     map.of(*material) = {};
     had = true;
   }
@@ -51,12 +51,7 @@ std::optional<Material> RemoveIdleLayers(const Scene& scene, Material* material)
   bool removed = false;
   for (const MaterialParameter& parameter : model->parameters) {
     if (parameter.layer.empty() || !LeavesNothing(scene, *model, parameter, material)) continue;
-    const std::string prefix = std::string(parameter.layer) + "_";
-    const auto remove = [&](std::string_view name) {
-      if (name.starts_with(prefix)) removed = RemoveMap(*model, name, material) || removed;
-    };
-    for (const MaterialMap& map : model->maps) remove(map.name);
-    for (const MaterialNormalMap& map : model->normal_maps) remove(map.name);
+    removed = RemoveMaps(*model, std::string(parameter.layer) + "_", material) || removed;
   }
   if (!removed) return std::nullopt;
   return whole;

@@ -186,11 +186,10 @@ class MaterialMaker {
     if (!sheen) return;
     const Rgb color = sheen->Color("sheenColorFactor", Rgb(0));
     const double roughness = sheen->Number("sheenRoughnessFactor", 0);
-    const auto is_unit = [](double value) { return value >= 0 && value <= 1; };
-    if (!is_unit(color.x) || !is_unit(color.y) || !is_unit(color.z)) {
-      sheen->Refuse("sheenColorFactor", "is not in [0, 1]");
+    if (!limits::kUnit.Contains(color)) sheen->Refuse("sheenColorFactor", "is not in [0, 1]");
+    if (!limits::kUnit.Contains(roughness)) {
+      sheen->Refuse("sheenRoughnessFactor", "is not in [0, 1]");
     }
-    if (!is_unit(roughness)) sheen->Refuse("sheenRoughnessFactor", "is not in [0, 1]");
     if (IsBlack(color) || roughness == 0) return;
     result->sheen_color = color;
     result->sheen_roughness = roughness;

@@ -56,10 +56,8 @@ template <class Set>
 size_t SetAll(size_t count, int threads, const Set& set) {
   constexpr size_t kPiece = size_t{1} << 14;
   std::atomic<size_t> first_wrong = count;
-  ParallelFor((count + kPiece - 1) / kPiece, threads, [&](size_t piece) {
+  ParallelForBlocks(count, kPiece, threads, [&](size_t i, size_t end) {
     const DefaultFloatMode mode;  // numbers may be denormal
-    const size_t end = std::min(count, (piece + 1) * kPiece);
-    size_t i = piece * kPiece;
     if (i > first_wrong) return;
     while (i < end && set(i)) ++i;
     if (i == end) return;

@@ -251,14 +251,9 @@ bool Fits(const Json& json, const uint64_t*) { return IsWhole(json, 0x1p53); }
 bool Fits(const Json& json, const double*) { return json.is_number(); }
 bool Fits(const Json& json, const bool*) { return json.is_boolean(); }
 bool Fits(const Json& json, const std::string*) { return json.is_string(); }
-bool Fits(const Json& json, const std::map<std::string, int>*) { return json.is_object(); }
 bool Fits(const Json&, const Json* const*) { return true; }
-template <Object T>
+template <class T>
 bool Fits(const Json& json, const T*) {
-  return json.is_object();
-}
-template <Object T>
-bool Fits(const Json& json, const std::optional<T>*) {
   return json.is_object();
 }
 template <class T>

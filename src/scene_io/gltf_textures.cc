@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
-#include <span>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "base/error.h"
 #include "scene/limits.h"
@@ -109,6 +110,24 @@ GltfImage FindImage(const GltfDocument& document, int image) {
 
 }  // namespace
 
+TemporaryFile::TemporaryFile(std::string_view bytes, const std::string& suffix)
+    : path_((std::filesystem::temp_directory_path() / "nacre-XXXXXX").string() + suffix) {
+  const int file = mkstemps(path_.data(), static_cast<int>(suffix.size()));
+  bool written = file >= 0;
+  while (written && !bytes.empty()) {
+    const ssize_t count = write(file, bytes.data(), bytes.size());
+    written = count > 0;
+    if (written) bytes.remove_prefix(static_cast<size_t>(count));
+  }
+  if (file >= 0) close(file);
+  if (written) return;
+  if (file >= 0) unlink(path_.c_str());
+  throw Error(ExitCode::kInternal, path_, "cannot be written",
+              "an image inside a model is decoded from there");
+}
+
+TemporaryFile::~TemporaryFile() { unlink(path_.c_str()); }
+
 ImageId GltfTextures::AddImage(int image, const TextureReading& reading) {
   const auto key = std::make_pair(image, reading.Key({}));
   const auto known = images_.find(key);
@@ -122,9 +141,7 @@ std::filesystem::path GltfTextures::FileOf(const GltfImage& image) {
   if (!image.file.empty()) return image.file;
   std::unique_ptr<const TemporaryFile>& file = files_[image.key];
   if (file == nullptr) {
-    file = std::make_unique<const TemporaryFile>(
-        std::span(reinterpret_cast<const unsigned char*>(image.bytes.data()), image.bytes.size()),
-        SuffixOf(image.bytes));
+    file = std::make_unique<const TemporaryFile>(image.bytes, SuffixOf(image.bytes));
   }
   return file->path();
 }

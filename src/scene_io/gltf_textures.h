@@ -13,7 +13,6 @@
 
 #include "scene/scene.h"
 #include "scene_io/gltf_document.h"
-#include "scene_io/temporary_file.h"
 #include "scene_io/texture_image.h"
 
 namespace nacre {
@@ -33,6 +32,22 @@ struct GltfTextureUse {
   gltf::Extensions extensions = nullptr;
   TextureEncoding encoding = TextureEncoding::kLinear;
   double glossiness = 0;  // TextureReading::glossiness
+};
+
+// A file in the folder for temporary files, deleted with the object, for readers that need one.
+// Throws Error (kInternal) if it cannot be written.
+class TemporaryFile {
+ public:
+  // `suffix`: the end of the file's name, such as ".png".
+  TemporaryFile(std::string_view bytes, const std::string& suffix);
+  ~TemporaryFile();
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
 };
 
 // Adds textures and their images to a scene. Each image is read once per way of reading it

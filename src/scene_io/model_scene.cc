@@ -100,8 +100,7 @@ void SetMaterials(const JsonValue& value, SceneContext* context) {
   JsonObject object(value, "materials by name");
   if (!object.is_object()) return;
   Scene* const scene = context->scene;
-  std::vector<std::string> names;
-  for (const Material& material : scene->materials) names.push_back(material.name);
+  const std::vector<std::string> names = NamesOf(scene->materials);
   for (const auto& [name, json] : value.json.items()) {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) {

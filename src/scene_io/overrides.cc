@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -17,6 +16,7 @@
 
 #include "base/error.h"
 #include "base/excerpt.h"
+#include "base/numbers.h"
 #include "base/path.h"
 #include "scene_io/schema.h"
 
@@ -27,19 +27,9 @@ namespace {
   throw Error(ExitCode::kUsage, pointer, std::move(what), std::move(hint));
 }
 
-// Parses numbers that are almost JSON: .5, 1. or +2.
-std::optional<Json> LooseNumber(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  const bool is_number = error == std::errc() && end == text.data() + text.size();
-  if (!is_number || !std::isfinite(number)) return std::nullopt;
-  return Json(number);
-}
-
 [[noreturn]] void RefuseText(const std::string& pointer, const std::string& text,
                              const std::string& wanted) {
-  const std::optional<Json> number = LooseNumber(text);
+  const std::optional<double> number = ParseNumber(text);  // almost JSON: .5, 1. or +2
   RefuseOverride(pointer, fmt::format("{} is not JSON", Excerpt(text)),
                  number ? fmt::format("write {}", JsonText(*number))
                  : wanted.empty()

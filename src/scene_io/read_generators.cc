@@ -3,6 +3,7 @@
 #include <array>
 #include <utility>
 
+#include "base/error.h"
 #include "scene/generators.h"
 #include "scene/material_parameters.h"
 #include "scene_io/readers.h"
@@ -28,11 +29,8 @@ const MaterialParameter* ReadParameter(JsonObject* object, const Material* mater
   const MaterialParameter* const parameter =
       model == nullptr ? nullptr : FindParameter(*model, name);
   if (parameter != nullptr) return parameter;
-  std::vector<std::string> names;
-  if (model != nullptr) {
-    for (const MaterialParameter& known : model->parameters) names.emplace_back(known.name);
-  }
-  FaultUnknownName(*object->Find("parameter"), "parameter", name, names);
+  FaultUnknownName(*object->Find("parameter"), "parameter", name,
+                   model == nullptr ? std::vector<std::string>() : NamesOf(model->parameters));
   return nullptr;
 }
 

@@ -43,10 +43,9 @@ constexpr float kMostRadiance = limits::kRadiance.max;
 bool AreRadiances(std::span<const float> samples, int threads) {
   constexpr size_t kPiece = size_t{1} << 18;
   std::atomic<bool> all = true;
-  ParallelFor((samples.size() + kPiece - 1) / kPiece, threads, [&](size_t piece) {
-    const size_t first = piece * kPiece;
+  ParallelForBlocks(samples.size(), kPiece, threads, [&](size_t begin, size_t end) {
     bool good = true;
-    for (const float sample : samples.subspan(first, std::min(kPiece, samples.size() - first))) {
+    for (const float sample : samples.subspan(begin, end - begin)) {
       good &= sample >= 0 && sample <= kMostRadiance;
     }
     if (!good) all = false;

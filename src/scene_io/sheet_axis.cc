@@ -186,9 +186,8 @@ const MaterialModel& ModelOfJson(const std::string& option, const Json& material
   const std::string name =
       found != material.end() && found->is_string() ? found->get<std::string>() : "";
   if (const MaterialModel* model = FindModel(name)) return *model;
-  std::vector<std::string> names;
-  for (const MaterialModel& model : MaterialModels()) names.emplace_back(model.name);
-  RefuseMaterial(option, fmt::format("\"{}\" is no model", name), NearestOrAll(name, names));
+  RefuseMaterial(option, fmt::format("\"{}\" is no model", name),
+                 NearestOrAll(name, NamesOf(MaterialModels())));
 }
 
 void CheckParameter(const std::string& option, const MaterialParameter& parameter,
@@ -225,8 +224,7 @@ SheetAxis::Kind CheckAgainst(const std::string& option, const MaterialModel& mod
     CheckParameter(option, *parameter, axis);
     return SheetAxis::Kind::kParameter;
   }
-  std::vector<std::string> names;
-  for (const MaterialParameter& parameter : model.parameters) names.emplace_back(parameter.name);
+  std::vector<std::string> names = NamesOf(model.parameters);
   for (const MaterialChoice& choice : model.choices) {
     if (choice.name == axis.name) {
       CheckChoice(option, choice, axis);

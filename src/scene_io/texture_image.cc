@@ -67,9 +67,8 @@ std::shared_ptr<const CodeTable> TableOf(TextureEncoding encoding) {
 template <class Body>
 void ForEachPiece(std::span<float> values, int threads, const Body& body) {
   constexpr size_t kPiece = size_t{1} << 18;
-  ParallelFor((values.size() + kPiece - 1) / kPiece, threads, [&](size_t i) {
-    body(values.subspan(i * kPiece, std::min(kPiece, values.size() - i * kPiece)));
-  });
+  ParallelForBlocks(values.size(), kPiece, threads,
+                    [&](size_t begin, size_t end) { body(values.subspan(begin, end - begin)); });
 }
 
 bool AreFinite(std::span<float> values, int threads) {

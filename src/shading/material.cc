@@ -285,7 +285,7 @@ void FinishModel(ShadingMaterial* prepared) {
 
 }  // namespace
 
-std::shared_ptr<const ShadingMaterial> PrepareCoat(const Coat& coat) {
+std::shared_ptr<const ShadingMaterial> MakeShadingCoat(const Coat& coat) {
   const auto own = std::make_shared<const Material>(coat.material);
   // SkipBlackBase is not called: the coat's base is black, but 1 - the coat's albedo is needed as
   // the coat's transmittance.
@@ -301,7 +301,7 @@ ShadingMaterial PrepareMaterial(const Material& material, bool in_ambient) {
   prepared.in_ambient = in_ambient;
   SkipBlackBase(&prepared);
   FinishModel(&prepared);
-  for (const Coat& coat : CoatsOf(material)) prepared.coats.push_back(PrepareCoat(coat));
+  for (const Coat& coat : CoatsOf(material)) prepared.coats.push_back(MakeShadingCoat(coat));
   // The stack's buffers have room for no more (bsdf.cc).
   if (prepared.coats.size() > kMostCoats || prepared.layers.size() > kMostLayers) {
     throw Error(ExitCode::kInternal, "material \"" + material.name + "\"",

@@ -51,7 +51,7 @@ struct ShadingMaterial {
 ShadingMaterial PrepareMaterial(const Material& material, bool in_ambient = false);
 
 // A coat by itself. `coat` is copied.
-std::shared_ptr<const ShadingMaterial> PrepareCoat(const Coat& coat);
+std::shared_ptr<const ShadingMaterial> MakeShadingCoat(const Coat& coat);
 
 // Removes the maps, so that all hits have the maps' factors as parameters.
 void DropMaps(ShadingMaterial* material);

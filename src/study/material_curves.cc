@@ -216,8 +216,7 @@ Figure LobeFigure(const std::vector<NamedLobe>& lobes) {
     double largest = 0;
     for (const NamedLobe& lobe : lobes) {
       plot.curves.push_back(LobeCurve(lobe, view_deg, from, to));
-      const std::vector<double>& y = plot.curves.back().y;
-      largest = std::max(largest, *std::max_element(y.begin(), y.end()));
+      largest = std::max(largest, std::ranges::max(plot.curves.back().y));
     }
     if (largest > 0) plot.y.high = 1.5 * largest;  // leaves room for the legend above the lobes
     plot.rules.push_back({Rule::Across::kX, view_deg, "mirror"});

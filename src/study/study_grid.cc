@@ -54,8 +54,7 @@ Rgb8Picture RenderGrid(const Light& light) {
 // The largest specular radiance of the smooth and fully metallic sphere.
 double SmoothMetalPeak(const Light& light) {
   const Image image = RenderLayers(SphereScene(GoldOf(0, 1), 128, {light}), {"specular"});
-  const std::vector<float>& specular = image.Find("specular.R")->samples;
-  return double{*std::max_element(specular.begin(), specular.end())};
+  return double{std::ranges::max(image.Find("specular.R")->samples)};
 }
 
 // The largest relative difference between a smooth white metal and its expected radiance, that of
@@ -97,12 +96,11 @@ Figure PeakFigure() {
             .log = true,
             .low = 0.1,
             .high = 1e9};
-  Curve curve;
+  Curve& curve = plot.curves.emplace_back();
   for (int i = 2; i <= 200; ++i) {
     curve.x.push_back(i / 200.0);
     curve.y.push_back(PeakOf(i / 200.0));
   }
-  plot.curves.push_back(std::move(curve));
   return MakeFigure(std::move(plot));
 }
 

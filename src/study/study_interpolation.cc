@@ -50,8 +50,7 @@ InterpolationError MeasureInterpolation(const Image& image, const Image& exact) 
   InterpolationError error;
   measure("diffuse.G", &error.diffuse_max, &error.diffuse_rms);
   measure("specular.G", &error.specular_max, &error.specular_rms);
-  const std::vector<float>& specular = image.Find("specular.G")->samples;
-  error.specular_peak = double{*std::max_element(specular.begin(), specular.end())};
+  error.specular_peak = double{std::ranges::max(image.Find("specular.G")->samples)};
   return error;
 }
 
@@ -89,14 +88,13 @@ Plot ErrorPlot(const std::vector<Level>& levels, bool specular) {
   plot.y = {.label = "error of radiance (1: white)", .log = true, .low = 1e-4, .high = 1};
   const auto add = [&](const char* title, double InterpolationError::*error,
                        InterpolationError Level::*kind) {
-    Curve curve;
+    Curve& curve = plot.curves.emplace_back();
     curve.title = title;
     curve.style = CurveStyle::kMarkedLine;
     for (int level = 0; level < kLevels; ++level) {
       curve.x.push_back(FacesOf(level));
       curve.y.push_back(levels[static_cast<size_t>(level)].*kind.*error);
     }
-    plot.curves.push_back(std::move(curve));
   };
   const auto rms = specular ? &InterpolationError::specular_rms : &InterpolationError::diffuse_rms;
   const auto max = specular ? &InterpolationError::specular_max : &InterpolationError::diffuse_max;

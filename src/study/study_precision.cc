@@ -28,7 +28,7 @@ Plot HitPlot(StudyResult* result) {
   plot.x = {.label = "distance of the sphere (radii)", .log = true};
   plot.y = {.label = "rms error (rad)", .log = true};
   for (const Form& form : kHitForms) {
-    Curve curve;
+    Curve& curve = plot.curves.emplace_back();
     curve.title = form.name;
     curve.style = CurveStyle::kMarkedLine;
     for (int power = 1; power <= 7; ++power) {
@@ -40,7 +40,6 @@ Plot HitPlot(StudyResult* result) {
       result->numbers.push_back({"rms error of normals, " + where, error.normal, "rad"});
       result->numbers.push_back({"wrong hits and misses, " + where, error.wrong, ""});
     }
-    plot.curves.push_back(std::move(curve));
   }
   return plot;
 }
@@ -56,10 +55,10 @@ Plot GgxPlot(StudyResult* result) {
   for (const auto& [form, name] : {std::pair{GgxForm::kTextbookFloat, "textbook, float"},
                                    {GgxForm::kTextbookDouble, "textbook, double"},
                                    {GgxForm::kNacre, "nacre's kernel"}}) {
-    Curve curve;
+    Curve& curve = plot.curves.emplace_back();
     curve.title = name;
     curve.style = CurveStyle::kMarkedLine;
-    curve.look = form == GgxForm::kNacre ? 3 : static_cast<int>(plot.curves.size());
+    curve.look = form == GgxForm::kNacre ? 3 : static_cast<int>(plot.curves.size()) - 1;
     for (const double roughness :
          {0.005, 0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.3, 0.5, 0.7}) {
       const double error = MeasureGgx(form, roughness);
@@ -69,7 +68,6 @@ Plot GgxPlot(StudyResult* result) {
           {fmt::format("largest relative error of GGX, {}, roughness {}", name, roughness), error,
            ""});
     }
-    plot.curves.push_back(std::move(curve));
   }
   return plot;
 }
@@ -116,8 +114,7 @@ StudyResult StudyPrecision(const StudyProgress& progress) {
   const HitError ours = MeasureHits(HitForm::kNacre, 1e4);
   const double textbook = MeasureGgx(GgxForm::kTextbookFloat, 0.05);
   const double kernel = MeasureGgx(GgxForm::kNacre, 0.05);
-  const std::vector<double>& of_kernel = ggx.curves[2].y;
-  const double worst = *std::max_element(of_kernel.begin(), of_kernel.end());
+  const double worst = std::ranges::max(ggx.curves[2].y);
   result.figures.push_back({"precision",
                             "Errors of hits and of highlights. The textbook's highlights in float "
                             "are infinite where their line ends.",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // study/study_tonemap.cc: one HDR picture shown by each tone operator.
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -47,12 +48,6 @@ Image RenderHdr() {
   return RenderLayers(scene);
 }
 
-float Brightest(const Image& image) {
-  float brightest = 0;
-  for (const float value : image.Find("R")->samples) brightest = std::max(brightest, value);
-  return brightest;
-}
-
 StudyPicture Operators(const Image& image) {
   PaneSheet sheet;
   for (const double ev : {-2.0, 0.0, 2.0, 4.0}) {
@@ -78,7 +73,7 @@ StudyResult StudyTonemap(const StudyProgress& progress) {
   const double grey = ToneAces(0.18);
   const double reinhard = ToneReinhard(1.0);
   const GammaGap gap = LargestGammaGap();
-  const double brightest = double{Brightest(image)};
+  const double brightest = double{std::ranges::max(image.Find("R")->samples)};
   result.numbers = {{"brightest red of the picture", brightest, ""},
                     {"ACES of middle grey 0.18", grey, ""},
                     {"ACES is white from", white, ""},

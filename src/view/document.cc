@@ -281,10 +281,6 @@ void ViewDocument::ReadChangedFiles() {
   const Json before = std::exchange(original_, live_.root());
   if (is_model()) model_original_ = Tree();
   if (edited.contains("shapes") || scene().spheres.size() <= kMaxTreeSpheres) ListShapes();
-  const auto member = [](const Json& tree, const std::string& name) {
-    const auto found = tree.find(name);
-    return found != tree.end() ? *found : Json();
-  };
   kept_edits_ = false;
   const auto put_again = [&](const Json::json_pointer& pointer, const Json& value) {
     try {
@@ -294,7 +290,8 @@ void ViewDocument::ReadChangedFiles() {
     }
   };
   for (const auto& [name, value] : edited.items()) {
-    if (value == member(before, name) || member(original_, name) != member(before, name)) continue;
+    const Json old = before.value(name, Json());
+    if (value == old || original_.value(name, Json()) != old) continue;
     const Json::json_pointer pointer = Json::json_pointer() / name;
     if (name != "lights" || !is_model()) {
       put_again(pointer, value);

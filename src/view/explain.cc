@@ -364,7 +364,7 @@ ShadingMaterial PrepareAtHit(const Material& material, const Material& at_hit, s
       return std::get<MetallicRoughnessMaterial>(of.material.model).specular;
     };
     coat.tint = Rgb(1) - (Rgb(1) - coat.tint) * (strength(coat) / strength(coats[k]));
-    prepared.coats[k] = PrepareCoat(coat);
+    prepared.coats[k] = MakeShadingCoat(coat);
     for (const auto& [name, value] : of_coat.items()) (*parameters)["coat " + name] = value;
   }
   return prepared;

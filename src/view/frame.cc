@@ -52,14 +52,13 @@ SharedBytes PictureBytes(FrameHead head, const std::array<const float*, 3>& rgb,
   const auto message = WithHead(head, 4 * pixels);
   uint8_t* const rgba = message->data() + kFrameHeadBytes;
   constexpr size_t kBlock = size_t{1} << 13;
-  ParallelFor((pixels + kBlock - 1) / kBlock, 0, [&](size_t block) {
-    const size_t first = block * kBlock, count = std::min(kBlock, pixels - first);
+  ParallelForBlocks(pixels, kBlock, 0, [&](size_t first, size_t end) {
     std::array<uint8_t, 3 * kBlock> rgb8;
-    EncodeDisplay(display, rgb[0] + first, rgb[1] + first, rgb[2] + first, count, rgb8.data());
-    for (size_t i = 0; i < count; ++i) {
-      uint8_t* const out = rgba + 4 * (first + i);
-      std::memcpy(out, &rgb8[3 * i], 3);
-      out[3] = 255;
+    EncodeDisplay(display, rgb[0] + first, rgb[1] + first, rgb[2] + first, end - first,
+                  rgb8.data());
+    for (size_t i = first; i < end; ++i) {
+      std::memcpy(rgba + 4 * i, &rgb8[3 * (i - first)], 3);
+      rgba[4 * i + 3] = 255;
     }
   });
   return message;

@@ -64,13 +64,11 @@ double ReachOf(const TraceSphere& sphere) { return sphere.center.length() + sphe
 template <class Move>
 double MoveAll(size_t count, int threads, const Move& move) {
   constexpr size_t kBlock = size_t{1} << 14;
-  const size_t blocks = (count + kBlock - 1) / kBlock;
-  std::vector<double> extents(blocks);
-  ParallelFor(blocks, threads, [&](size_t block) {
-    const size_t end = std::min((block + 1) * kBlock, count);
+  std::vector<double> extents((count + kBlock - 1) / kBlock);
+  ParallelForBlocks(count, kBlock, threads, [&](size_t begin, size_t end) {
     double extent = 0;
-    for (size_t i = block * kBlock; i < end; ++i) extent = std::max(extent, move(i));
-    extents[block] = extent;
+    for (size_t i = begin; i < end; ++i) extent = std::max(extent, move(i));
+    extents[begin / kBlock] = extent;
   });
   return extents.empty() ? 0 : *std::max_element(extents.begin(), extents.end());
 }

@@ -56,7 +56,7 @@ FOLDERS = TRUNK_FOLDERS | set(BRANCHES) | {TOP}
 # The files of render/ in the order in which a pixel's samples go through them: each includes only
 # headers of those before it.
 RENDER_ORDER = """
-    settings stats explanation layers camera camera_kernel frame_window prepared_materials
+    settings stats explanation output_layers camera camera_kernel frame_window prepared_materials
     plan_notes
     film_kernel small_triangles adaptive_plan interval lighting_kernel mesh_windows
     outline_coverage sphere_projections

@@ -37,23 +37,20 @@ function paintLayer(image, layer, look) {
   const {canvas, context, pixels} = blank(image);
   const [p0, p1 = p0, p2 = p0] = layer.planes, out = pixels.data, count = p0.length;
   const scale = 2 ** look.exposure, tone = TONES[look.tone];
+  const paintCodes = code => {
+    for (let i = 0; i < count; ++i) [p0, p1, p2].forEach((p, c) => { out[4 * i + c] = code(p[i]); });
+  };
   if (layer.kind === 'color' && image.transfer === 'display') {
-    for (let i = 0; i < count; ++i) {
-      [p0, p1, p2].forEach((p, c) => { out[4 * i + c] = Math.round(255 * p[i]); });
-    }
+    paintCodes(v => Math.round(255 * v));
   } else if (layer.kind === 'color') {
     for (let i = 0; i < count; ++i) displayCodes(tone, scale, p0[i], p1[i], p2[i], out, 4 * i);
   } else if (layer.kind === 'normal') {
-    for (let i = 0; i < count; ++i) {
-      [p0, p1, p2].forEach((p, c) => { out[4 * i + c] = 127.5 + 127.5 * p[i]; });
-    }
+    paintCodes(v => 127.5 + 127.5 * v);
   } else if (layer.kind === 'id') {
     for (let i = 0; i < count; ++i) if (p0[i] > 0) idColor(p0[i], out, 4 * i);
   } else {
     const [low, high] = rangeOf(layer), gain = 255 / (high - low || 1);
-    for (let i = 0; i < count; ++i) {
-      [p0, p1, p2].forEach((p, c) => { out[4 * i + c] = gain * (p[i] - low); });
-    }
+    paintCodes(v => gain * (v - low));
   }
   for (let i = 0; i < count; ++i) out[4 * i + 3] = 255;
   context.putImageData(pixels, 0, 0);

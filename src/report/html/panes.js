@@ -5,9 +5,7 @@
 class Camera {
   constructor(frame) {
     this.frame = frame;
-    this.scale = 0;  // 0: as large as fits
-    this.x = frame.width / 2;
-    this.y = frame.height / 2;
+    this.fit();
   }
   fitting(width, height) { return Math.min(width / this.frame.width, height / this.frame.height); }
   scaleIn(width, height) { return this.scale || this.fitting(width, height); }
@@ -16,7 +14,7 @@ class Camera {
     this.y = Math.min(Math.max(this.y + dy, 0), this.frame.height);
   }
   fit() {
-    this.scale = 0;
+    this.scale = 0;  // 0: as large as fits
     this.x = this.frame.width / 2;
     this.y = this.frame.height / 2;
   }

@@ -136,12 +136,14 @@ class Viewer {
 
   // Panes as high as the frame asks, but no higher than most of the window.
   fitPanes() {
-    const {width, height} = this.set.frame, limit = Math.max(240, window.innerHeight * 0.72);
+    const {width, height} = this.set.frame, limit = this.highest();
     for (const {element} of this.panes) {
       const wide = element.clientWidth || this.stage.clientWidth || 300;
-      element.style.height = `${Math.round(Math.min(limit, wide * height / width))}px`;
+      const high = `${Math.round(Math.min(limit, wide * height / width))}px`;
+      if (element.style.height !== high) element.style.height = high;
     }
   }
+  highest() { return Math.max(240, window.innerHeight * 0.72); }
 
   draw() {
     if (this.drawing) return;

@@ -24,7 +24,7 @@ class LiveViewer extends Viewer {
     this.metrics = el('div', {class: 'metrics', 'aria-live': 'polite', hidden: true});
     this.readout.before(this.metrics);
     this.readout.append(el('p', {class: 'soft'}, 'Click the picture: where does this value come from? Drag it: the camera goes round. “?” lists the keys.'));
-    for (const name of ['stage']) new ResizeObserver(() => this.hand.placeLamps()).observe(this[name]);
+    new ResizeObserver(() => this.hand.placeLamps()).observe(this.stage);
   }
 
   // A picture came, what is new of it. It is drawn at once: the screen takes it when it takes the next
@@ -120,14 +120,9 @@ class LiveViewer extends Viewer {
   }
 
   // As large as the window has room for, controls and read-out beside it.
-  fitPanes() {
-    const {width, height} = this.set.frame, narrow = window.innerWidth <= 832;
-    const limit = narrow ? 0.38 * window.innerHeight : Math.max(240, window.innerHeight - 290);
-    for (const {element} of this.panes) {
-      const wide = element.clientWidth || this.stage.clientWidth || 300;
-      const high = `${Math.round(Math.min(limit, wide * height / width))}px`;
-      if (element.style.height !== high) element.style.height = high;
-    }
+  highest() {
+    const narrow = window.innerWidth <= 832;
+    return narrow ? 0.38 * window.innerHeight : Math.max(240, window.innerHeight - 290);
   }
 
   layersAre(names) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/layers.h: the layers that a render can write, and the channels each consists of.
+// render/output_layers.h: the layers that a render can write, and the channels each consists of.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/layers.h"
+#include "render/output_layers.h"
 
 #include <algorithm>
 #include <string_view>
