@@ -198,8 +198,8 @@ class NACRE_API Scene {
   void AddTexture(const std::string& name, const Parameters& texture);
   void AddMaterial(const std::string& name, const Parameters& material);
   // Adds a material that reflects light by `brdf`. `rest` is a material that supplies everything
-  // but the lobes: the reflection of ambient light, emission, coat, sheen, normal maps. Its model
-  // is lambert unless it names another.
+  // but the lobes: the reflection of ambient light, emission, coats and layers, normal maps. Its
+  // model is lambert unless it names another.
   void AddMaterial(const std::string& name, const UserBrdf& brdf, const Parameters& rest = {});
   void AddLight(const std::string& name, const Parameters& light);
   // Adds a shape of any type in the schema: sphere, mesh, icosphere, uv_sphere, grid, pair, cloud.

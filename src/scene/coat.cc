@@ -38,7 +38,8 @@ std::vector<Coat> CoatsOf(const Material& material) {
   // Most of the light that the coat's microfacets block after one bounce is transmitted at the next
   // bounce, so the layers below get all that the coat does not reflect in one bounce.
   model.compensation = Compensation::kNone;
-  return {{Material{.name = material.name, .model = model, .normal_map = below->coat_normal_map}}};
+  return {{Material{.name = material.name, .model = model, .normal_map = below->coat_normal_map},
+           Rgb(1), "coat_roughness"}};
 }
 
 bool RemoveCoats(Material* material) {

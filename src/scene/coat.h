@@ -17,10 +17,10 @@ struct Coat {
   // metallic_roughness with a black base and a dielectric highlight, whose weight `specular` is the
   // strength of the coat, and with the coat's own roughness and normal map.
   Material material;
-  // How a coat colours the light from below that it does not reflect, in [0, 1]. Where a map of its
-  // strength leaves less of the coat, it colours less.
-  Rgb tint{1, 1, 1};
-  std::string_view roughness = "coat_roughness";  // the parameter that is its roughness
+  // How the coat, at the strength that it has, colours the light from below that it does not
+  // reflect, in [0, 1]. Where a map of its strength leaves less of the coat, it colours less.
+  Rgb tint;
+  std::string_view roughness;  // the name of the parameter that is its roughness
 };
 
 // Returns the coats of `material` from the bottom up. What lies below a coat gets the share of the

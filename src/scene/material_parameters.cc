@@ -27,7 +27,7 @@ auto& FieldOf(AnyMaterial& material) {
 
 template <auto kMember>
 constexpr MaterialParameter Number(std::string_view name, const Range& range,
-                                   std::string_view meaning) {
+                                   std::string_view meaning, std::string_view layer = {}) {
   return {name,
           false,
           range,
@@ -36,24 +36,20 @@ constexpr MaterialParameter Number(std::string_view name, const Range& range,
             return Rgb(value, value, value);
           },
           [](Material& material, const Rgb& value) { FieldOf<kMember>(material) = value.x; },
-          meaning};
+          meaning,
+          layer};
 }
 
 template <auto kMember>
 constexpr MaterialParameter Color(std::string_view name, const Range& range,
-                                  std::string_view meaning) {
+                                  std::string_view meaning, std::string_view layer = {}) {
   return {name,
           true,
           range,
           [](const Material& material) { return FieldOf<kMember>(material); },
           [](Material& material, const Rgb& value) { FieldOf<kMember>(material) = value; },
-          meaning};
-}
-
-// A parameter that leaves nothing of `layer` if it is 0.
-constexpr MaterialParameter WeightOf(std::string_view layer, MaterialParameter parameter) {
-  parameter.layer = layer;
-  return parameter;
+          meaning,
+          layer};
 }
 
 // `options` are in the order of the enumeration.
@@ -145,8 +141,8 @@ constexpr std::string_view kDiffuseMeaning =
     "Reflection model of the diffuse base. oren_nayar: EON (Portsmouth et al. 2025), which "
     "conserves energy. burley: Burley 2012, which does not.";
 
-constexpr MaterialParameter kEmission = WeightOf(
-    "emission", Color<&Material::emission>("emission", limits::kRadiance, "Emitted radiance."));
+constexpr MaterialParameter kEmission =
+    Color<&Material::emission>("emission", limits::kRadiance, "Emitted radiance.", "emission");
 constexpr MaterialParameter kOpacity = Number<&Material::opacity>(
     "opacity", limits::kUnit,
     "Meshes only: the surface exists where its opacity, times the map, is at least opacity_cutoff; "
@@ -205,25 +201,27 @@ constexpr auto kMetallicRoughnessParameters = WithCommon(
         "Factor on the reflectance of a metal at 81.8 degrees (cosine 1/7): the dip of real metals "
         "before grazing angles (Kutz et al. 2021). 1: Schlick's curve."),
     BaseRoughness<MetallicRoughnessMaterial>(),
-    WeightOf("coat", Number<&MetallicRoughnessMaterial::coat>(
-                         "coat", limits::kUnit,
-                         "Strength of a clear coat over all of this: a dielectric lobe of its own. "
-                         "The layers below get the light that its albedo leaves.")),
+    Number<&MetallicRoughnessMaterial::coat>(
+        "coat", limits::kUnit,
+        "Strength of a clear coat over all of this: a dielectric lobe of its own. The layers below "
+        "get the light that its albedo leaves.",
+        "coat"),
     Number<&MetallicRoughnessMaterial::coat_roughness>("coat_roughness", limits::kUnit,
                                                        kRoughnessMeaning),
     Number<&MetallicRoughnessMaterial::coat_ior>(
         "coat_ior", limits::kIor,
         "Index of refraction of the coat, which gives F0 of Schlick's curve; below 1.34 less is "
         "reflected at grazing angles, too. 1: no coat."),
-    WeightOf("sheen", Color<&MetallicRoughnessMaterial::sheen_color>(
-                          "sheen_color", limits::kUnit,
-                          "Colour of the sheen, the fuzz of velvet, which is bright at grazing "
-                          "angles (Estevez and Kulla 2017). The layers below get the light that "
-                          "its albedo leaves. 0: none.")),
-    WeightOf("sheen", Number<&MetallicRoughnessMaterial::sheen_roughness>(
-                          "sheen_roughness", limits::kUnit,
-                          "Roughness of the sheen: alpha is its square. The larger, the farther "
-                          "from the outline it shows; 0: nowhere.")));
+    Color<&MetallicRoughnessMaterial::sheen_color>(
+        "sheen_color", limits::kUnit,
+        "Colour of the sheen, the fuzz of velvet, which is bright at grazing angles (Estevez and "
+        "Kulla 2017). The layers below get the light that its albedo leaves. 0: none.",
+        "sheen"),
+    Number<&MetallicRoughnessMaterial::sheen_roughness>(
+        "sheen_roughness", limits::kUnit,
+        "Roughness of the sheen: alpha is its square. The larger, the farther from the outline it "
+        "shows; 0: nowhere.",
+        "sheen"));
 
 constexpr auto kConductorParameters = WithCommon(
     Color<&ConductorMaterial::eta>("eta", limits::kEta,

@@ -184,7 +184,8 @@ Reflection ReflectedJson(const ExplainedMaterial& material, const Point& point,
   const auto cover = [&](std::string_view name, size_t index, Json terms) {
     const StackLevel level = find(name, index);
     Json own = own_json(level);
-    own["name"] = std::string(name) + (index > 0 ? " " + std::to_string(index + 1) : "");
+    const bool numbered = name == "coat" && index > 0;
+    own["name"] = std::string(name) + (numbered ? " " + std::to_string(index + 1) : "");
     own["below"] = TripleJson(level.below);
     own["terms"] = std::move(terms);
     covers.push_back(std::move(own));
@@ -360,12 +361,13 @@ ShadingMaterial PrepareAtHit(const Material& material, const Material& at_hit, s
     Coat coat = coats[k];
     coat.material = MaterialAtHit(coats[k].material, index, pixel_with, &of_coat);
     if (of_coat.empty()) continue;
+    const std::string prefix = k > 0 ? "coat " + std::to_string(k + 1) + " " : "coat ";
     const auto strength = [](const Coat& of) {
       return std::get<MetallicRoughnessMaterial>(of.material.model).specular;
     };
     coat.tint = Rgb(1) - (Rgb(1) - coat.tint) * (strength(coat) / strength(coats[k]));
     prepared.coats[k] = MakeShadingCoat(coat);
-    for (const auto& [name, value] : of_coat.items()) (*parameters)["coat " + name] = value;
+    for (const auto& [name, value] : of_coat.items()) (*parameters)[prefix + name] = value;
   }
   return prepared;
 }

@@ -217,7 +217,7 @@ class Scene(_Values):
 
         model: the name of one, or a function of one's own, bare or as a `nacre.Brdf`, which may have
             a sampler. Its parameters are then those of a material of which all but the lobes holds:
-            emission, coat, sheen, normal maps, and the albedo that ambient light sees; of the model
+            emission, coats and layers, normal maps, and the albedo that ambient light sees; of the model
             "lambert" unless `rest` names another: add_material("mine", f, rest="metallic_roughness",
             coat=1). Or a `nacre.Brdf` of one of nacre's models, whose parameters are added to.
 
