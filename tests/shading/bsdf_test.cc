@@ -160,7 +160,7 @@ size_t CellOf(const Vec3d& direction) {
 
 TEST_CASE("samples of a stack follow its pdf") {
   constexpr int kSamples = 40000;
-  constexpr size_t kSteps = 60;  // of the midpoint rule, each way in a cell
+  constexpr size_t kSteps = 30;  // of the midpoint rule, each way in a cell
   for (const Stack& stack : Stacks()) {
     const ShadingMaterial material = Prepared(stack);
     const StackNormals normals = stack.Normals();
