@@ -11,6 +11,9 @@
 //   embree TRIANGLES COUNT   builds a bare Embree tree of a square of triangles
 //   rays SPHERES COUNT       incoherent rays, one thread: nearest sphere, and whether one is in the
 //                            way; nanoseconds a ray, and Embree's for its own spheres in float
+//   packets TARGET COUNT     such rays in packets and one by one, on a SIMD target, by the number
+//   of
+//                            spheres and triangles: the table that src/embree/box_trees.cc is from
 //   clouds SPHERES SAMPLES COUNT
 //       a frame of a cloud of spheres by tiles and by a tree, by how many of them a ray passes on
 //       average: the table that src/render/camera_cost.cc is from
@@ -37,6 +40,7 @@
 
 #include "base/float_mode.h"
 #include "base/seconds_since.h"
+#include "base/target.h"
 #include "embree_tree.h"
 #include "hit/batch.h"
 #define NACRE_OWN_SOURCE  // the renderer's own types are here as well
@@ -199,12 +203,17 @@ struct Rays {
   std::vector<nacre::Vec3d> origins, directions;
 };
 
-Rays MakeRays(std::minstd_rand* random) {
+// So many in a row start at one point, as light from all around a place in a picture does.
+Rays MakeRays(size_t together, std::minstd_rand* random) {
   std::uniform_real_distribution<double> coordinate(-1, 1);
   std::normal_distribution<double> normal;
   Rays rays;
   for (size_t i = 0; i < kRays; ++i) {
-    rays.origins.emplace_back(coordinate(*random), coordinate(*random), coordinate(*random));
+    if (i % together == 0) {
+      rays.origins.emplace_back(coordinate(*random), coordinate(*random), coordinate(*random));
+    } else {
+      rays.origins.push_back(rays.origins.back());
+    }
     rays.directions.emplace_back(normal(*random), normal(*random), normal(*random));
   }
   return rays;
@@ -243,11 +252,86 @@ Batches MakeBatches(const Rays& rays) {
   return made;
 }
 
+// A triangle in the place of each sphere.
+nacre::Scene AsTriangles(const nacre::Scene& spheres, std::minstd_rand* random) {
+  std::normal_distribution<double> normal;
+  nacre::Scene scene;
+  scene.materials.emplace_back();
+  nacre::Mesh& mesh = scene.meshes.emplace_back();
+  mesh.material = {0};
+  for (const nacre::Sphere& sphere : spheres.spheres) {
+    for (int corner = 0; corner < 3; ++corner) {
+      const nacre::Vec3d away(normal(*random), normal(*random), normal(*random));
+      mesh.triangles.push_back(static_cast<uint32_t>(mesh.positions.size()));
+      mesh.positions.push_back(sphere.center + away.normalized() * sphere.radius);
+    }
+  }
+  return scene;
+}
+
+// Nanoseconds a ray, in packets and one by one in turn, as medians: of nearest hits and of whether
+// anything is in the way.
+void CompareWithPackets(const char* what, const nacre::Scene& scene, size_t size, int count,
+                        Batches* batches) {
+  std::array<std::vector<double>, 4> times;
+  std::array<std::unique_ptr<nacre::Intersector>, 2> trees;
+  for (size_t i = 0; i < 2; ++i) {
+    nacre::IntersectorSettings settings;
+    settings.one_by_one = i == 1;
+    trees[i] = std::make_unique<nacre::Intersector>(scene, nacre::Vec3d(0, 0, 0), settings);
+  }
+  nacre::ClosestHits hits;
+  for (int turn = 0; turn <= count; ++turn) {
+    for (size_t i = 0; i < 4; ++i) {
+      const auto start = Clock::now();
+      const nacre::Intersector& tree = *trees[i % 2];
+      if (i < 2) {
+        for (const nacre::RayBatch& batch : batches->rays) tree.Closest(batch, &hits);
+      } else {
+        for (nacre::ShadowRayBatch& batch : batches->shadows) tree.Occluded(&batch);
+      }
+      if (turn > 0) times[i].push_back(1e9 * nacre::SecondsSince(start) / kRays);
+    }
+  }
+  std::array<double, 4> medians{};
+  for (size_t i = 0; i < 4; ++i) {
+    auto middle = times[i].begin() + static_cast<ptrdiff_t>(times[i].size() / 2);
+    std::nth_element(times[i].begin(), middle, times[i].end());
+    medians[i] = *middle;
+  }
+  std::printf("%-7s %-26s %8zu %9.0f %9.0f %6.2f %9.0f %9.0f %6.2f\n",
+              nacre::TargetName(nacre::ActiveTarget()).c_str(), what, size, medians[0], medians[1],
+              medians[1] / medians[0], medians[2], medians[3], medians[3] / medians[2]);
+  std::fflush(stdout);
+}
+
+void ComparePackets(const std::string& name, int count) {
+  const nacre::FlushDenormals flush;
+  std::minstd_rand random(1);
+  std::array<Batches, 2> batches = {MakeBatches(MakeRays(1, &random)),
+                                    MakeBatches(MakeRays(64, &random))};
+  for (const nacre::Target target : nacre::SupportedTargets()) {
+    if (nacre::TargetName(target) == name) nacre::PinTarget(target);
+  }
+  std::printf(
+      "target  shapes                        many  closest:    alone  ratio occluded:   alone  "
+      "ratio\n");
+  for (int size = 16; size <= 1 << 16; size *= 2) {
+    const nacre::Scene spheres = MakeSpheres(size, &random);
+    const nacre::Scene triangles = AsTriangles(spheres, &random);
+    const auto many = static_cast<size_t>(size);
+    CompareWithPackets("spheres", spheres, many, count, &batches[0]);
+    CompareWithPackets("triangles", triangles, many, count, &batches[0]);
+    CompareWithPackets("spheres, from one point", spheres, many, count, &batches[1]);
+    CompareWithPackets("triangles, from one point", triangles, many, count, &batches[1]);
+  }
+}
+
 void TraceRays(int spheres, int count) {
   const nacre::FlushDenormals flush;
   std::minstd_rand random(1);
   const nacre::Scene scene = MakeSpheres(spheres, &random);
-  const Rays rays = MakeRays(&random);
+  const Rays rays = MakeRays(1, &random);
 
   const nacre::Intersector intersector(scene, {0, 0, 0}, {});
   auto [batches, shadows] = MakeBatches(rays);
@@ -444,6 +528,8 @@ bool Run(int argc, char** argv) {
     BuildTriangles(std::atoi(argv[2]), std::atoi(argv[3]));
   } else if (what == "rays" && argc == 4) {
     TraceRays(std::atoi(argv[2]), std::atoi(argv[3]));
+  } else if (what == "packets" && argc == 4) {
+    ComparePackets(argv[2], std::atoi(argv[3]));
   } else if (what == "clouds" && argc == 5) {
     CompareClouds(std::atoi(argv[2]), std::atoi(argv[3]), std::atoi(argv[4]));
   } else if (what == "spng" && argc == 4) {

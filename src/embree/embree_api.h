@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // embree/embree_api.h: Embree 3 and Embree 4 under one set of names: all differences between the
-// two are here. Queries run on packets of 4, 8 or 16 rays.
+// two are here. Queries run on packets of 4, 8 or 16 rays, or on one ray.
 #pragma once
 
 #if __has_include(<embree3/rtcore.h>)
@@ -29,6 +29,14 @@ void Query(void (*query)(const int*, RTCScene, EmbreeContext*, Rays*), const int
   query(valid, scene, context, static_cast<Rays*>(rays));
 }
 
+inline void IntersectOne(RTCScene scene, EmbreeContext* context, RTCRayHit* ray) {
+  rtcIntersect1(scene, context, ray);
+}
+
+inline void OccludedOne(RTCScene scene, EmbreeContext* context, RTCRay* ray) {
+  rtcOccluded1(scene, context, ray);
+}
+
 #else
 
 using EmbreeContext = RTCRayQueryContext;
@@ -48,6 +56,20 @@ void Query(void (*query)(const int*, RTCScene, Rays*, Arguments*), const int* va
   arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
   arguments.context = context;
   query(valid, scene, static_cast<Rays*>(rays), &arguments);
+}
+
+inline void IntersectOne(RTCScene scene, EmbreeContext* context, RTCRayHit* ray) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = context;
+  rtcIntersect1(scene, ray, &arguments);
+}
+
+inline void OccludedOne(RTCScene scene, EmbreeContext* context, RTCRay* ray) {
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.context = context;
+  rtcOccluded1(scene, ray, &arguments);
 }
 
 #endif

@@ -10,7 +10,7 @@ struct BoxTrees::State {};
 
 const char* EmbreeVersion() { return nullptr; }
 
-BoxTrees::BoxTrees(const TraceGeometry* /*geometry*/) {
+BoxTrees::BoxTrees(const TraceGeometry* /*geometry*/, std::optional<bool> /*one_by_one*/) {
   throw Error(ExitCode::kBadInput, "scene", "this build has no Embree: it renders spheres only",
               "leave out meshes, and flat lights that are visible; or build nacre with "
               "NACRE_EMBREE=ON");

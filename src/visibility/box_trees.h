@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "base/cancel.h"
 #include "hit/batch.h"
@@ -26,9 +27,10 @@ enum class BoxTree : uint8_t {
 class BoxTrees {
  public:
   // Builds no BVH yet. Keeps a pointer to `geometry`, which may be moved (MoveGeometry).
-  // Throws Error: kInternal if Embree lacks the target's instruction set, kBadInput if this build
-  // has no Embree.
-  explicit BoxTrees(const TraceGeometry* geometry);
+  // `one_by_one` says whether incoherent rays are traced one by one rather than in packets; nullopt
+  // chooses what is faster for the number of shapes. Throws Error: kInternal if Embree lacks the
+  // target's instruction set, kBadInput if this build has no Embree.
+  explicit BoxTrees(const TraceGeometry* geometry, std::optional<bool> one_by_one = {});
   ~BoxTrees();
   BoxTrees(const BoxTrees&) = delete;
   BoxTrees& operator=(const BoxTrees&) = delete;

@@ -37,7 +37,7 @@ struct Intersector::State {
 
   bool HasShells() const { return !geometry.shells.empty(); }
   void BuildBoxes(BoxTree tree, CancelPointer cancel) {
-    if (!boxes) boxes.emplace(&geometry);
+    if (!boxes) boxes.emplace(&geometry, settings.one_by_one);
     boxes->Build(tree, settings.threads, cancel);
   }
 };

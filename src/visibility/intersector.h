@@ -34,6 +34,7 @@ struct IntersectorSettings {
   // BVHs must be valid for cameras up to this distance from the first one as well (MoveTo). Their
   // boxes grow with it.
   double eye_reach = 0;
+  std::optional<bool> one_by_one{};  // as in BoxTrees; only benchmarks set it
 };
 
 // The possible occluders between the spheres and a light: in bins, or else in lists; small scenes

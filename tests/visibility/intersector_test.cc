@@ -72,7 +72,7 @@ TEST_CASE("closest hits are brute force's from an orthographic camera") {
   CheckClosest(scene, eye, rays);
 }
 
-// The last packet has room for more rays.
+// Large trees trace such rays one by one, from the inside of a packet that has room for more.
 TEST_CASE("rays in all directions in a large tree") {
   Random random(21);
   CheckClosest(RandomSpheres(&random, 1500), Vec3d(0), RaysAllAround(&random, 1003));

@@ -47,6 +47,7 @@ TEST_CASE("occlusion is brute force's") {
   }
 }
 
+// Large trees trace such rays one by one.
 TEST_CASE("occlusion is brute force's in all directions in a large tree") {
   Random random(32);
   const Scene scene = RandomSpheres(&random, 1500);
