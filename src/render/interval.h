@@ -15,9 +15,8 @@ namespace nacre {
 inline constexpr double kDarkest = 0.05;
 
 // The largest error that a pixel may have: `max_error` times its value, which is clamped to at
-// least kDarkest and at most `white` (WhiteLevel). Highlights may be a thousand
-// times brighter than white, and errors relative to them, in a few pixels, would dominate the error
-// of the picture.
+// least kDarkest and at most `white` (WhiteLevel). Highlights may be a thousand times brighter than
+// white, and errors relative to them, in a few pixels, would dominate the error of the picture.
 struct ErrorBound {
   double max_error;
   double white;

@@ -66,8 +66,8 @@ void NoteMirrors(const NotedMaterials& of, MaterialTrait trait, std::vector<std:
   if (names.empty()) return;
   notes->push_back(
       fmt::format("{}: {}{}{} {:.6g}{} is below 2^-20 ({:.3g}) and so a perfect mirror, in which "
-                  "point, spot and "
-                  "directional lights have no highlight; a {} of 2^-20 or more gives them one",
+                  "point, spot and directional lights have no highlight; a {} of 2^-20 or more "
+                  "gives them one",
                   names, count > 1 ? "the greatest " : "", parameter, count > 1 ? "," : "",
                   greatest, count > 1 ? "," : "", kDeltaRoughness, parameter));
 }
