@@ -55,6 +55,9 @@ if("neon" IN_LIST NACRE_TARGETS)
   target_compile_definitions(nacre_options INTERFACE TOOLCHAIN_MISS_SYS_AUXV_H=1)
 endif()
 target_compile_options(nacre_options INTERFACE ${NACRE_BASELINE})
+# Some packages bring it (Debian 13's OpenImageIO), and GCC takes a precompiled header only with the
+# options that it was made with.
+target_compile_options(nacre_options INTERFACE -pthread)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # Highway passes vectors between its own inlined functions only.
   target_compile_options(nacre_options INTERFACE -Wno-psabi)

@@ -117,7 +117,7 @@ class Batch {
     hits_.count = count;
     CopyTo(d.normal, begin, count, &hits_.normal);
     CopyTo(d.to_view, begin, count, &hits_.to_view);
-    CopyTo(d.to_light, begin, count, &lit_.to_light);
+    CopyTo(d.to_light, begin, count, &lit_.light_vector);
     for (size_t i = 0; i < count; ++i) {
       const Vec3d normal = At(d.normal, begin + i);
       const bool above =

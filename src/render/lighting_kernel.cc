@@ -76,7 +76,7 @@ size_t IlluminateAlongT(const LightDirections& directions, const Surface& surfac
     }
     const auto faces = hn::And(hn::Gt(height, lowest), finite);
     const auto shines = hn::And(hn::Gt(hn::LoadU(d, directions.distance.data() + i), zero), faces);
-    StoreSoa(d, l, i, &light->to_light);
+    StoreSoa(d, l, i, &light->light_vector);
     hn::StoreU(hn::IfThenElseZero(shines, hn::Set(d, 1.0f)), d, light->irradiance.data() + i);
   }
   return not_finite;

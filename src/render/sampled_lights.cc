@@ -191,7 +191,7 @@ void AddClosedForm(const LitBatch& lit) {
   Soa3<float>& irradiance = lit.room.irradiance;
   LightIrradiance(light, lit.hits(), lit.surface(), &irradiance);
   LightBatch& batch = lit.light();
-  CopySoa(lit.surface().normal, lit.count(), &batch.to_light);
+  CopySoa(lit.surface().normal, lit.count(), &batch.light_vector);
   for (size_t i = 0; i < lit.count(); ++i) {
     batch.irradiance[i] = lit.room.closed_form[i] != 0 ? 1.0f : 0.0f;
     lit.room.weight[i] = IsColored(light) ? 1 : irradiance.x[i];

@@ -171,7 +171,7 @@ void MixLayerPdfs(const MaterialHits& at, LobeKind kind, const LightBatch& light
   for (size_t i = at.begin; i < at.end; ++i) {
     const LayersAtHit layers(at, kind, i);
     if (!layers.Reflects()) continue;
-    const Vec3d to_light = VectorAt(light.to_light, i);
+    const Vec3d to_light = VectorAt(light.light_vector, i);
     const double n_dot_l = VectorAt(at.surface.normal, i).dot(to_light);
     double sum = 0, left = 1;
     layers.Visit([&](const LayerModel& layer, double chance) {
@@ -186,7 +186,7 @@ void MixLayerPdfs(const MaterialHits& at, LobeKind kind, const LightBatch& light
 }
 
 void FindDiffusePdf(const MaterialHits& at, const LightBatch& light, float* pdf) {
-  CosinePdfs(at, light.to_light, pdf);
+  CosinePdfs(at, light.light_vector, pdf);
   if (HasLayers(at.material, LobeKind::kDiffuse)) MixLayerPdfs(at, LobeKind::kDiffuse, light, pdf);
 }
 
@@ -436,7 +436,7 @@ void SampleBsdf(const MaterialHits& at, const float* u, const float* v, BsdfRoom
   const Surface& surface = at.surface;
   for (size_t i = at.begin; i < at.end; ++i) {
     const Vec3d to_light = VectorAt(samples->to_light, i);
-    SetVector(to_light, i, &sample->light.to_light);
+    SetVector(to_light, i, &sample->light.light_vector);
     const bool above = VectorAt(HorizonNormal(surface), i).dot(to_light) > LowestHeight(surface);
     sample->light.irradiance[i] = above ? 1.0f : 0.0f;
   }

@@ -90,7 +90,7 @@ HWY_INLINE Vec3V<V> UnitOf(const Vec3V<V>& v) {
 HWY_INLINE AnglesV<V> AnglesAt(const Surface& surface, const LightBatch& light, size_t i) {
   const D d;
   AnglesV<V> angles = ComputeAngles(d, UnitOf(PromoteSoa(d, surface.normal, i)),
-                                    UnitOf(PromoteSoa(d, light.to_light, i)),
+                                    UnitOf(PromoteSoa(d, light.light_vector, i)),
                                     UnitOf(PromoteSoa(d, surface.to_view, i)));
   angles.n_dot_l = hn::Max(angles.n_dot_l, hn::Zero(d));
   angles.n_dot_v = hn::Max(angles.n_dot_v, hn::Zero(d));

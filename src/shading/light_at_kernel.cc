@@ -46,7 +46,7 @@ HWY_INLINE void ForEachPacket(const HitBatch& hits, const Surface& surface, Ligh
     const FloatV n_dot_l = light.toward.Dot(LoadSoa(d, n, i));
     // No model reflects light from below the surface, so no shadow ray need be traced to it.
     const FloatV irradiance = hn::IfThenElseZero(hn::Gt(n_dot_l, hn::Zero(d)), light.irradiance);
-    StoreSoa(d, light.toward.offset, i, &result->to_light);
+    StoreSoa(d, light.toward.offset, i, &result->light_vector);
     hn::StoreU(light.toward.inverse_length, d, result->inverse_length.data() + i);
     hn::StoreU(irradiance, d, result->irradiance.data() + i);
   }

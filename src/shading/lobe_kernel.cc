@@ -180,7 +180,7 @@ void GgxPdfOf(const MicrofacetNumbers<Number>& lobe, const MaterialHits& at,
   for (size_t i = at.begin; i < at.end; i += hn::Lanes(d)) {
     const V alpha = NumberAt(lobe.alpha, i);
     const AnglesV<V> angles =
-        ComputeAngles(d, LoadSoa(D(), at.surface.normal, i), LoadSoa(D(), light.to_light, i),
+        ComputeAngles(d, LoadSoa(D(), at.surface.normal, i), LoadSoa(D(), light.light_vector, i),
                       LoadSoa(D(), at.surface.to_view, i));
     V distribution = GgxDistribution(d, angles, alpha);
     if (sharp_distribution != nullptr) {
@@ -207,7 +207,7 @@ void PhongPdfT(PhongModel model, const PhongExponent& exponents, const MaterialH
   const bool blinn = model == PhongModel::kBlinnPhong;
   for (size_t i = at.begin; i < at.end; i += hn::Lanes(d)) {
     const Vec3V<V> normal = LoadSoa(D(), at.surface.normal, i),
-                   to_light = LoadSoa(D(), light.to_light, i);
+                   to_light = LoadSoa(D(), light.light_vector, i);
     const Vec3V<V> to_view = LoadSoa(D(), at.surface.to_view, i);
     const AnglesV<V> angles = ComputeAngles(d, normal, to_light, to_view);
     LobeCosineV<V> cosine = blinn

@@ -23,7 +23,7 @@ void CosinePdfs(const MaterialHits& at, const Soa3<float>& to_light, float* pdf)
 void SampleLobe(const MaterialHits& at, const float* u, const float* v, ShadeScratch* scratch,
                 Soa3<float>* to_light);
 
-// The pdf with which SampleLobe chooses the directions light.to_light; 0 for materials without
+// The pdf with which SampleLobe chooses the directions of light; 0 for materials without
 // HasSampledLobe.
 void LobePdf(const MaterialHits& at, const LightBatch& light, ShadeScratch* scratch, float* pdf);
 

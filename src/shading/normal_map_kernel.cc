@@ -174,7 +174,8 @@ bool MirrorAtHorizonT(const MaterialHits& at, const LightBatch& light, LightBatc
   const auto zero = hn::Zero(d);
   bool any = false;
   for (size_t i = at.begin; i < at.end; i += hn::Lanes(d)) {
-    const auto n = LoadSoa(d, surface.interpolated_normal, i), l = LoadSoa(d, light.to_light, i);
+    const auto n = LoadSoa(d, surface.interpolated_normal, i),
+               l = LoadSoa(d, light.light_vector, i);
     const auto height = FusedDot(n, l);
     const auto below = Sub(l, Scale(n, hn::Add(height, height)));
     const auto unit = Scale(below, hn::Div(hn::Set(d, 1.0f), hn::Sqrt(FusedDot(below, below))));
@@ -184,7 +185,7 @@ bool MirrorAtHorizonT(const MaterialHits& at, const LightBatch& light, LightBatc
     const auto lit =
         hn::And(hn::And(hn::Gt(FusedDot(normal, unit), zero), hn::Gt(irradiance, zero)), in_range);
     any = any || !hn::AllFalse(d, lit);
-    BlendedStoreSoa(d, Select(lit, unit, normal), in_range, i, &mirrored->to_light);
+    BlendedStoreSoa(d, Select(lit, unit, normal), in_range, i, &mirrored->light_vector);
     hn::BlendedStore(hn::IfThenElseZero(lit, irradiance), in_range, d,
                      mirrored->irradiance.data() + i);
   }
@@ -195,7 +196,7 @@ void HideUnreflectedLightT(const MaterialHits& at, LightBatch* light) {
   const FF d;
   const auto zero = hn::Zero(d);
   for (size_t i = at.begin; i < at.end; i += hn::Lanes(d)) {
-    const auto l = LoadSoa(d, light->to_light, i);
+    const auto l = LoadSoa(d, light->light_vector, i);
     auto faces = hn::Gt(FusedDot(LoadSoa(d, at.surface.normal, i), l), zero);
     for (size_t k = 0; k < at.material.coats.size(); ++k) {
       const Soa3<float>& normal = at.coats[k].surface.normal;

@@ -174,7 +174,7 @@ template <class Use>
 HWY_INLINE void VisitLight(FloatTag d, const LitHits& lit, const Use& use) {
   const ShadingLight& light = lit.light;
   if (lit.on_hits != nullptr) {
-    const Pointers3<const float> toward = PointersTo(lit.on_hits->to_light);
+    const Pointers3<const float> toward = PointersTo(lit.on_hits->light_vector);
     const float* const irradiance = lit.on_hits->irradiance.data();
     const float* const inverse_length = lit.on_hits->inverse_length.data();
     const bool is_unit = light.form == LightForm::kGiven;

@@ -43,7 +43,7 @@ HWY_INLINE void ForEachHit(const LitHits& lit, const Form& form) {
   const auto offset_at = [&](size_t i) HWY_ATTR {
     // A direction that was sampled in float is exact as it is.
     if (light.form == LightForm::kGiven) {
-      return PromoteSoa(d, lit.on_hits->to_light, i);
+      return PromoteSoa(d, lit.on_hits->light_vector, i);
     }
     return far ? origin : Sub(origin, LoadSoa(d, lit.hits.position, i));
   };

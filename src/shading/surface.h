@@ -48,9 +48,9 @@ inline float LowestHeight(const Surface& surface) {
 
 // One light at the hits of a batch.
 struct LightBatch {
-  // Unit vectors if the light is LightForm::kGiven. After EvaluateLight they are not normalised:
-  // the direction is to_light times inverse_length.
-  Soa3<float> to_light;
+  // Vectors towards the light, and 1 over their lengths. Directions that are given
+  // (LightForm::kGiven) are unit vectors, and inverse_length is not read.
+  Soa3<float> light_vector;
   AlignedArray<float> inverse_length{kBatchCapacity};
   // Irradiance perpendicular to the light per unit of its colour: fall-off, cone and visibility.
   // 0 where the surface faces away (n.l <= 0), because no model reflects such light.

@@ -131,7 +131,7 @@ Vec3d ToLight(const LitHits& lit, size_t i) {
   const ShadingLight& from = lit.light;
   if (from.form == LightForm::kDirectional) return from.to_light;
   const Vec3d offset = from.form == LightForm::kGiven
-                           ? VectorAt(lit.on_hits->to_light, i)
+                           ? VectorAt(lit.on_hits->light_vector, i)
                            : from.position - VectorAt(lit.hits.position, i);
   const double length = offset.length();
   return length > 0 ? offset / length : offset;
@@ -201,7 +201,7 @@ void UserPdf(const UserModel& model, const MaterialHits& at, const LightBatch& l
   for (size_t i = at.begin; i < at.end; ++i) {
     pdf[i] = 0;
     if (!(light.irradiance[i] > 0)) continue;
-    const Vec3d to_light = VectorAt(light.to_light, i);
+    const Vec3d to_light = VectorAt(light.light_vector, i);
     gathered.Add(i, VectorAt(at.hits.normal, i), VectorAt(at.hits.to_view, i),
                  to_light / to_light.length());
   }

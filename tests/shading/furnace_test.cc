@@ -90,7 +90,7 @@ class LitFurnace {
         hits.normal.z[i] = 1;
         SetVector(to_view, i, &hits.to_view);
         SetVector(-l, i, &hits.position);
-        SetVector(l, i, &light.to_light);
+        SetVector(l, i, &light.light_vector);
         light.inverse_length[i] = 1;
         light.irradiance[i] = static_cast<float>(weight);
       }

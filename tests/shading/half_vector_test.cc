@@ -52,7 +52,7 @@ void FillMirrorBatch(double width, MirrorBatch* batch) {
     const Vec3d l = h * (2 * (h ^ v)) - v;
     SetAt(i, n, &batch->hits.normal);
     SetAt(i, v, &batch->hits.to_view);
-    SetAt(i, l, &batch->directions.to_light);
+    SetAt(i, l, &batch->directions.light_vector);
     batch->directions.inverse_length[i] = 1;
     batch->directions.irradiance[i] = 1;
   }
@@ -74,7 +74,7 @@ void CheckMirrored(const ShadingMaterial& material, const Model& model, double w
   const double tolerance = (2 * 2 / width + 2 * 8) * 0x1p-24;
   for (size_t i = 0; i < kMirrorHits; ++i) {
     const Vec3d n = WideAt(batch.surface.normal, i), v = WideAt(batch.surface.to_view, i);
-    const Vec3d l = WideAt(batch.directions.to_light, i);
+    const Vec3d l = WideAt(batch.directions.light_vector, i);
     if ((n ^ l) < 0.05) continue;
     const Rgb got = ColorAt(whole.specular, i);
     const Rgb expected = Reflect(model, n, v, {l, 1}).specular;
@@ -151,8 +151,8 @@ TEST_CASE("a hit's bits do not depend on whether others need more care") {
   // products of unit vectors are exact.
   for (size_t i = 0; i < kMirrorHits; ++i) {
     const double length = 1 + 6 * static_cast<double>(i) / kMirrorHits;
-    const Vec3d l = WideAt(batch.directions.to_light, i);
-    SetAt(i, l * length, &batch.directions.to_light);
+    const Vec3d l = WideAt(batch.directions.light_vector, i);
+    SetAt(i, l * length, &batch.directions.light_vector);
     batch.directions.inverse_length[i] = static_cast<float>(1 / length);
   }
   ForEachTarget([&](Target) {
@@ -192,7 +192,7 @@ TEST_CASE("a half vector of next to no length keeps its lobe") {
   PrepareSurface(batch.hits, &batch.surface);
   for (size_t i = 0; i < kSteps; ++i) {
     const Soa3<float>& v = batch.surface.to_view;
-    SetAt(i, {-v.x[i], 0, v.z[i]}, &batch.directions.to_light);
+    SetAt(i, {-v.x[i], 0, v.z[i]}, &batch.directions.light_vector);
   }
   batch.light =
       PrepareLight({.name = {}, .kind = DirectionalLight{.irradiance = kLightColor}}, {0, 0, 0});

@@ -9,8 +9,8 @@ namespace nacre {
 // Of a light that EvaluateLight was asked about, with the roundings of kernels.
 inline Vec3d DirectionToLight(const LightBatch& light, size_t i) {
   const float inverse = light.inverse_length[i];
-  return {light.to_light.x[i] * inverse, light.to_light.y[i] * inverse,
-          light.to_light.z[i] * inverse};
+  return {light.light_vector.x[i] * inverse, light.light_vector.y[i] * inverse,
+          light.light_vector.z[i] * inverse};
 }
 
 }  // namespace nacre

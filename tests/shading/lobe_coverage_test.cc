@@ -45,16 +45,16 @@ class SampledHits {
   MaterialHits Hits() const { return {material_, hits_, surface_, 0, kCoverageHits}; }
 
   void Sample(const float* u, const float* v) {
-    SampleLobe(Hits(), u, v, &scratch_, &lit_.to_light);
+    SampleLobe(Hits(), u, v, &scratch_, &lit_.light_vector);
     Shade();
   }
 
   void Look(const std::function<Vec3f(size_t)>& to_light) {
     for (size_t i = 0; i < kCoverageHits; ++i) {
       const Vec3f l = to_light(i);
-      lit_.to_light.x[i] = l.x;
-      lit_.to_light.y[i] = l.y;
-      lit_.to_light.z[i] = l.z;
+      lit_.light_vector.x[i] = l.x;
+      lit_.light_vector.y[i] = l.y;
+      lit_.light_vector.z[i] = l.z;
     }
     Shade();
   }
@@ -62,12 +62,12 @@ class SampledHits {
   double Pdf(size_t i) const { return pdf_[i]; }
   double Specular(size_t i) const { return radiance_.specular.y[i]; }
   double Diffuse(size_t i) const { return radiance_.diffuse.y[i]; }
-  double NDotL(size_t i) const { return lit_.to_light.z[i]; }
+  double NDotL(size_t i) const { return lit_.light_vector.z[i]; }
 
  private:
   void Shade() {
     for (size_t i = 0; i < kCoverageHits; ++i)
-      lit_.irradiance[i] = lit_.to_light.z[i] > 0 ? 1.0f : 0.0f;
+      lit_.irradiance[i] = lit_.light_vector.z[i] > 0 ? 1.0f : 0.0f;
     LobePdf(Hits(), lit_, &scratch_, pdf_.data());
     ShadeRun({Hits(), light_, &lit_, &radiance_}, &scratch_);
   }

@@ -190,7 +190,7 @@ class ChunkFuzz {
     result_->first_fault = fmt::format(
         "{}: {}{} n {} v {} l {} irradiance {:g} diffuse {} specular {}", what, model.name,
         parameters, text(ordered_.surface.normal), text(ordered_.surface.to_view),
-        text(ordered_.evaluated.to_light), ordered_.evaluated.irradiance[hit],
+        text(ordered_.evaluated.light_vector), ordered_.evaluated.irradiance[hit],
         text(ordered_.radiance.diffuse), text(ordered_.radiance.specular));
   }
 

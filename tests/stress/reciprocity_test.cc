@@ -49,10 +49,10 @@ struct BothSides {
         Set(d.normal, i, &side->hits.normal, &side->surface.normal);
       }
       Set(-d.to_light, i, &there.hits.position);
-      Set(d.to_light, i, &there.evaluated.to_light);
+      Set(d.to_light, i, &there.evaluated.light_vector);
       Set(d.to_view, i, &there.hits.to_view, &there.surface.to_view);
       Set(-d.to_view, i, &back.hits.position);
-      Set(d.to_view, i, &back.evaluated.to_light);
+      Set(d.to_view, i, &back.evaluated.light_vector);
       Set(d.to_light, i, &back.hits.to_view, &back.surface.to_view);
       for (Side* side : {&there, &back}) {
         side->evaluated.inverse_length[i] = side->evaluated.irradiance[i] = 1;
@@ -66,7 +66,7 @@ struct BothSides {
 
 double Cosine(const Side& side, size_t i) {
   const Soa3<float>& n = side.surface.normal;
-  const Soa3<float>& l = side.evaluated.to_light;
+  const Soa3<float>& l = side.evaluated.light_vector;
   return double{n.x[i]} * l.x[i] + double{n.y[i]} * l.y[i] + double{n.z[i]} * l.z[i];
 }
 
