@@ -425,11 +425,11 @@ TEST_CASE("rough diffuse surfaces whose normal leans away count as seen edge-on,
        Eon(edge_on, 0.8, 1.0)},
       {Prepare(BurleyMaterial{.albedo = {0.8, 0.8, 0.8}, .roughness = 1}),
        0.8 * BurleyDiffuse(edge_on, 1.0)}};
-  for (const auto& [material, brdf] : cases) {
+  for (const auto& each : cases) {
     ForEachTarget([&](Target) {
       ReflectedRadiance radiance;
-      ReflectSun(material, hits, to_light, &radiance);
-      CHECK(radiance.diffuse.x[0] == Approx(brdf * edge_on.n_dot_l).epsilon(1e-5));
+      ReflectSun(each.first, hits, to_light, &radiance);
+      CHECK(radiance.diffuse.x[0] == Approx(each.second * edge_on.n_dot_l).epsilon(1e-5));
     });
   }
 }
