@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image_io/exr_checksum.h"
 
-#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <type_traits>
 
 #include <lcms2.h>
 

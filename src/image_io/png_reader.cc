@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // image_io/png_reader.cc: reads PNG files with libspng.
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>

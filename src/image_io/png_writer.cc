@@ -2,12 +2,10 @@
 #include "image_io/png_writer.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <limits>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include <isa-l/crc.h>

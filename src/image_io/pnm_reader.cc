@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>

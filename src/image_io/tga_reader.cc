@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // image_io/tga_reader.cc: reads Truevision TGA files.
 #include <array>
-#include <utility>
 #include <vector>
 
 #include "image_io/c_file.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // scene/cloud.cc: random clouds of spheres.
-#include <algorithm>
-
-#include <fmt/format.h>
+#include <utility>
 
 #include "base/error.h"
 #include "base/huge_pages.h"

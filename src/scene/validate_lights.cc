@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "scene/limits.h"
 #include "scene/scene.h"
 #include "scene/validate.h"
 #include "scene/validate_numbers.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // scene_io/gltf_materials.cc: the materials of a glTF file as materials of the scene.
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 

@@ -3,7 +3,6 @@
 
 #include <charconv>
 #include <system_error>
-#include <utility>
 
 #include <nlohmann/json.hpp>
 
