@@ -75,25 +75,17 @@ constexpr MapTarget Target(MappedNumber number, int channel = 0, double most = l
           [](const Material& material) { return Rgb(FieldOf<kMember>(material)); }, most};
 }
 
-template <auto kMember>
+// A map without targets is looked up elsewhere (MaterialMap::target_count).
+template <auto kMember, class... Targets>
 constexpr MaterialMap Map(std::string_view name, MapUse use, std::string_view meaning,
-                          const MapTarget& target) {
+                          const Targets&... targets) {
   return {name,
           use,
           [](const Material& material) { return FieldOf<kMember>(material); },
           [](Material& material, TextureId id) { FieldOf<kMember>(material) = id; },
           meaning,
-          {target},
-          1};
-}
-
-template <auto kMember>
-constexpr MaterialMap Map(std::string_view name, MapUse use, std::string_view meaning,
-                          const MapTarget& first, const MapTarget& second) {
-  MaterialMap map = Map<kMember>(name, use, meaning, first);
-  map.targets[1] = second;
-  map.target_count = 2;
-  return map;
+          {targets...},
+          sizeof...(targets)};
 }
 
 // The roughness of a diffuse base, which is the lobe's unless it is set. If the lobe's is out of
@@ -321,13 +313,6 @@ constexpr std::array kDielectricChoices = {
 constexpr MaterialMap kEmissionMap = Map<&Material::emission_map>(
     "emission_map", MapUse::kColor, "Multiplies emission.",
     Target<&Material::emission>(MappedNumber::kEmission, 0, limits::kRadiance.max));
-// A map without targets, which is looked up elsewhere (MaterialMap::target_count).
-template <auto kMember>
-constexpr MaterialMap Map(std::string_view name, MapUse use, std::string_view meaning) {
-  MaterialMap map = Map<kMember>(name, use, meaning, MapTarget{});
-  map.target_count = 0;
-  return map;
-}
 constexpr MaterialMap kOpacityMap = Map<&Material::opacity_map>(
     "opacity_map", MapUse::kOpacity,
     "Multiplies opacity: the image's alpha, or its first channel where the texture's encoding is "
