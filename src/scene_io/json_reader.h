@@ -4,6 +4,7 @@
 // file finds all of its faults.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -75,6 +76,19 @@ void AddFileFaults(const Error& error, const JsonValue& value);
 // Adds the fault that `word` is not among `names`. The hint is the nearest name, or all of them.
 void FaultUnknownName(const JsonValue& value, std::string_view kind, const std::string& word,
                       const std::vector<std::string>& names);
+
+// Adds the fault that `word` is not among the keys of `map`, which is in no order: the names are
+// sorted, so that the hint does not depend on hashes.
+template <class Map>
+void FaultUnknownKey(const JsonValue& value, std::string_view kind, const std::string& word,
+                     const Map& map) {
+  std::vector<std::string> names;
+  if (value.faults->count() < FaultList::kMaxKept) {  // further faults are only counted
+    for (const auto& [known, item] : map) names.push_back(known);
+  }
+  std::sort(names.begin(), names.end());
+  FaultUnknownName(value, kind, word, names);
+}
 
 // An object of the file. Remembers which members were asked for; RefuseOthers(), to be called last,
 // adds a fault for each of the rest.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // scene_io/read_generators.cc: the shapes "grid", "pair" and "cloud".
 #include <array>
-#include <utility>
 
 #include "base/error.h"
 #include "scene/generators.h"
@@ -10,15 +9,6 @@
 
 namespace nacre {
 namespace {
-
-// Reads a value of `parameter`; a number becomes three equal components.
-bool ReadParameterValue(const JsonValue& value, const MaterialParameter& parameter, Rgb* out) {
-  if (parameter.is_color) return ReadColor(value, parameter.range, out);
-  double number = 0;
-  if (!ReadNumber(value, parameter.range, &number)) return false;
-  *out = Rgb(number, number, number);
-  return true;
-}
 
 // The parameter that the member "parameter" names, or nullptr. `material` is the material that it
 // varies; nullptr if that has faults itself.

@@ -20,12 +20,10 @@ void ReadParameters(const MaterialModel& model, JsonObject* object, Material* ma
     if (object->Choice(choice.name, choice.options, &option)) choice.set(*material, option);
   }
   for (const MaterialParameter& parameter : model.parameters) {
-    Rgb value;
-    double number = 0;
-    if (parameter.is_color) {
-      if (object->Color(parameter.name, parameter.range, &value)) parameter.set(*material, value);
-    } else if (object->Number(parameter.name, parameter.range, &number)) {
-      parameter.set(*material, Rgb(number, number, number));
+    const auto value = object->Find(parameter.name);
+    Rgb number_or_color;
+    if (value && ReadParameterValue(*value, parameter, &number_or_color)) {
+      parameter.set(*material, number_or_color);
     }
   }
 }
@@ -47,9 +45,7 @@ SplitMaterial ReadSplit(JsonObject* object, SceneContext* context) {
   }
   if (const auto materials = RequireArray(object, "materials", "one for each band, by name")) {
     for (size_t i = 0; i < materials->json.size(); ++i) {
-      MaterialId id;
-      ReadMaterialId(materials->Element(i), context, &id);
-      split.materials.push_back(id);
+      ReadMaterialId(materials->Element(i), context, &split.materials.emplace_back());
     }
   }
   return split;
@@ -82,18 +78,21 @@ MaterialId FindMaterial(const JsonValue& value, const SceneContext& context) {
   const auto found = context.read.names.find(name);
   if (found != context.read.names.end()) return found->second;
   if (!context.has_materials) return {};
-  std::vector<std::string> names;
-  if (value.faults->count() < FaultList::kMaxKept) {  // further faults are only counted
-    for (const auto& [known, id] : context.read.names) names.push_back(known);
-  }
-  std::sort(names.begin(), names.end());
-  FaultUnknownName(value, "material", name, names);
+  FaultUnknownKey(value, "material", name, context.read.names);
   return {};
 }
 
 constexpr std::string_view kReferenceHint = "the name of one in \"materials\", or an object";
 
 }  // namespace
+
+bool ReadParameterValue(const JsonValue& value, const MaterialParameter& parameter, Rgb* out) {
+  if (parameter.is_color) return ReadColor(value, parameter.range, out);
+  double number = 0;
+  if (!ReadNumber(value, parameter.range, &number)) return false;
+  *out = Rgb(number);
+  return true;
+}
 
 void ReadMaterials(const JsonValue& value, SceneContext* context) {
   const JsonObject object(value, R"(materials by name: {"gold": {"model": ...}})");

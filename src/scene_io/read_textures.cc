@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // scene_io/read_textures.cc: the part "textures", and the maps of materials, which name them.
-#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -243,14 +242,7 @@ void ReadTextureId(const JsonValue& value, MapUse use, SceneContext* context, Te
   ReadText(value, &name);
   const auto found = context->read.sources.find(name);
   if (found == context->read.sources.end()) {
-    std::vector<std::string> names;
-    names.reserve(context->read.sources.size());
-    if (value.faults->count() < FaultList::kMaxKept) {  // further faults are only counted
-      for (const auto& [known, source] : context->read.sources) names.push_back(known);
-    }
-    std::sort(names.begin(), names.end());
-    FaultUnknownName(value, "texture", name, names);
-    return;
+    return FaultUnknownKey(value, "texture", name, context->read.sources);
   }
   TextureSource& source = found->second;
   if (!source.is_readable) return;  // reported already

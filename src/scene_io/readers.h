@@ -79,6 +79,9 @@ void ReadTextureId(const JsonValue& value, MapUse use, SceneContext* context, Te
 void ReadMaps(const MaterialModel& model, JsonObject* object, SceneContext* context,
               Material* material);
 
+// Reads a value of `parameter`; a number becomes three equal components.
+bool ReadParameterValue(const JsonValue& value, const MaterialParameter& parameter, Rgb* out);
+
 // Reads the object "materials", in its order.
 void ReadMaterials(const JsonValue& value, SceneContext* context);
 // Reads one material. Inline materials that it contains are added to the scene; it itself is not.
