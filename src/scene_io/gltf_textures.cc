@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_io/gltf_textures.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
@@ -129,12 +128,9 @@ TemporaryFile::TemporaryFile(std::string_view bytes, const std::string& suffix)
 TemporaryFile::~TemporaryFile() { unlink(path_.c_str()); }
 
 ImageId GltfTextures::AddImage(int image, const TextureReading& reading) {
-  const auto key = std::make_pair(image, reading.Key({}));
-  const auto known = images_.find(key);
-  if (known != images_.end()) return known->second;
-  const ImageId id = DecodeImage(image, reading);
-  images_.emplace(key, id);
-  return id;
+  const auto [known, is_new] = images_.try_emplace({image, reading.Key({})});
+  if (is_new) known->second = DecodeImage(image, reading);
+  return known->second;
 }
 
 std::filesystem::path GltfTextures::FileOf(const GltfImage& image) {

@@ -29,14 +29,12 @@ namespace {
 
 // A Blinn-Phong material in the classic convention, with the numbers of the library.
 PhongMaterial MakePhong(const MtlMaterial& source) {
-  PhongMaterial phong;
-  phong.model = PhongModel::kBlinnPhong;
-  phong.convention = PhongConvention::kClassic;
-  phong.ka = source.ka;
-  phong.kd = source.kd;
-  phong.ks = source.illum == 1 ? Rgb(0) : source.ks;
-  phong.shininess = source.ns;
-  return phong;
+  return {.model = PhongModel::kBlinnPhong,
+          .convention = PhongConvention::kClassic,
+          .ka = source.ka,
+          .kd = source.kd,
+          .ks = source.illum == 1 ? Rgb(0) : source.ks,
+          .shininess = source.ns};
 }
 
 // Reads the format's extension for physically based rendering. Without a roughness, the exponent
@@ -92,8 +90,11 @@ class ObjMaterials {
     std::vector<MaterialId> ids;
     for (const std::string& name : obj.material_names) {
       const std::optional<MaterialId> known = MaterialNamed(name);
-      if (!known && !name.empty()) WarnOfName(name);
       ids.push_back(known.value_or(none));
+      // Missing libraries were reported already.
+      if (known || name.empty() || !missing_libraries_.empty()) continue;
+      if (++unknown_names_ > kMaxNames) continue;
+      Warn(fmt::format("no material library has \"{}\": its faces are grey", Excerpt(name)));
     }
     if (unknown_names_ > kMaxNames) {
       Warn(fmt::format("and {} more materials that no library has", unknown_names_ - kMaxNames));
@@ -132,12 +133,6 @@ class ObjMaterials {
     const std::string quoted = fmt::format("\"{}\"", Excerpt(name));
     return IsAbsolute(name) && !options_.allow_paths ? quoted + " is outside the model's folder"
                                                      : "there is no file " + quoted;
-  }
-
-  void WarnOfName(const std::string& name) {
-    if (!missing_libraries_.empty() || ++unknown_names_ > kMaxNames)
-      return;  // missing libraries were reported already
-    Warn(fmt::format("no material library has \"{}\": its faces are grey", Excerpt(name)));
   }
 
   bool IsClassic() const {
@@ -375,14 +370,13 @@ class ObjMaterials {
   std::optional<ImageId> AddImage(const MtlImage& source, TextureEncoding encoding) {
     const std::filesystem::path path = FindImage(source.file);
     if (path.empty()) return std::nullopt;
-    const auto key = std::make_pair(path, encoding);
-    const auto known = images_.find(key);
-    if (known != images_.end()) return known->second;
-    const std::optional<ImageId> id = WithImage(source, [&] {
-      return AddTextureImage(path, source.file, Reading(encoding), &texels_, &scene_, &ahead_);
-    });
-    images_.emplace(key, id);
-    return id;
+    const auto [known, is_new] = images_.try_emplace({path, encoding});
+    if (is_new) {
+      known->second = WithImage(source, [&] {
+        return AddTextureImage(path, source.file, Reading(encoding), &texels_, &scene_, &ahead_);
+      });
+    }
+    return known->second;
   }
 
   // The path of the image; empty if there is no name or no such file, as models often come without
@@ -426,7 +420,6 @@ class ObjMaterials {
   }
 
   TextureId AddTexture(const MtlImage& source, TextureEncoding encoding) {
-    if (source.file.empty()) return {};
     const std::optional<ImageId> image = AddImage(source, encoding);
     return image ? AddTextureOf(source, *image) : TextureId{};
   }
