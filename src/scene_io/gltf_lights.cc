@@ -46,11 +46,9 @@ SpotLight MakeSpot(const gltf::Light::Spot& cone, const std::string& place,
         fmt::format("its cone is from {} to {}", cone.innerConeAngle, cone.outerConeAngle),
         "angles in radians, 0 <= innerConeAngle < outerConeAngle <= pi / 2");
   }
-  SpotLight spot;
-  spot.cutoff_deg = cone.outerConeAngle * kDegrees;
-  spot.inner_deg = cone.innerConeAngle * kDegrees;
-  spot.edge = SpotEdge::kSquare;
-  return spot;
+  return {.cutoff_deg = cone.outerConeAngle * kDegrees,
+          .inner_deg = cone.innerConeAngle * kDegrees,
+          .edge = SpotEdge::kSquare};
 }
 
 }  // namespace
@@ -77,10 +75,7 @@ void AddGltfLight(int light, size_t index, const Imath::M44d& world_from_node,
   if (source.type == "directional") {
     result.kind = DirectionalLight{direction, intensity};
   } else if (source.type == "point") {
-    PointLight point;
-    point.position = position;
-    point.intensity = intensity;
-    result.kind = point;
+    result.kind = PointLight{.position = position, .intensity = intensity};
   } else if (source.type == "spot") {
     SpotLight spot = MakeSpot(source.spot, place, *document);
     spot.position = position;
@@ -95,41 +90,40 @@ void AddGltfLight(int light, size_t index, const Imath::M44d& world_from_node,
 }
 
 std::optional<Camera> MakeGltfCamera(int camera, size_t index, const Imath::M44d& world_from_node,
-                                     GltfDocument* to) {
-  const GltfDocument& document = *to;
+                                     GltfDocument* document) {
   const std::string place = fmt::format("/cameras/{}", camera);
   const gltf::Camera& source =
-      document.At(document.model.cameras, camera, place, "there is no such camera");
+      document->At(document->model.cameras, camera, place, "there is no such camera");
   Camera result;
   if (source.type == "perspective") {
     result.fov_y_deg = source.perspective.yfov * kDegrees;
     if (!(result.fov_y_deg > 0 && result.fov_y_deg < 180)) {
-      document.Refuse(place + "/perspective/yfov", fmt::format("{}", source.perspective.yfov),
-                      "radians, greater than 0 and less than pi");
+      document->Refuse(place + "/perspective/yfov", fmt::format("{}", source.perspective.yfov),
+                       "radians, greater than 0 and less than pi");
     }
   } else if (source.type == "orthographic") {
     result.projection = Projection::kOrthographic;
     result.height = 2 * std::abs(source.orthographic.ymag);
     if (!limits::kLength.Contains(result.height)) {
-      document.Refuse(place + "/orthographic/ymag", fmt::format("{}", source.orthographic.ymag),
-                      "half the height of the view, not 0");
+      document->Refuse(place + "/orthographic/ymag", fmt::format("{}", source.orthographic.ymag),
+                       "half the height of the view, not 0");
     }
   } else {
-    document.Refuse(place + "/type", fmt::format("unknown type \"{}\"", Excerpt(source.type)),
-                    "perspective or orthographic");
+    document->Refuse(place + "/type", fmt::format("unknown type \"{}\"", Excerpt(source.type)),
+                     "perspective or orthographic");
   }
   result.position = world_from_node.translation();
   const Vec3d forward = DirectionInWorld(world_from_node, {0, 0, -1});
   result.up = DirectionInWorld(world_from_node, {0, 1, 0});
   if (forward == Vec3d(0) || result.up == Vec3d(0)) {
-    to->Warn("a camera that its node leaves no direction, as a scale of 0 does, is left out");
+    document->Warn("a camera that its node leaves no direction, as a scale of 0 does, is left out");
     return std::nullopt;
   }
   // The point to look at is so far away that adding the position does not round off the direction.
   result.look_at = result.position + forward * std::max(result.position.length(), 1.0);
   const std::string node = fmt::format("/nodes/{}", index);
-  document.Check(node, result.position, limits::kCoordinate);
-  document.Check(node, result.look_at, limits::kCoordinate);
+  document->Check(node, result.position, limits::kCoordinate);
+  document->Check(node, result.look_at, limits::kCoordinate);
   return result;
 }
 

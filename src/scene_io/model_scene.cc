@@ -43,10 +43,7 @@ View ViewOf(const Camera& camera) {
 }
 
 Light MakeDirectional(std::string name, const Vec3d& to_light, double irradiance) {
-  Light light;
-  light.name = std::move(name);
-  light.kind = DirectionalLight{-to_light, Rgb(irradiance)};
-  return light;
+  return {.name = std::move(name), .kind = DirectionalLight{-to_light, Rgb(irradiance)}};
 }
 
 // A soft box of a studio: a round light at infinity with a soft edge.
@@ -211,10 +208,8 @@ void AddStudioLights(Scene* scene) {
   if (is_classic) {
     sky.kind = AmbientLight{Rgb(0.12)};
   } else {
-    EnvironmentLight room;
-    room.sky = PictureSky{MakeStudioRoom({right, up, back}), Rgb(1)};
-    room.background = false;
-    sky.kind = std::move(room);
+    sky.kind = EnvironmentLight{.sky = PictureSky{MakeStudioRoom({right, up, back}), Rgb(1)},
+                                .background = false};
   }
   scene->lights.push_back(std::move(sky));
   scene->background = Rgb(0.18);

@@ -48,13 +48,11 @@ Rgb TextbookPhongShading(const TextbookPoint& p, const TextbookPhong& material,
 TextbookAngles TextbookAnglesAt(const TextbookPoint& p, const TextbookFaults& faults) {
   const Vec3d half = TextbookNormalize(p.to_view + p.to_light, faults);
   const Vec3d cross = p.normal % half;
-  TextbookAngles a;
-  a.n_dot_l = std::max(p.normal ^ p.to_light, 0.0);
-  a.n_dot_v = std::max(p.normal ^ p.to_view, 0.0);
-  a.n_dot_h = std::max(p.normal ^ half, 0.0);
-  a.v_dot_h = std::max(p.to_view ^ half, faults.v_dot_h_floor ? 0.001 : 0.0);
-  a.sin2_h = cross.length2();
-  return a;
+  return {.n_dot_l = std::max(p.normal ^ p.to_light, 0.0),
+          .n_dot_v = std::max(p.normal ^ p.to_view, 0.0),
+          .n_dot_h = std::max(p.normal ^ half, 0.0),
+          .v_dot_h = std::max(p.to_view ^ half, faults.v_dot_h_floor ? 0.001 : 0.0),
+          .sin2_h = cross.length2()};
 }
 
 double TextbookDistribution(const TextbookAngles& a, double roughness,
