@@ -24,19 +24,11 @@ constexpr size_t kMaxProperties = 256;
 
 constexpr std::string_view kBlanks = " \t\r\n";
 
-struct TypeName {
-  std::string_view name;
-  NumberType type;
-};
-constexpr std::array kTypeNames = {
-    TypeName{"char", NumberType::kInt8},     TypeName{"int8", NumberType::kInt8},
-    TypeName{"uchar", NumberType::kUint8},   TypeName{"uint8", NumberType::kUint8},
-    TypeName{"short", NumberType::kInt16},   TypeName{"int16", NumberType::kInt16},
-    TypeName{"ushort", NumberType::kUint16}, TypeName{"uint16", NumberType::kUint16},
-    TypeName{"int", NumberType::kInt32},     TypeName{"int32", NumberType::kInt32},
-    TypeName{"uint", NumberType::kUint32},   TypeName{"uint32", NumberType::kUint32},
-    TypeName{"float", NumberType::kFloat},   TypeName{"float32", NumberType::kFloat},
-    TypeName{"double", NumberType::kDouble}, TypeName{"float64", NumberType::kDouble}};
+// The two names of each type, in the order of NumberType.
+constexpr std::array<std::string_view, 8> kTypeNames = {"char", "uchar", "short", "ushort",
+                                                        "int",  "uint",  "float", "double"};
+constexpr std::array<std::string_view, 8> kSizedTypeNames = {
+    "int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"};
 
 bool IsReal(NumberType type) { return type == NumberType::kFloat || type == NumberType::kDouble; }
 
@@ -139,8 +131,9 @@ class HeaderReader {
   }
 
   NumberType TypeOf(std::string_view word) const {
-    for (const TypeName& known : kTypeNames) {
-      if (known.name == word) return known.type;
+    for (const auto& names : {kTypeNames, kSizedTypeNames}) {
+      const auto found = std::ranges::find(names, word);
+      if (found != names.end()) return static_cast<NumberType>(found - names.begin());
     }
     Refuse(fmt::format("unknown type \"{}\"", Excerpt(word, 40)),
            "char, uchar, short, ushort, int, uint, float or double");

@@ -124,17 +124,14 @@ class SphereRows {
   std::vector<Sphere> spheres_;
 };
 
-// The indices of a table's columns, kNone for missing ones.
-struct TableColumns {
-  static constexpr size_t kNone = static_cast<size_t>(-1);
-  std::array<size_t, 3> xyz = {0, 1, 2};
-  size_t radius = kNone, material = kNone;
-};
+// The indices of a table's columns x, y, z, radius and material; kNone for missing ones.
+using TableColumns = std::array<size_t, 5>;
+constexpr size_t kRadius = 3, kMaterial = 4;  // indices into TableColumns
+constexpr size_t kNone = static_cast<size_t>(-1);
 
 TableColumns ColumnsInOrder(size_t count) {
   TableColumns columns;
-  if (count > 3) columns.radius = 3;
-  if (count > 4) columns.material = 4;
+  for (size_t i = 0; i < columns.size(); ++i) columns[i] = i < count ? i : kNone;
   return columns;
 }
 
@@ -153,8 +150,7 @@ class CsvReader {
       rows_.RefuseRow(line_, fmt::format("has {} columns", count),
                       "x, y, z, radius and material; or begin with a row of names");
     }
-    rows_.CheckColumns(columns_.radius != TableColumns::kNone,
-                       columns_.material != TableColumns::kNone);
+    rows_.CheckColumns(columns_[kRadius] != kNone, columns_[kMaterial] != kNone);
     if (!has_names) AddRow();
     while (NextRow()) {
       if (cells_.size() != count) {
@@ -211,8 +207,8 @@ class CsvReader {
 
   TableColumns ColumnsByName() const {
     constexpr std::array<std::string_view, 5> kNames = {"x", "y", "z", "radius", "material"};
-    std::array<size_t, 5> places;
-    places.fill(TableColumns::kNone);
+    TableColumns places;
+    places.fill(kNone);
     std::vector<std::pair<std::string, size_t>> others;
     for (size_t i = 0; i < cells_.size(); ++i) {
       std::string name = LowerCase(cells_[i]);
@@ -222,28 +218,27 @@ class CsvReader {
         continue;
       }
       size_t& place = places[static_cast<size_t>(found - kNames.begin())];
-      if (place != TableColumns::kNone) {
+      if (place != kNone) {
         rows_.RefuseRow(line_, fmt::format("names two columns \"{}\"", name));
       }
       place = i;
     }
     RefuseMistyped(others, {kNames.begin(), kNames.end()}, places);
     for (size_t i = 0; i < 3; ++i) {
-      if (places[i] != TableColumns::kNone) continue;
+      if (places[i] != kNone) continue;
       rows_.RefuseRow(line_, fmt::format("names no column \"{}\"", kNames[i]),
                       "the first row is names, or numbers: x, y, z, radius, material");
     }
-    return {{places[0], places[1], places[2]}, places[3], places[4]};
+    return places;
   }
 
   // Ignores columns with unknown names, but refuses one that looks like the name of a missing
   // column.
   void RefuseMistyped(const std::vector<std::pair<std::string, size_t>>& others,
-                      const std::vector<std::string>& names,
-                      const std::array<size_t, 5>& places) const {
+                      const std::vector<std::string>& names, const TableColumns& places) const {
     std::vector<std::string> missing;
     for (size_t i = 0; i < names.size(); ++i) {
-      if (places[i] == TableColumns::kNone) missing.push_back(names[i]);
+      if (places[i] == kNone) missing.push_back(names[i]);
     }
     for (const auto& [name, cell] : others) {
       const std::string nearest = NearestName(name, missing);
@@ -261,21 +256,19 @@ class CsvReader {
     return *number;
   }
 
-  bool Says(size_t column) const {
-    return column != TableColumns::kNone && !cells_[column].empty();
-  }
+  bool Says(size_t column) const { return column != kNone && !cells_[column].empty(); }
 
   void AddRow() {
     rows_.Announce(1);
-    const auto& xyz = columns_.xyz;
-    const Vec3d center(Number(xyz[0]), Number(xyz[1]), Number(xyz[2]));
-    const double radius = Says(columns_.radius) ? Number(columns_.radius) : rows_.RadiusOf(line_);
+    const Vec3d center(Number(columns_[0]), Number(columns_[1]), Number(columns_[2]));
+    const double radius =
+        Says(columns_[kRadius]) ? Number(columns_[kRadius]) : rows_.RadiusOf(line_);
     rows_.Add(center, radius, Material(), line_);
   }
 
   MaterialId Material() {
-    if (!Says(columns_.material)) return rows_.MaterialOf(line_);
-    const std::string_view cell = cells_[columns_.material];
+    if (!Says(columns_[kMaterial])) return rows_.MaterialOf(line_);
+    const std::string_view cell = cells_[columns_[kMaterial]];
     const std::optional<double> number = ParseNumber(cell);
     return number ? rows_.MaterialOfNumber(*number, line_) : rows_.MaterialOfName(cell, line_);
   }
@@ -285,7 +278,7 @@ class CsvReader {
   size_t line_ = 0;
   char separator_ = '\0';
   std::vector<std::string_view> cells_;
-  TableColumns columns_;
+  TableColumns columns_{};
 };
 
 // Adds `count` rows of numbers: at(row, column), the columns in the order of ColumnsInOrder.
