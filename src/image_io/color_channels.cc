@@ -29,13 +29,13 @@ bool SameLetters(std::string_view a, std::string_view b) {
 
 // The part of the name after the last dot.
 std::string_view OwnName(std::string_view name) {
-  const size_t dot = name.rfind('.');
-  return dot == std::string_view::npos ? name : name.substr(dot + 1);
+  return name.substr(name.rfind('.') + 1);  // npos + 1 is 0
 }
 
-bool IsInLayer(std::string_view name, std::string_view layer) {
+// The part of the name before the last dot; "" if there is no dot.
+std::string_view LayerOf(std::string_view name) {
   const size_t dot = name.rfind('.');
-  return (dot == std::string_view::npos ? std::string_view() : name.substr(0, dot)) == layer;
+  return name.substr(0, dot == std::string_view::npos ? 0 : dot);
 }
 
 }  // namespace
@@ -49,7 +49,7 @@ std::optional<ColorChannels> FindColors(const std::vector<Channel>& channels,
   const auto find = [&](std::string_view own, std::string_view long_name) -> std::optional<size_t> {
     for (size_t c = 0; c < channels.size(); ++c) {
       const std::string_view name = channels[c].name;
-      if (IsInLayer(name, layer) &&
+      if (LayerOf(name) == layer &&
           (SameLetters(OwnName(name), own) || SameLetters(OwnName(name), long_name))) {
         return c;
       }
@@ -63,7 +63,7 @@ std::optional<ColorChannels> FindColors(const std::vector<Channel>& channels,
   for (size_t c = 0; c < channels.size(); ++c) {
     const std::string_view name = channels[c].name;
     if (!layer.empty() && name == layer) return ColorChannels{c, c, c};
-    if (!IsAlphaChannel(name) && (layer.empty() || IsInLayer(name, layer))) others.push_back(c);
+    if (!IsAlphaChannel(name) && (layer.empty() || LayerOf(name) == layer)) others.push_back(c);
   }
   if (others.size() != 1) return {};
   return ColorChannels{others[0], others[0], others[0]};
@@ -134,8 +134,7 @@ std::string ConvertImage(Image* image) {
   std::set<std::string_view> layers;
   size_t outside = 0;
   for (const Channel& channel : image->channels) {
-    const size_t dot = channel.name.rfind('.');
-    const auto layer = std::string_view(channel.name).substr(0, dot == std::string::npos ? 0 : dot);
+    const std::string_view layer = LayerOf(channel.name);
     if (!layers.insert(layer).second) continue;
     const std::optional<ColorChannels> colors = FindColors(image->channels, layer);
     if (!colors || colors->is_grey()) continue;

@@ -157,13 +157,16 @@ void ReadVariable(const std::string& path, const std::string& line, HdrHeader* h
     const std::vector<double> all = numbers(count);
     return std::ranges::all_of(all, [](double number) { return number == 0; });
   };
-  const auto factors = [&](size_t count) {
+  const auto multiply = [&](double number, double* factor) {
+    *factor *= number;
+    if (!(*factor > 0) || !std::isfinite(*factor)) {
+      FailToRead(path, name + " makes no factor above 0");
+    }
+  };
+  const auto expose = [&](size_t count) {
     const std::vector<double> all = numbers(count);
     for (int c = 0; c < 3; ++c) {
-      header->exposure[c] *= all[count == 1 ? 0 : static_cast<size_t>(c)];
-      if (!(header->exposure[c] > 0) || !std::isfinite(header->exposure[c])) {
-        FailToRead(path, name + " makes no factor above 0");
-      }
+      multiply(all[count == 1 ? 0 : static_cast<size_t>(c)], &header->exposure[c]);
     }
   };
   if (name == "FORMAT") {
@@ -172,8 +175,8 @@ void ReadVariable(const std::string& path, const std::string& line, HdrHeader* h
       FailToRead(path, "its FORMAT is neither 32-bit_rle_rgbe nor 32-bit_rle_xyze");
     }
   }
-  if (name == "EXPOSURE" && !says_nothing(1)) factors(1);
-  if (name == "COLORCORR" && !says_nothing(3)) factors(3);
+  if (name == "EXPOSURE" && !says_nothing(1)) expose(1);
+  if (name == "COLORCORR" && !says_nothing(3)) expose(3);
   if (name == "PRIMARIES") {
     const std::optional<Primaries> primaries = ParsePrimaries(value);
     if (!primaries || !SamePrimaries(*primaries, kRadiancePrimaries)) {
@@ -185,10 +188,7 @@ void ReadVariable(const std::string& path, const std::string& line, HdrHeader* h
     throw Error(ExitCode::kBadInput, path, "its GAMMA is not 1", "pixels must be linear");
   }
   if (name == "PIXASPECT" && !says_nothing(1)) {
-    header->pixel_aspect *= numbers(1)[0];
-    if (!(header->pixel_aspect > 0) || !std::isfinite(header->pixel_aspect)) {
-      FailToRead(path, "PIXASPECT makes no factor above 0");
-    }
+    multiply(numbers(1)[0], &header->pixel_aspect);
     // EXR has pixel width over height, Radiance the reciprocal.
     header->variables["pixelAspectRatio"] = fmt::format("{:.6g}", 1 / header->pixel_aspect);
     return;

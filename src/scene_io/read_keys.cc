@@ -24,28 +24,27 @@ void ReadFilter(const JsonValue& value, ImageSettings* image) {
 
 std::string HintOf(KeyForm form, const Range& range, std::span<const std::string_view> options,
                    std::string_view meaning) {
-  std::string hint;
+  const auto with_meaning = [&](const std::string& hint) {
+    return meaning.empty() ? hint : hint + ": " + std::string(meaning);
+  };
   switch (form) {
     case KeyForm::kChoice:
       return fmt::format("one of: {}", fmt::join(options, ", "));
     case KeyForm::kBoolean:
-      hint = "true or false";
-      break;
+      return with_meaning("true or false");
     case KeyForm::kWhole:
-      hint = "a whole number " + Describe(range);
-      break;
+      return with_meaning("a whole number " + Describe(range));
     case KeyForm::kPoint:
-      hint = "[x, y, z]";
-      break;
+      return with_meaning("[x, y, z]");
     case KeyForm::kDirection:  // the meaning says more
       return std::string(meaning);
     case KeyForm::kColor:
-      hint = "[r, g, b] or grey";
-      break;
+      return with_meaning("[r, g, b] or grey");
     case KeyForm::kNumber:
-      hint = range == limits::kLength ? "a length greater than 0" : "a number " + Describe(range);
+      break;
   }
-  return meaning.empty() ? hint : hint + ": " + std::string(meaning);
+  return with_meaning(range == limits::kLength ? "a length greater than 0"
+                                               : "a number " + Describe(range));
 }
 
 std::optional<Vec3d> ReadKeyValue(JsonObject* object, std::string_view name, KeyForm form,
