@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // scene/validate_textures.cc: the part of Validate() that checks images, textures and the maps of
 // materials.
-#include <array>
 #include <utility>
 #include <variant>
 
@@ -33,12 +32,6 @@ void ValidateTexture(const Scene& scene, const Texture& texture, const std::stri
   for (const double component : {texture.offset.x, texture.offset.y}) {
     CheckNumber(component, limits::kTextureScale, where + "/offset", faults);
   }
-}
-
-void ValidateMap(const Scene& scene, TextureId id, const std::string& where, FaultList* faults) {
-  if (!id.valid() || id.index < scene.textures.size()) return;
-  faults->Add(where, fmt::format("there is no texture {}", id.index),
-              fmt::format("the scene has {}", scene.textures.size()));
 }
 
 using NamedMap = std::pair<std::string_view, TextureId>;
@@ -73,7 +66,9 @@ void ValidateCoordinates(const Scene& scene, const Material& material, const std
 void ValidateMaps(const Scene& scene, const Material& material, const std::string& where,
                   FaultList* faults) {
   for (const auto& [name, id] : MapsOf(material)) {
-    ValidateMap(scene, id, where + "/" + std::string(name), faults);
+    if (!id.valid() || id.index < scene.textures.size()) continue;
+    faults->Add(where + "/" + std::string(name), fmt::format("there is no texture {}", id.index),
+                fmt::format("the scene has {}", scene.textures.size()));
   }
   if (const MaterialModel* const model = ModelOf(material)) {
     for (const MaterialNormalMap& row : model->normal_maps) {
