@@ -182,9 +182,8 @@ PlotBox LineOf(const Plot& plot, const Rule& rule) {
 
 // To be called after RuleText, so that `layout` contains the rules' labels.
 std::string KeyText(const Plot& plot, const PlotLayout& layout) {
-  const bool titled = std::any_of(plot.curves.begin(), plot.curves.end(),
-                                  [](const Curve& curve) { return !curve.title.empty(); });
-  if (!titled) return "unset key\n";
+  const auto titled = [](const Curve& curve) { return !curve.title.empty(); };
+  if (std::ranges::none_of(plot.curves, titled)) return "unset key\n";
   constexpr std::string_view kLook =
       "Left reverse noenhanced textcolor rgb '#222222' samplen 3 spacing 1.15";
   PlotLayout beside_rules = layout;

@@ -123,7 +123,7 @@ constexpr double kLineHeight = 31;
 constexpr double kAxesWidth = 170, kAxesHeight = 130;  // the size of axes and margins
 
 size_t GlyphCount(const std::string& text) {
-  return static_cast<size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+  return static_cast<size_t>(std::ranges::count_if(text, [](char c) {
     return (static_cast<unsigned char>(c) & 0xc0) != 0x80;  // not a continuation byte of UTF-8
   }));
 }
@@ -147,18 +147,15 @@ std::vector<std::string> PartsOf(const std::string& title) {
   return parts;
 }
 
-bool Has(const std::vector<std::string>& parts, const std::string& part) {
-  return std::find(parts.begin(), parts.end(), part) != parts.end();
-}
-
 // Title i without the parts that all titles share, except for the first part, the model.
 std::string WithoutShared(const std::vector<std::vector<std::string>>& all, size_t i) {
   std::string title = all[i].front();
   bool left_out = false;
   for (size_t k = 1; k < all[i].size(); ++k) {
     const std::string& part = all[i][k];
-    const bool shared =
-        std::all_of(all.begin(), all.end(), [&](const auto& other) { return Has(other, part); });
+    const bool shared = std::ranges::all_of(all, [&](const std::vector<std::string>& other) {
+      return std::ranges::find(other, part) != other.end();
+    });
     if (!shared || !left_out) title += std::string(kSeparator) + (shared ? "…" : part);
     left_out = shared;
   }
@@ -217,8 +214,7 @@ bool PlotLayout::IsFree(const PlotBox& box) const {
   const auto overlaps = [&](const PlotBox& other) {
     return other.x0 < box.x1 && box.x0 < other.x1 && other.y0 < box.y1 && box.y0 < other.y1;
   };
-  return std::none_of(points_.begin(), points_.end(), inside) &&
-         std::none_of(boxes_.begin(), boxes_.end(), overlaps);
+  return std::ranges::none_of(points_, inside) && std::ranges::none_of(boxes_, overlaps);
 }
 
 void PlotLayout::Occupy(const PlotBox& box) { boxes_.push_back(box); }
@@ -275,7 +271,7 @@ std::vector<std::string> KeyTitles(const Plot& plot, int width) {
     if (!curve.title.empty()) all.push_back(PartsOf(curve.title));
   }
   const auto too_wide = [&](const std::string& title) { return WidthInKey(title) > room; };
-  if (std::none_of(titles.begin(), titles.end(), too_wide)) return titles;
+  if (std::ranges::none_of(titles, too_wide)) return titles;
   size_t i = 0;
   for (std::string& title : titles) {
     if (title.empty()) continue;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -96,12 +97,6 @@ std::string KindOf(const std::string& layer, const std::vector<const Channel*>& 
   return channels[0]->type == PixelType::kUint ? "id" : "data";
 }
 
-// Sorts R, G, B and X, Y, Z in that order, instead of EXR's alphabetical order.
-int OrderOf(const Channel& channel) {
-  const size_t place = std::string("RGBXYZ").find(channel.name.back());
-  return place == std::string::npos ? 6 : static_cast<int>(place);
-}
-
 struct LayerChannels {
   std::string name;
   std::vector<const Channel*> channels;
@@ -118,9 +113,12 @@ std::vector<LayerChannels> LayersOf(const Image& image) {
     if (found == layers.end()) found = layers.insert(found, {name, {}});
     found->channels.push_back(&channel);
   }
-  for (LayerChannels& layer : layers) {
-    std::ranges::stable_sort(layer.channels, {}, [](const Channel* c) { return OrderOf(*c); });
-  }
+  // R, G, B and X, Y, Z come in that order, instead of EXR's alphabetical order, and others (npos)
+  // last.
+  const auto place = [](const Channel* c) {
+    return std::string_view("RGBXYZ").find(c->name.back());
+  };
+  for (LayerChannels& layer : layers) std::ranges::stable_sort(layer.channels, {}, place);
   std::stable_partition(layers.begin(), layers.end(),
                         [](const LayerChannels& l) { return l.name.empty(); });
   return layers;
