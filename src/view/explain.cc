@@ -163,14 +163,13 @@ Reflection ReflectedJson(const ExplainedMaterial& material, const Point& point,
   const Reflection sum = Reflect(prepared, normals, to_light, v);
   const Reflection reflected = {sum.diffuse * irradiance, sum.specular * irradiance};
   const std::vector<StackLevel> levels = ReflectByLevel(prepared, normals, to_light, v);
-  const bool mirrored = std::any_of(levels.begin(), levels.end(), [](const StackLevel& level) {
-    return level.name == kMirroredLevel;
-  });
+  const bool mirrored =
+      std::ranges::find(levels, kMirroredLevel, &StackLevel::name) != levels.end();
   const bool covered = !prepared.layers.empty() || !prepared.coats.empty();
   if (levels.empty() || (!covered && !mirrored)) return reflected;
   // The normals of model and coats may differ: then some of them may face the light alone.
   const auto find = [&](std::string_view name, size_t index) {
-    const auto found = std::find_if(levels.begin(), levels.end(), [&](const StackLevel& level) {
+    const auto found = std::ranges::find_if(levels, [&](const StackLevel& level) {
       return level.name == name && level.index == index;
     });
     return found != levels.end() ? *found : StackLevel{name, index, {}, Rgb(1)};

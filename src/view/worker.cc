@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/printable.h"
+#include "base/seconds_since.h"
 #include "scene/material_parameters.h"
 #include "scene_io/load_scene.h"
 #include "scene_io/scene_json.h"
@@ -51,11 +52,7 @@ constexpr std::chrono::milliseconds kLastChanges(300);
 // Longer scenes are sent without their shapes: no page has controls for so many.
 constexpr size_t kMaxSceneText = size_t{2} << 20;
 
-double MsSince(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-int DividedBy(int side, int divisor) { return std::max(1, (side + divisor - 1) / divisor); }
+double MsSince(Clock::time_point start) { return 1e3 * SecondsSince(start); }
 
 // Takes the maps out of a scene file's material: the rest can be read without textures.
 Json TakeMaps(Json* material) {
@@ -70,8 +67,7 @@ Json TakeMaps(Json* material) {
 
 bool HasMap(const MaterialModel& model, std::string_view name) {
   const auto named = [&](const auto& map) { return map.name == name; };
-  return std::any_of(model.maps.begin(), model.maps.end(), named) ||
-         std::any_of(model.normal_maps.begin(), model.normal_maps.end(), named);
+  return std::ranges::any_of(model.maps, named) || std::ranges::any_of(model.normal_maps, named);
 }
 
 // Adds the maps to a material of another model; maps of the main colour get the name that they have
@@ -83,10 +79,10 @@ std::vector<std::string> KeepMaps(const Json& maps, std::string_view model_name,
   std::vector<std::string> lost;
   for (const auto& [name, value] : maps.items()) {
     std::vector<std::string_view> names = {name};
-    if (std::find(kOfColor.begin(), kOfColor.end(), name) != kOfColor.end()) {
+    if (std::ranges::find(kOfColor, name) != kOfColor.end()) {
       names.insert(names.end(), kOfColor.begin(), kOfColor.end());
     }
-    const auto found = std::find_if(names.begin(), names.end(), [&](std::string_view candidate) {
+    const auto found = std::ranges::find_if(names, [&](std::string_view candidate) {
       return model != nullptr && HasMap(*model, candidate);
     });
     if (found != names.end()) {
@@ -206,7 +202,7 @@ bool Worker::Step() {
     std::unique_lock lock(mutex_);
     refining_ = false;
     std::erase_if(kept_, [&](const auto& kept) {
-      return std::find(clients_.begin(), clients_.end(), kept.first) == clients_.end();
+      return std::ranges::find(clients_, kept.first) == clients_.end();
     });
     const auto since_change = [&] { return Clock::now() - last_change_; };
     const bool to_measure = AnyToMeasure();
@@ -237,8 +233,7 @@ bool Worker::Step() {
     Serve(request);
     KeepEdits(false);
   }
-  const auto changes = [](const Request& request) { return request.ChangesPicture(); };
-  if (moved_ || std::any_of(requests.begin(), requests.end(), changes)) {
+  if (moved_ || std::ranges::any_of(requests, &Request::ChangesPicture)) {
     last_change_ = Clock::now();
   }
   moved_ |= was_moved;
@@ -325,7 +320,7 @@ void Worker::Answer(ClientId /*client*/, const LookRequest& look) {
   if (another) {
     Changed();
   } else if (!image_.channels.empty()) {
-    Publish(done_);
+    Publish();
   }
 }
 
@@ -334,7 +329,7 @@ void Worker::Answer(ClientId client, const WelcomeRequest& /*request*/) {
   if (image_.channels.empty()) {
     moved_ = true;
   } else {
-    Publish(done_);
+    Publish();
   }
 }
 
@@ -373,8 +368,7 @@ void Worker::Answer(ClientId client, const ConvertRequest& convert) {
     const MaterialFit fit =
         FitMaterial(LoadMaterialText(JsonText(own), convert.pointer), convert.model);
     Json fitted = MaterialJson(fit.fitted);
-    Json notes = Json::array();
-    for (const std::string& name : KeepMaps(maps, convert.model, &fitted)) notes.push_back(name);
+    Json notes = KeepMaps(maps, convert.model, &fitted);
     Answer(client, SetRequest{convert.pointer, std::move(fitted), convert.gesture});
     if (notes.empty() && fit.notes.empty()) return;
     for (const std::string& note : fit.notes) notes.push_back(Printable(note));
@@ -411,14 +405,11 @@ void Worker::Answer(ClientId client, const ExplainRequest& request) {
   constexpr double kNoWidth = 1e-6;
   constexpr int kSamples = 64;  // per light that is sampled
   plan_.reset();                // it refers to the scene
-  const std::vector<Light>& lights = document_->scene().lights;
-  const bool sampled = std::any_of(lights.begin(), lights.end(), [](const Light& light) {
+  const bool sampled = std::ranges::any_of(document_->scene().lights, [](const Light& light) {
     return !IsPunctual(light) && !std::holds_alternative<AmbientLight>(light.kind);
   });
-  ImageSettings image = FullImage();
   const int divisor = FitDivisor();
-  image.width = DividedBy(image.width, divisor);
-  image.height = DividedBy(image.height, divisor);
+  ImageSettings image = FullImage(divisor);
   image.filter = {FilterKind::kBox, kNoWidth};
   image.spp = sampled ? kSamples : 1;
   document_->UseImage(image);
@@ -557,8 +548,8 @@ void Worker::Answer(ClientId client, const KeepRequest& request) {
 }
 
 bool Worker::AnyToMeasure() const {
-  return done_ && std::any_of(kept_.begin(), kept_.end(),
-                              [](const auto& kept) { return !kept.second.measured; });
+  return done_ &&
+         std::ranges::any_of(kept_, [](const auto& kept) { return !kept.second.measured; });
 }
 
 void Worker::Measure() {
@@ -619,8 +610,10 @@ RenderSettings Worker::Settings(bool adaptive) {
   return settings;
 }
 
-ImageSettings Worker::FullImage() const {
+ImageSettings Worker::FullImage(int divisor) const {
   ImageSettings image = document_->own_image();
+  image.width = (image.width + divisor - 1) / divisor;
+  image.height = (image.height + divisor - 1) / divisor;
   if (options_.samples > 0) image.spp = options_.samples;
   return image;
 }
@@ -637,10 +630,8 @@ int Worker::FitDivisor() const {
 
 void Worker::Plan(int divisor, bool moving) {
   plan_.reset();
-  ImageSettings image = FullImage();
+  ImageSettings image = FullImage(divisor);
   if (moving) image.spp = 1;  // one sample per pixel has fast paths of its own
-  image.width = DividedBy(image.width, divisor);
-  image.height = DividedBy(image.height, divisor);
   document_->UseImage(image);
   plan_.emplace(MakePlan(document_->scene(), Settings(), document_->prepared()));
   film_ = {};
@@ -656,7 +647,7 @@ void Worker::RenderMoving() {
   moved_ = false;
   render_ms_ = MsSince(start);
   done_ = FullImage().spp == 1 && divisor == FitDivisor() && !(options_.settings.max_error > 0);
-  Publish(done_, true);
+  Publish(true);
   // The time of the first picture is not representative, as it builds the data that later ones
   // reuse.
   if (revision_ <= 1) return;
@@ -695,7 +686,7 @@ void Worker::Refine() {
     plan_.emplace(std::move(plan));
     render_ms_ = MsSince(start);
     done_ = true;
-    return Publish(true);
+    return Publish();
   }
   if (!plan_) Plan(FitDivisor());
   const int spp = plan_->scene->image.spp;
@@ -709,12 +700,12 @@ void Worker::Refine() {
     if (film_.samples < spp && MsSince(start) - last_shown < kRefinedEveryMs) continue;
     last_shown = MsSince(start);
     render_ms_ = last_shown;
-    Publish(film_.samples == spp && !adaptive);
+    done_ = film_.samples == spp && !adaptive;
+    Publish();
   } while (film_.samples < spp && !cancel_ && !adaptive);
-  done_ = film_.samples == spp && !adaptive;
 }
 
-void Worker::Publish(bool done, bool moving) {
+void Worker::Publish(bool moving) {
   std::vector<const Channel*> channels = ChannelsOf(image_, layer_);
   if (channels.empty()) channels = ChannelsOf(image_, "");
   const std::array<const float*, 3> rgb = {channels[0]->samples.data(),
@@ -730,7 +721,7 @@ void Worker::Publish(bool done, bool moving) {
   head.samples = static_cast<uint32_t>(std::max(film_.samples, 1));
   head.moving = moving ? 1 : 0;
   head.of_samples = static_cast<uint32_t>(FullImage().spp);
-  head.done = done ? 1 : 0;
+  head.done = done_ ? 1 : 0;
   head.render_us = static_cast<uint32_t>(std::min(1e3 * render_ms_, 4e9));
   sinks_.show(PictureBytes(head, rgb, display_));
 }

@@ -101,13 +101,13 @@ class Worker {
   void SayScene(ClientId client);
   void Changed();
   void CheckFiles();
-  ImageSettings FullImage() const;
+  ImageSettings FullImage(int divisor = 1) const;
   int FitDivisor() const;
   void Plan(int divisor, bool moving = false);
   void RenderMoving();
   void Refine();
   void Adapt(double ms);
-  void Publish(bool done, bool moving = false);
+  void Publish(bool moving = false);
   RenderSettings Settings(bool adaptive = false);
 
   const WorkerOptions options_;
