@@ -17,8 +17,6 @@
 namespace nacre {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 struct ReportArguments {
   std::string output;
   std::vector<std::string> inputs;
@@ -71,13 +69,6 @@ Pictures ReadPictures(const ReportArguments& arguments) {
   return pictures;
 }
 
-void CheckOutput(const ReportArguments& arguments) {
-  CheckReportPath(arguments.output);
-  for (const std::string& input : arguments.inputs) {
-    CheckPathsDiffer({arguments.output, input});
-  }
-}
-
 std::string DefaultTitle(const Pictures& pictures, const Json& sections) {
   if (pictures.all.size() == 1) return pictures.all[0].name;
   if (pictures.all.size() > 1) {
@@ -88,7 +79,8 @@ std::string DefaultTitle(const Pictures& pictures, const Json& sections) {
 }
 
 void RunReport(const ReportArguments& arguments) {
-  CheckOutput(arguments);
+  CheckReportPath(arguments.output);
+  for (const std::string& input : arguments.inputs) CheckPathsDiffer({arguments.output, input});
   ApplyTarget(arguments.render.target);
   const std::optional<PerceptualOptions> perceptual = MakePerceptualOptions(arguments.perceptual);
   const auto limit = static_cast<size_t>(arguments.limit_mib * 1024 * 1024);

@@ -58,7 +58,7 @@ ExitCode Validate(const ValidateArguments& arguments) {
     section.Add(outcome);
   });
   if (!arguments.report.empty()) {
-    const auto sections = nlohmann::ordered_json::array({section.ToJson()});
+    const auto sections = Json::array({section.ToJson()});
     WriteReport(arguments.report, section.ToJson()["title"], sections, shown, page);
   }
   if (!all_compared) return ExitCode::kCannotCompare;

@@ -3,12 +3,8 @@
 
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
 namespace nacre {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 void AddPerceptualJson(const PerceptualMetrics& metrics, Json* json) {
   if (metrics.ssim) (*json)["ssim"] = *metrics.ssim;

@@ -5,10 +5,9 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "compare/perceptual.h"
 #include "compare/verdict.h"
+#include "scene_io/json_text.h"
 
 namespace nacre {
 
@@ -18,9 +17,8 @@ std::string LayerOfName(const std::string& name);
 
 // `perceptual` has the metrics of those layers that have any; they are merged with the layer's
 // others.
-nlohmann::ordered_json MetricsJson(const std::vector<LayerMetrics>& layers,
-                                   const std::vector<PerceptualMetrics>& perceptual);
-nlohmann::ordered_json VerdictJson(const Verdict& verdict,
-                                   const std::vector<PerceptualMetrics>& perceptual);
+Json MetricsJson(const std::vector<LayerMetrics>& layers,
+                 const std::vector<PerceptualMetrics>& perceptual);
+Json VerdictJson(const Verdict& verdict, const std::vector<PerceptualMetrics>& perceptual);
 
 }  // namespace nacre

@@ -14,7 +14,6 @@
 #include "image_io/read_image.h"
 #include "output/metadata.h"
 #include "render/render.h"
-#include "scene_io/json_text.h"
 #include "scene_io/text_file.h"
 
 namespace nacre {

@@ -5,9 +5,8 @@
 #include <optional>
 #include <string>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/render_options.h"
+#include "scene_io/json_text.h"
 
 namespace nacre {
 
@@ -26,7 +25,7 @@ ReportInput KindOfInput(const std::string& path);
 struct ReportPicture {
   std::string name;
   Image image;
-  std::optional<nlohmann::ordered_json> stats;
+  std::optional<Json> stats;
 };
 
 ReportPicture ReadPicture(const std::string& path, const std::string& part);
@@ -35,6 +34,6 @@ ReportPicture RenderPicture(const std::string& path, const RenderOptions& option
                             const std::string& output);
 
 // Throws Error (kBadInput) for text that is not JSON.
-nlohmann::ordered_json ReadJson(const std::string& path);
+Json ReadJson(const std::string& path);
 
 }  // namespace nacre

@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/perceptual_options.h"
 #include "cli/references.h"
 #include "cli/report_inputs.h"
@@ -19,9 +17,8 @@ namespace nacre {
 
 // Pictures side by side; several are each compared with number `reference`. Throws Error
 // (kCannotCompare) if they do not fit each other.
-nlohmann::ordered_json PictureSection(const std::vector<ReportPicture>& pictures, size_t reference,
-                                      const std::optional<PerceptualOptions>& perceptual,
-                                      size_t limit, Page* page);
+Json PictureSection(const std::vector<ReportPicture>& pictures, size_t reference,
+                    const std::optional<PerceptualOptions>& perceptual, size_t limit, Page* page);
 
 // References, added one after another as they are rendered and compared. Those that could not be
 // are listed in the table with the reason.
@@ -31,7 +28,7 @@ class ValidationSection {
   ValidationSection(const std::optional<PerceptualOptions>& perceptual, size_t limit, Page* page);
 
   void Add(const ReferenceOutcome& outcome);
-  const nlohmann::ordered_json& ToJson() const { return section_; }
+  const Json& ToJson() const { return section_; }
 
  private:
   void AddRun(const ReferenceOutcome& outcome);
@@ -39,22 +36,21 @@ class ValidationSection {
   std::optional<PerceptualOptions> perceptual_;
   size_t limit_;
   Page* page_;
-  nlohmann::ordered_json section_;
+  Json section_;
 };
 
-nlohmann::ordered_json BenchSection(const std::string& path);
+Json BenchSection(const std::string& path);
 
 // Throws Error: kUsage unless `path` is a .html file, kCannotWrite if it cannot be written.
 void CheckReportPath(const std::string& path);
 
 // The HTML of a report. `page` holds the samples of the sections' pictures, which open as `shown`
 // says.
-std::string ReportHtml(const std::string& title, const nlohmann::ordered_json& sections,
+std::string ReportHtml(const std::string& title, const Json& sections,
                        const PerceptualArguments& shown, const Page& page);
 
 // Writes such a page to a file, and prints the file's size on stderr.
-void WriteReport(const std::string& path, const std::string& title,
-                 const nlohmann::ordered_json& sections, const PerceptualArguments& shown,
-                 const Page& page);
+void WriteReport(const std::string& path, const std::string& title, const Json& sections,
+                 const PerceptualArguments& shown, const Page& page);
 
 }  // namespace nacre
