@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/lighting.h"
 
-#include <array>
 #include <cmath>
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/vec.h"
 #include "cli/help_text.h"
 #include "scene_io/sheet_axis.h"
 #include "scene_io/text_file.h"
@@ -22,22 +22,17 @@ Json Directional(const Json& direction_of_travel, double irradiance) {
 
 // The key light is in front of the sheet at the upper right, so far away that shadows and
 // highlights of all spheres look similar.
-constexpr std::array<double, 3> kKeyDirection = {0.71, 0.79, 0.97};
+const Vec3d kKeyDirection(0.71, 0.79, 0.97);
 constexpr double kKeyIrradiance = 2.9;
 constexpr double kKeyDistance = 5.7;  // in multiples of `reach`, per component
 
 Json KeyPosition(double reach) {
-  Json position = Json::array();
-  for (const double component : kKeyDirection) {
-    position.push_back(component * kKeyDistance * reach);
-  }
-  return position;
+  const Vec3d position = kKeyDirection * kKeyDistance * reach;
+  return {position.x, position.y, position.z};
 }
 
 double KeyDistanceSquared(double reach) {
-  double sum = 0;
-  for (const double component : kKeyDirection) sum += component * component;
-  return sum * kKeyDistance * kKeyDistance * reach * reach;
+  return kKeyDirection.length2() * kKeyDistance * kKeyDistance * reach * reach;
 }
 
 // `centred`: the light is straight above, so that the middle line of the picture divides the
