@@ -170,9 +170,8 @@ int RunCompare(const CompareArguments& arguments) {
     const HeatQuantity quantity =
         arguments.absolute ? HeatQuantity::kAbsolute : HeatQuantity::kRelative;
     WriteHeatPicture(arguments.heat_map,
-                     HeatMap(image, reference, LayerOfName(arguments.heat_layer), quantity,
-                             arguments.heat_scale),
-                     quantity, arguments.heat_scale);
+                     HeatMap(image, reference, LayerOfName(arguments.heat_layer), quantity, scale),
+                     quantity, scale);
   }
   return static_cast<int>(verdict.match ? ExitCode::kOk : ExitCode::kDiffers);
 }

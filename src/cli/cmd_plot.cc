@@ -158,20 +158,16 @@ const std::vector<PlotKind> kPlotKinds = {
     {"falloff", "a light's irradiance over its distance", DrawFalloff, {"--light"}},
 };
 
-// Whether the kind can take its materials or lights from a scene.
-bool TakesScene(const PlotKind& kind) {
-  return kind.options.contains("--material") || kind.options.contains("--light");
-}
-
 void RefuseWhatCannotApply(const PlotKind& kind, const CLI::App& command) {
   static const std::set<std::string> kOfAll = {"KIND", "--output", "--title", "--size"};
   static const std::set<std::string> kOfScenes = {"--scene", "--allow-paths"};
+  const bool takes_scene = kind.options.contains("--material") || kind.options.contains("--light");
   RefuseOptions(
       command,
       [&](const CLI::Option& option) {
         const std::string name = option.get_name();
         return kOfAll.contains(name) || kind.options.contains(name) ||
-               (TakesScene(kind) && kOfScenes.contains(name));
+               (takes_scene && kOfScenes.contains(name));
       },
       fmt::format("nacre plot {}", kind.name),
       fmt::format("of its own it takes {}", fmt::join(kind.options, ", ")));

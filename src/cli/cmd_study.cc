@@ -106,12 +106,6 @@ void RunAll(const fs::path& folder, bool quiet) {
   if (!quiet) PrintError("{}\n", (folder / "index.md").string());
 }
 
-void PrintList() {
-  for (const StudyEntry& study : Studies()) {
-    PrintOut("{:<16}{}\n                {}\n", study.name, study.title, study.question);
-  }
-}
-
 const StudyEntry& FindStudy(const std::string& name) {
   std::vector<std::string> names = {"all", "list"};
   for (const StudyEntry& study : Studies()) {
@@ -123,7 +117,12 @@ const StudyEntry& FindStudy(const std::string& name) {
 }
 
 void Run(const StudyArguments& arguments) {
-  if (arguments.name == "list") return PrintList();
+  if (arguments.name == "list") {
+    for (const StudyEntry& study : Studies()) {
+      PrintOut("{:<16}{}\n                {}\n", study.name, study.title, study.question);
+    }
+    return;
+  }
   const StudyEntry* const study = arguments.name == "all" ? nullptr : &FindStudy(arguments.name);
   if (arguments.folder.empty()) {
     throw Error(ExitCode::kUsage, "-o", "a study needs a folder for its files",

@@ -114,17 +114,16 @@ void RunTonemap(const TonemapArguments& arguments) {
   }
   const ColorChannels colors = RequireColors(image, arguments);
   const ShownPixels shown = ReadShown(image, colors);
-  const auto aspect = image.parts.front().metadata.find("pixelAspectRatio");
-  if (aspect != image.parts.front().metadata.end() &&
-      std::strtod(aspect->second.c_str(), nullptr) != 1) {
+  const auto& metadata = image.parts.front().metadata;
+  const auto aspect = metadata.find("pixelAspectRatio");
+  if (aspect != metadata.end() && std::strtod(aspect->second.c_str(), nullptr) != 1) {
     PrintError(
         fmt::format("warning: {}: its pixels are {} times as wide as high, and are shown as "
                     "squares\n",
                     arguments.input, aspect->second));
   }
-  const auto target = image.parts.front().metadata.find("nacre:target");
-  ApplyTargetOf(arguments.target,
-                target != image.parts.front().metadata.end() ? target->second : "");
+  const auto target = metadata.find("nacre:target");
+  ApplyTargetOf(arguments.target, target != metadata.end() ? target->second : "");
   PngHeader header;
   header.width = shown.window.width();
   header.height = shown.window.height();

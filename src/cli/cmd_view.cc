@@ -132,10 +132,6 @@ void OpenBrowser(const std::string& file_url) {
   std::thread([child] { waitpid(child, nullptr, 0); }).detach();
 }
 
-bool IsLoopback(const std::string& address) {
-  return address == "::1" || address.starts_with("127.");
-}
-
 LoadOptions MakeViewLoadOptions(const RenderOptions& options) {
   // options.spp is for the resting picture and goes to the worker instead of into the scene.
   RenderOptions of_scene = options;
@@ -169,7 +165,8 @@ std::string PicturesPage(const std::vector<ReportPicture>& pictures,
 // the server.
 std::unique_ptr<RedirectFile> Announce(const ViewArguments& arguments, const Server& server) {
   const std::string& address = arguments.server.address;
-  if (!IsLoopback(address)) {
+  const bool is_loopback = address == "::1" || address.starts_with("127.");
+  if (!is_loopback) {
     PrintError(
         "warning: {} can be reached from other machines, and what is sent there is not "
         "encrypted: put a proxy with TLS ahead of it, and name it by --origin https://HOST\n",
@@ -292,8 +289,8 @@ void RunView(const ViewArguments& arguments, const CLI::App& command, int* exit_
   const RenderOptions& options = arguments.options;
   ApplyTarget(options.target);
   const std::vector<std::string>& inputs = arguments.inputs;
-  const auto scenes = std::count_if(inputs.begin(), inputs.end(), IsScene);
-  if (!inputs.empty() && scenes == 0) return RunImages(arguments, command, exit_code);
+  if (!inputs.empty() && std::ranges::none_of(inputs, IsScene))
+    return RunImages(arguments, command, exit_code);
   if (inputs.size() > 1) {
     throw Error(ExitCode::kUsage, "nacre view", "shows one scene, or images",
                 "nacre report renders several scenes into one page");

@@ -32,11 +32,6 @@ constexpr std::string_view kBehind = " (--help-all)";
 
 bool IsBehindHelpAll(const CLI::Option& option) { return option.get_group().ends_with(kBehind); }
 
-std::string TitleOf(std::string group) {
-  if (group.ends_with(kBehind)) group.resize(group.size() - kBehind.size());
-  return group;
-}
-
 // The text up to the first semicolon, or full stop before a capital or an option, outside of
 // brackets.
 std::string FirstSentence(const std::string& text) {
@@ -75,7 +70,7 @@ Groups GroupsOf(const CLI::App& app) {
     if (group.empty()) continue;
     const auto options =
         app.get_options([&](const CLI::Option* option) { return option->get_group() == group; });
-    const std::string title = TitleOf(group);
+    const std::string title = group.substr(0, group.find(kBehind));
     auto found = std::ranges::find(groups, title, &Groups::value_type::first);
     if (found == groups.end()) {
       groups.push_back({title, {}});

@@ -30,10 +30,7 @@ struct WrittenFiles {
   std::string last;
 };
 
-WrittenFiles& Written() {
-  static WrittenFiles written;
-  return written;
-}
+WrittenFiles g_written;
 
 int SignalExitCode(int signal) {
   return static_cast<int>(signal == SIGTERM ? ExitCode::kTerminated : ExitCode::kInterrupted);
@@ -122,14 +119,13 @@ void CatchStopSignals() {
 void ThrowIfStopped() {
   const int signal = g_stop_signal.load();
   if (signal == 0) return;
-  const WrittenFiles& written = Written();
   throw Error(static_cast<ExitCode>(SignalExitCode(signal)), "",
               signal == SIGTERM ? "terminated" : "interrupted",
-              written.count == 0 ? "no output was written"
-              : written.count == 1
-                  ? fmt::format("of the outputs, {} was written", written.last)
-                  : fmt::format("{} files were written before, the last of them {}", written.count,
-                                written.last));
+              g_written.count == 0 ? "no output was written"
+              : g_written.count == 1
+                  ? fmt::format("of the outputs, {} was written", g_written.last)
+                  : fmt::format("{} files were written before, the last of them {}",
+                                g_written.count, g_written.last));
 }
 
 int StopExitCode() {
@@ -155,8 +151,8 @@ std::jthread StopInTime(std::chrono::milliseconds limit) {
 }
 
 void NoteWritten(const std::string& path) {
-  ++Written().count;
-  Written().last = path;
+  ++g_written.count;
+  g_written.last = path;
 }
 
 }  // namespace nacre

@@ -22,11 +22,6 @@
 #include "scene_io/overrides.h"
 
 namespace nacre {
-namespace {
-
-constexpr int kMaxSide = 65536;  // pixels, as for ImageSettings
-
-}  // namespace
 
 CLI::Option* AddMaxPrimitivesOption(CLI::App* command, std::optional<uint64_t>* max_primitives) {
   return command
@@ -271,9 +266,10 @@ LoadOptions MakeLoadOptions(const RenderOptions& options) {
 }
 
 void ParseSize(const std::string& text, int* width, int* height) {
+  constexpr int kMaxSide = 65536;  // pixels, as for ImageSettings
   const auto sides = ParseIntegers(text, 'x', 2);
   const auto is_side = [](int side) { return side >= 1 && side <= kMaxSide; };
-  if (!sides || !std::all_of(sides->begin(), sides->end(), is_side)) {
+  if (!sides || !std::ranges::all_of(*sides, is_side)) {
     throw Error(
         ExitCode::kUsage, "--size", "\"" + text + "\" is not a size",
         fmt::format("give WIDTHxHEIGHT with sides from 1 to {}, for example 1920x1080", kMaxSide));

@@ -87,13 +87,6 @@ bool RenderUnlessChanged(RenderJob* job, LiveScene* live, PreparedScene* prepare
   return true;
 }
 
-void WaitForChange(LiveScene* live) {
-  while (!live->FilesChanged()) {
-    ThrowIfStopped();
-    std::this_thread::sleep_for(kLook);
-  }
-}
-
 }  // namespace
 
 int RunWatchJob(const RenderOptions& options, const std::filesystem::path& path,
@@ -115,7 +108,10 @@ int RunWatchJob(const RenderOptions& options, const std::filesystem::path& path,
   while (true) {
     FinishOutput();  // the output of --explain and --stats -
     try {
-      if (!changed) WaitForChange(&*live);
+      while (!changed && !live->FilesChanged()) {
+        ThrowIfStopped();
+        std::this_thread::sleep_for(kLook);
+      }
       changed = false;
       job.Load([&] { prepared.versions.Change(live->ReadChangedFiles()); });
       changed = RenderUnlessChanged(&job, &*live, &prepared);

@@ -111,14 +111,6 @@ void StackTiers(size_t tiers, FittedLabels* fitted) {
   }
 }
 
-// Fits every label: neighbours within a tier are `tiers` places apart.
-FittedLabels FitTiers(const LabelRow& row, const std::vector<size_t>& places, size_t tiers,
-                      double size_px) {
-  FittedLabels fitted = Fit(row, places, size_px, static_cast<double>(tiers) * row.width);
-  StackTiers(tiers, &fitted);
-  return fitted;
-}
-
 // For labels that do not fit: breaks words, and ends labels with too many lines in an ellipsis.
 void CutToFit(const LabelRow& row, size_t tiers, double room, FittedLabels* fitted) {
   for (FittedLabels::Label& label : fitted->labels) {
@@ -178,9 +170,10 @@ FittedLabels FitLabels(const std::vector<std::string>& labels, double size_px, d
   double room = width;
   const bool are_numbers = std::all_of(labels.begin(), labels.end(), ParseNumber);
   for (size_t tiers = 2; tiers <= 4 && !are_numbers; ++tiers) {
-    fitted = FitTiers(row, places, tiers, 0.7 * size_px);
+    room = static_cast<double>(tiers) * width;  // neighbours within a tier are `tiers` places apart
+    fitted = Fit(row, places, 0.7 * size_px, room);
+    StackTiers(tiers, &fitted);
     last_tiers = tiers;
-    room = static_cast<double>(tiers) * width;
     if (Fits(row, fitted, room)) return fitted;
   }
   for (size_t count = labels.size() - 1; labels.size() > 2 && count >= 2; --count) {
