@@ -97,6 +97,11 @@ void CopyTo(const std::array<const double*, 3>& from, size_t begin, size_t count
   }
 }
 
+// Sets vector `i` of the planes.
+void Store(const Vec3d& v, size_t i, std::array<std::vector<double>, 3>* planes) {
+  for (size_t c = 0; c < 3; ++c) (*planes)[c][i] = v[static_cast<int>(c)];
+}
+
 void CopyFrom(const Soa3<float>& from, size_t begin, size_t count,
               std::array<std::vector<float>, 3>* to) {
   const float* const planes[3] = {from.x.data(), from.y.data(), from.z.data()};
@@ -221,10 +226,8 @@ ExactReflections Brdf::Evaluate(const Directions& d) const {
     for (size_t i = 0; i < d.count; ++i) {
       const nacre::Reflection own =
           Reflect(impl_->material, At(d.normal, i), At(d.to_light, i), At(d.to_view, i));
-      for (size_t c = 0; c < 3; ++c) {
-        result.diffuse[c][i] = own.diffuse[static_cast<int>(c)];
-        result.specular[c][i] = own.specular[static_cast<int>(c)];
-      }
+      Store(own.diffuse, i, &result.diffuse);
+      Store(own.specular, i, &result.specular);
     }
     return result;
   });
@@ -241,12 +244,9 @@ std::array<std::vector<double>, 3> Brdf::Sample(const Directions& d, const doubl
                            fmt::format("point {} is ({}, {})", i, u[i], v[i]),
                            "points lie in [0, 1)^2");
       }
-      const Vec3d sampled =
-          SampleReflection(impl_->material, At(d.normal, i), At(d.to_view, i), u[i], v[i], false)
-              .to_light;
-      to_light[0][i] = sampled.x;
-      to_light[1][i] = sampled.y;
-      to_light[2][i] = sampled.z;
+      Store(SampleReflection(impl_->material, At(d.normal, i), At(d.to_view, i), u[i], v[i], false)
+                .to_light,
+            i, &to_light);
     }
     return to_light;
   });
@@ -298,8 +298,7 @@ MicrofacetTerms Brdf::Terms(const Directions& d) const {
       terms.g[i] = 4 * a.n_dot_l * a.n_dot_v * VisibilityOf(*model, a.n_dot_l, a.n_dot_v);
       terms.lambda_view[i] = lambda(a.n_dot_v);
       terms.lambda_light[i] = lambda(a.n_dot_l);
-      const nacre::Rgb fresnel = FresnelOf(*model, VDotH(a), OneMinusVDotH(a));
-      for (size_t c = 0; c < 3; ++c) terms.f[c][i] = fresnel[static_cast<int>(c)];
+      Store(FresnelOf(*model, VDotH(a), OneMinusVDotH(a)), i, &terms.f);
     }
     return terms;
   });

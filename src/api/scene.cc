@@ -86,11 +86,10 @@ void Scene::AddMaterial(const std::string& name, const Parameters& material) {
 
 void Scene::AddMaterial(const std::string& name, const UserBrdf& brdf, const Parameters& rest) {
   const auto own = AtBorder([&] { return ToOwn(brdf, name); });
-  const bool has_model = std::any_of(rest.begin(), rest.end(), [](const Parameter& parameter) {
-    return parameter.name == "model";
-  });
   Parameters material = rest;
-  if (!has_model) material.push_back({"model", "lambert"});
+  if (std::ranges::find(rest, "model", &Parameter::name) == rest.end()) {
+    material.push_back({"model", "lambert"});
+  }
   AddMaterial(name, material);
   impl_->source.user_brdfs[name] = own;
 }
