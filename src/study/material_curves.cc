@@ -236,10 +236,6 @@ constexpr double kDecades = 1e4;        // maximum of the scale, as in heat maps
 Field FieldOf(const ShadingMaterial& material, ColorChannel channel) {
   Field field;
   field.label = "BRDF (1/sr)";
-  constexpr size_t kCount = size_t{kSlicePoints} * kSlicePoints;
-  field.x.reserve(kCount);
-  field.y.reserve(kCount);
-  field.values.reserve(kCount);
   for (int row = 0; row < kSlicePoints; ++row) {
     for (int column = 0; column < kSlicePoints; ++column) {
       const double theta_h = 90 * (column + 0.5) / kSlicePoints;
