@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Scenes, sessions, and renders of them."""
+import contextlib
 import functools
 import inspect
 import json
 import operator
 import sys
-from typing import (Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, TypeVar, Union,
-                    cast)
+from typing import (Any, Callable, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, TypeVar,
+                    Union, cast)
 
 import numpy as np
 
@@ -21,27 +22,24 @@ Progress = Union[bool, Callable[[float], object], None]
 Point = Union[Sequence[float], Array]
 
 
-def _report(progress: Progress) -> Tuple[Optional[Callable[[float], object]], Callable[[], None]]:
-    """What to call with the share done, and what when all is done."""
-    def nothing() -> None:
-        pass
+@contextlib.contextmanager
+def _report(progress: Progress) -> Iterator[Optional[Callable[[float], object]]]:
+    """What to call with the share done."""
     if progress is None or progress is False:
-        return None, nothing
-    if callable(progress):
-        return progress, nothing
-    if progress is not True:
+        yield None
+    elif callable(progress):
+        yield progress
+    elif progress is not True:
         raise TypeError(f"progress is a function, True or False, not {progress!r}")
-    try:
-        from tqdm.auto import tqdm
-    except ImportError:
-        def write(share: float) -> None:
-            sys.stderr.write(f"\rrender: {100 * share:3.0f} %" + ("\n" if share >= 1 else ""))
-        return write, nothing
-    bar = tqdm(total=100, unit="%", bar_format="{l_bar}{bar}| {elapsed}<{remaining}")
-
-    def update(share: float) -> None:
-        bar.update(100 * share - bar.n)
-    return update, bar.close
+    else:
+        try:
+            from tqdm.auto import tqdm
+        except ImportError:
+            yield lambda share: sys.stderr.write(
+                f"\rrender: {100 * share:3.0f} %" + ("\n" if share >= 1 else ""))
+            return
+        with tqdm(total=100, unit="%", bar_format="{l_bar}{bar}| {elapsed}<{remaining}") as bar:
+            yield lambda share: bar.update(100 * share - bar.n)
 
 
 def _doubles(values: Any, name: str) -> Array:
@@ -338,13 +336,10 @@ class Scene(_Values):
         progress: a function of the share done, in (0, 1], which ends the render by raising; or True
             for a bar (tqdm's, where that is installed).
         """
-        report, close = _report(progress)
-        try:
+        with _report(progress) as report:
             return self._native.render(
                 _settings(width, height, samples, max_error, seed, region, layers, threads,
                           intersector, _others), report)
-        finally:
-            close()
 
     def __repr__(self) -> str:
         return "<nacre.Scene>"
@@ -385,13 +380,10 @@ class Session(_Values):
         show: called with the means of the first 1, 2, 4, ... samples and their number, and last with
             the picture itself. Under max_error there is no other.
         """
-        report, close = _report(progress)
-        try:
+        with _report(progress) as report:
             return self._native.render(
                 _settings(width, height, samples, max_error, seed, region, layers, threads,
                           intersector, _others), report, show)
-        finally:
-            close()
 
     def reload(self) -> bool:
         """Reads the files again that have changed on disk of those that the scene names: textures,
