@@ -289,8 +289,9 @@ void RunView(const ViewArguments& arguments, const CLI::App& command, int* exit_
   const RenderOptions& options = arguments.options;
   ApplyTarget(options.target);
   const std::vector<std::string>& inputs = arguments.inputs;
-  if (!inputs.empty() && std::ranges::none_of(inputs, IsScene))
+  if (!inputs.empty() && std::ranges::none_of(inputs, IsScene)) {
     return RunImages(arguments, command, exit_code);
+  }
   if (inputs.size() > 1) {
     throw Error(ExitCode::kUsage, "nacre view", "shows one scene, or images",
                 "nacre report renders several scenes into one page");

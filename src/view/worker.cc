@@ -409,7 +409,7 @@ void Worker::Answer(ClientId client, const ExplainRequest& request) {
     return !IsPunctual(light) && !std::holds_alternative<AmbientLight>(light.kind);
   });
   const int divisor = FitDivisor();
-  ImageSettings image = FullImage(divisor);
+  ImageSettings image = RestingImage(divisor);
   image.filter = {FilterKind::kBox, kNoWidth};
   image.spp = sampled ? kSamples : 1;
   document_->UseImage(image);
@@ -581,7 +581,7 @@ void Worker::Answer(ClientId client, TakeRequest what) {
 
 SharedBytes Worker::TakeExr() {
   plan_.reset();  // it refers to the scene
-  document_->UseImage(FullImage());
+  document_->UseImage(RestingImage());
   RenderSettings settings = Settings(true);
   settings.layers = {"all"};
   const FramePlan plan = MakePlan(document_->scene(), settings, document_->prepared());
@@ -610,7 +610,7 @@ RenderSettings Worker::Settings(bool adaptive) {
   return settings;
 }
 
-ImageSettings Worker::FullImage(int divisor) const {
+ImageSettings Worker::RestingImage(int divisor) const {
   ImageSettings image = document_->own_image();
   image.width = (image.width + divisor - 1) / divisor;
   image.height = (image.height + divisor - 1) / divisor;
@@ -630,7 +630,7 @@ int Worker::FitDivisor() const {
 
 void Worker::Plan(int divisor, bool moving) {
   plan_.reset();
-  ImageSettings image = FullImage(divisor);
+  ImageSettings image = RestingImage(divisor);
   if (moving) image.spp = 1;  // one sample per pixel has fast paths of its own
   document_->UseImage(image);
   plan_.emplace(MakePlan(document_->scene(), Settings(), document_->prepared()));
@@ -646,7 +646,7 @@ void Worker::RenderMoving() {
   plan_.reset();  // refined pictures have more samples
   moved_ = false;
   render_ms_ = MsSince(start);
-  done_ = FullImage().spp == 1 && divisor == FitDivisor() && !(options_.settings.max_error > 0);
+  done_ = RestingImage().spp == 1 && divisor == FitDivisor() && !(options_.settings.max_error > 0);
   Publish(true);
   // The time of the first picture is not representative, as it builds the data that later ones
   // reuse.
@@ -720,7 +720,7 @@ void Worker::Publish(bool moving) {
   head.frame_height = static_cast<uint32_t>(own.height);
   head.samples = static_cast<uint32_t>(std::max(film_.samples, 1));
   head.moving = moving ? 1 : 0;
-  head.of_samples = static_cast<uint32_t>(FullImage().spp);
+  head.of_samples = static_cast<uint32_t>(RestingImage().spp);
   head.done = done_ ? 1 : 0;
   head.render_us = static_cast<uint32_t>(std::min(1e3 * render_ms_, 4e9));
   sinks_.show(PictureBytes(head, rgb, display_));

@@ -101,7 +101,8 @@ class Worker {
   void SayScene(ClientId client);
   void Changed();
   void CheckFiles();
-  ImageSettings FullImage(int divisor = 1) const;
+  // The settings of the picture at rest, with its sides divided.
+  ImageSettings RestingImage(int divisor = 1) const;
   int FitDivisor() const;
   void Plan(int divisor, bool moving = false);
   void RenderMoving();
