@@ -9,6 +9,7 @@
 #include "brdf/albedo-inl.h"
 #include "brdf/energy_kernel.h"
 #include "brdf/fresnel-inl.h"
+#include "brdf/fresnel_table-inl.h"
 #include "queries-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -43,6 +44,15 @@ std::vector<AlbedoOutput> EvaluateAlbedosT(const FresnelAlbedoFit& fit,
   });
 }
 
+std::vector<Vec3f> EvaluateFresnelTableT(const FresnelTable& table,
+                                         const std::vector<float>& v_dot_h) {
+  return AskInPackets<float, Vec3f>(v_dot_h, [&](const auto& packet) {
+    const auto cosine = packet.Number([](float number) { return number; });
+    packet.Store3(FresnelTableLoss(hn::ScalableTag<float>(), table, cosine),
+                  [](Vec3f& loss) -> Vec3f& { return loss; });
+  });
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace nacre
 HWY_AFTER_NAMESPACE();
@@ -51,12 +61,17 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(EvaluateFresnelT);
 HWY_EXPORT(EvaluateAlbedosT);
+HWY_EXPORT(EvaluateFresnelTableT);
 std::vector<FresnelOutput> EvaluateFresnel(const std::vector<FresnelInput>& inputs) {
   return HWY_DYNAMIC_DISPATCH(EvaluateFresnelT)(inputs);
 }
 std::vector<AlbedoOutput> EvaluateAlbedos(const FresnelAlbedoFit& fit,
                                           const std::vector<float>& n_dot_v) {
   return HWY_DYNAMIC_DISPATCH(EvaluateAlbedosT)(fit, n_dot_v);
+}
+std::vector<Vec3f> EvaluateFresnelTable(const FresnelTable& table,
+                                        const std::vector<float>& v_dot_h) {
+  return HWY_DYNAMIC_DISPATCH(EvaluateFresnelTableT)(table, v_dot_h);
 }
 }  // namespace nacre
 #endif

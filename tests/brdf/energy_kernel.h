@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "brdf/albedo.h"
+#include "brdf/fresnel_table.h"
 
 namespace nacre {
 
@@ -28,5 +29,9 @@ struct AlbedoOutput {
 // For each n.v.
 std::vector<AlbedoOutput> EvaluateAlbedos(const FresnelAlbedoFit& fit,
                                           const std::vector<float>& n_dot_v);
+
+// 1 - R of a table at each v.h.
+std::vector<Vec3f> EvaluateFresnelTable(const FresnelTable& table,
+                                        const std::vector<float>& v_dot_h);
 
 }  // namespace nacre
