@@ -83,7 +83,8 @@ Rgb SumOverWavelengths(const ThinFilm& film, const RgbSubstrate& substrate, doub
 std::vector<WeighedWavelength> EquidistantRule(Illuminant illuminant, double step) {
   std::vector<WeighedWavelength> rule;
   Rgb total(0, 0, 0);
-  const int steps = static_cast<int>((kLongestWavelength - kShortestWavelength) / step + 0.5);
+  const int steps =
+      static_cast<int>(std::lround((kLongestWavelength - kShortestWavelength) / step));
   for (int i = 0; i <= steps; ++i) {
     const double wavelength = kShortestWavelength + step * i;
     rule.push_back({wavelength, ChannelSensitivity(illuminant, wavelength)});

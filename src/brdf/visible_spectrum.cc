@@ -177,11 +177,14 @@ Rgb RawSensitivity(Illuminant illuminant, double wavelength_nm) {
   });
 }
 
+// Wavelengths 1 nm apart.
+constexpr size_t kNanometres = static_cast<size_t>(kLongestWavelength - kShortestWavelength) + 1;
+constexpr double Nanometre(size_t i) { return kShortestWavelength + static_cast<double>(i); }
+
 // The sum over wavelengths 1 nm apart, by which each channel is normalised.
 Rgb TotalSensitivity(Illuminant illuminant) {
   Rgb sum(0, 0, 0);
-  for (double w = kShortestWavelength; w <= kLongestWavelength; ++w)
-    sum += RawSensitivity(illuminant, w);
+  for (size_t i = 0; i < kNanometres; ++i) sum += RawSensitivity(illuminant, Nanometre(i));
   return sum;
 }
 
@@ -199,9 +202,9 @@ Rgb ChannelSensitivity(Illuminant illuminant, double wavelength_nm) {
 // Entry i is the envelope at opd (i - 1) kEnvelopeStep. Steps of 1 nm keep fringes apart up to an
 // optical path difference of lambda^2 / 2 nm, which is more than kCoherenceLength.
 Coherence::Coherence(Illuminant illuminant) : table_(kEnvelopeSize) {
-  for (double w = kShortestWavelength; w <= kLongestWavelength; ++w) {
-    const Rgb sensitivity = ChannelSensitivity(illuminant, w);
-    const double turn = -2 * M_PI * kEnvelopeStep * (1 / w - kMeanWavenumber);
+  for (size_t i = 0; i < kNanometres; ++i) {
+    const Rgb sensitivity = ChannelSensitivity(illuminant, Nanometre(i));
+    const double turn = -2 * M_PI * kEnvelopeStep * (1 / Nanometre(i) - kMeanWavenumber);
     const double step_real = std::cos(turn), step_imaginary = std::sin(turn);
     double real = step_real, imaginary = -step_imaginary;
     for (Entry& entry : table_) {

@@ -33,7 +33,7 @@ Rgb ChannelSensitivity(Illuminant illuminant, double wavelength_nm);
 // channels see fringes of this optical path difference. It is 1 at 0, and no more than 1e-5 beyond
 // kCoherenceLength, where it is taken for 0.
 //
-// Computed from a table, which the first call for an illuminant makes in 5 ms: the
+// Computed from a table, which the first call for an illuminant makes in 3 ms: the
 // frequencies of the spectrum lie within 40 % of one, about which the rest varies slowly. The
 // table's error is 1e-6.
 inline constexpr double kCoherenceLength = 60e3;  // nm

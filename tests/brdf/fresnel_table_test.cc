@@ -169,7 +169,8 @@ TEST_CASE("a table goes to its limits") {
   bool clamped = false;
   const FresnelCurve vivid = ThinFilmCurve({1, 1.5, 260}, kGold);
   const FresnelTable vivid_table = MakeFresnelTable(vivid);
-  for (double c = 0.0; c <= 1; c += 0.01) {
+  for (int step = 0; step <= 100; ++step) {
+    const double c = step / 100.0;
     const Rgb loss = vivid.loss(c);
     for (int i = 0; i < 3; ++i) {
       clamped = clamped || loss[i] < 0 || loss[i] > 1;

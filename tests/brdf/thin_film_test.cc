@@ -375,9 +375,7 @@ TEST_CASE("total reflection happens at either interface") {
 TEST_CASE("white is white, and Belcour and Barla's series sums to Airy's") {
   for (const Illuminant illuminant : {Illuminant::kEqualEnergy, Illuminant::kD65}) {
     Rgb sum(0, 0, 0);
-    for (double w = kShortestWavelength; w <= kLongestWavelength; ++w) {
-      sum += ChannelSensitivity(illuminant, w);
-    }
+    for (int w = 360; w <= 830; ++w) sum += ChannelSensitivity(illuminant, w);
     CHECK(LargestDifference(sum, Rgb(1, 1, 1)) <= 1e-13);
     const auto at_0 = CoherenceOf(illuminant).Envelope(0);
     for (size_t c = 0; c < 3; ++c) CHECK(std::abs(at_0[c] - 1.0) <= 1e-12);
