@@ -107,6 +107,11 @@ HWY_INLINE AnglesV<V> ComputeAngles(D d, const Vec3V<V>& n, const Vec3V<V>& l, c
   return {ComputeHalfAngles(d, n, l, v), FusedDot(n, l), FusedDot(n, v)};
 }
 
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V LightDotView(D d, const HalfAnglesV<V>& a) {
+  return hn::Mul(hn::Sub(a.u_squared, a.lv_squared), hn::Set(d, hn::TFromD<D>(0.25)));
+}
+
 }  // namespace nacre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

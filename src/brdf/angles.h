@@ -43,4 +43,10 @@ Angles<Real> ComputeAngles(const Imath::Vec3<Real>& n, const Imath::Vec3<Real>& 
   return {n ^ l, n ^ v, n ^ u, u.length2(), (n % u).length2(), l_minus_v.length2()};
 }
 
+// l.v, as |l + v|^2 - |l - v|^2 = 4 l.v.
+template <typename Real>
+Real LightDotView(const Angles<Real>& a) {
+  return (a.u_squared - a.lv_squared) / 4;
+}
+
 }  // namespace nacre
