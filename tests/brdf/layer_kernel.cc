@@ -6,6 +6,7 @@
 
 #include "hwy/highway.h"
 
+#include "brdf/fuzz-inl.h"
 #include "brdf/layer_kernel.h"
 #include "brdf/sheen-inl.h"
 #include "queries-inl.h"
@@ -40,6 +41,14 @@ std::vector<LayerAnswer<T>> Evaluate(RoughnessOf roughness_of,
         ScaleSheen(d, packet.Number(&Query::largest_channel), albedo_v, albedo_l);
     packet.Store(scale.lobe, &Answer::sheen_scale);
     packet.Store(scale.below, &Answer::below_sheen);
+    const Fuzz<V> fuzz = each ? MakeFuzz(d, packet.Number(&Query::roughness))
+                              : BroadcastFuzz(d, nacre::MakeFuzz(double{packet.At(0).roughness}));
+    const FuzzView<V> view = FuzzFromView(d, fuzz, a.n_dot_v);
+    packet.Store(view.albedo, &Answer::fuzz_albedo);
+    packet.Store(view.a, &Answer::fuzz_a);
+    packet.Store(view.tilt, &Answer::fuzz_tilt);
+    packet.Store(FuzzLobe(d, view, a), &Answer::fuzz);
+    packet.Store(FuzzPdf(d, view, a), &Answer::fuzz_pdf);
   });
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/brdf/layer_kernel.h: the SIMD sheen of src/brdf on arrays, in vectors of floats
-// and of doubles, for tests.
+// tests/brdf/layer_kernel.h: the SIMD sheen and fuzz of src/brdf on arrays, in vectors of
+// floats and of doubles, for tests.
 #pragma once
 
 #include <vector>
@@ -22,6 +22,8 @@ struct LayerAnswer {
   T cosine_lambda_v = 0;                     // n.v Lambda(n.v)
   T sheen_albedo_v = 0, sheen_albedo_l = 0;  // E(n.v), E(n.l)
   T sheen_scale = 0, below_sheen = 0;
+  T fuzz_albedo = 0, fuzz_a = 0, fuzz_tilt = 0;  // FuzzFromView
+  T fuzz = 0, fuzz_pdf = 0;
 };
 
 // On the active target, query by query: lanes have a roughness each, or all lanes of a vector that
