@@ -3,13 +3,14 @@
 """Writes src/brdf/fuzz_fit.h, the constants of the fuzz lobe of src/brdf/fuzz.h.
 
 The lobe stands for a layer of upright fibres (Zeltner, Burley and Chiang 2022, "Practical
-Multiple-Scattering Sheen Using Linearly Transformed Cosines", the variant "volume"): unit thickness,
-unit density, no absorption, and specular SGGX microflakes (Heitz et al. 2015) of a fibre along the
-normal, whose matrix is diag(1, 1, s^2) with s = roughness^2. The paper simulates random walks of up
-to 16 events. Here the layer is solved without noise, for light of all orders: directions are
-Gauss-Legendre nodes of the cosine times Fourier modes of the azimuth, and a layer so thin that light
-scatters in it at most once is doubled until its thickness is 1 (van de Hulst 1963). Where the
-scattering is too narrow for the nodes, what they miss is added to light that goes straight on.
+Multiple-Scattering Sheen Using Linearly Transformed Cosines", the variant "volume"): unit
+thickness, unit density, no absorption, and specular SGGX microflakes (Heitz et al. 2015) of a fibre
+along the normal, whose matrix is diag(1, 1, s^2) with s = roughness^2. The paper simulates random
+walks of up to 16 events. Here the layer is solved without noise, for light of all orders:
+directions are Gauss-Legendre nodes of the cosine times Fourier modes of the azimuth, and a layer so
+thin that light scatters in it at most once is doubled until its thickness is 1 (van de Hulst 1963).
+Where the scattering is too narrow for the nodes, what they miss is added to light that goes
+straight on.
 
 To what the layer reflects of light from each direction the transformed cosine is fitted as in the
 paper: its albedo is that of the layer, and a and b minimise the cube of the difference over
@@ -74,7 +75,8 @@ def scattering_modes(cosine, cosine_out, turns_back, s):
     points = 96
     psi = (np.arange(points) + 0.5) / points * np.pi
     cosine, cosine_out = np.asarray(cosine)[..., None], np.asarray(cosine_out)[..., None]
-    sin, sin_out = np.sqrt((1 - cosine) * (1 + cosine)), np.sqrt((1 - cosine_out) * (1 + cosine_out))
+    sin = np.sqrt((1 - cosine) * (1 + cosine))
+    sin_out = np.sqrt((1 - cosine_out) * (1 + cosine_out))
     along = cosine + cosine_out if turns_back else cosine - cosine_out
     across2 = (sin - sin_out) ** 2 + 4 * sin * sin_out * np.sin(psi / 2) ** 2
     ratio = (across2 + along ** 2) / np.maximum(s * s * across2 + along ** 2, 1e-300)
