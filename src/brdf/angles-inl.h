@@ -71,16 +71,21 @@ HWY_INLINE HalfAnglesV<V> HalfAnglesOf(D d, const Vec3V<V>& n, const Vec3V<V>& u
           FusedDot(l_minus_v, l_minus_v)};
 }
 
-// The angles of u = l + v without its component along l - v, as the scalar twin explains.
+// u = l + v without its component along l - v, as the scalar twin explains.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Vec3V<V> HalfSum(D d, const Vec3V<V>& l, const Vec3V<V>& v, const Vec3V<V>& l_minus_v) {
+  const Vec3V<V> sum = Add(l, v);
+  const V along = hn::Mul(FusedDot(sum, l_minus_v), hn::Set(d, hn::TFromD<D>(0.25)));
+  return {hn::NegMulAdd(l_minus_v.x, along, sum.x), hn::NegMulAdd(l_minus_v.y, along, sum.y),
+          hn::NegMulAdd(l_minus_v.z, along, sum.z)};
+}
+
+// The angles of that u.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE HalfAnglesV<V> ComputeHalfAngles(D d, const Vec3V<V>& n, const Vec3V<V>& l,
                                             const Vec3V<V>& v) {
   const Vec3V<V> l_minus_v = Sub(l, v);
-  const Vec3V<V> sum = Add(l, v);
-  const V along = hn::Mul(FusedDot(sum, l_minus_v), hn::Set(d, hn::TFromD<D>(0.25)));
-  const Vec3V<V> u{hn::NegMulAdd(l_minus_v.x, along, sum.x),
-                   hn::NegMulAdd(l_minus_v.y, along, sum.y),
-                   hn::NegMulAdd(l_minus_v.z, along, sum.z)};
+  const Vec3V<V> u = HalfSum(d, l, v, l_minus_v);
   return HalfAnglesOf(d, n, u, FusedDot(n, u), l_minus_v);
 }
 

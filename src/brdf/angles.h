@@ -28,19 +28,23 @@ struct Angles {
   Real lv_squared;   // |l - v|^2 = 4 (1 - (v.h)^2)
 };
 
+// u = l + v. For unit vectors u is perpendicular to l - v, but rounding makes |l| and |v| differ,
+// which tilts a small u (light and viewer opposed, both grazing) considerably. Its component along
+// l - v is therefore subtracted; |l - v|^2 is 4 where that matters, so no division is needed.
+template <typename Real>
+Imath::Vec3<Real> HalfSum(const Imath::Vec3<Real>& l, const Imath::Vec3<Real>& v) {
+  const Imath::Vec3<Real> l_minus_v = l - v;
+  const Imath::Vec3<Real> sum = l + v;
+  return sum - l_minus_v * ((sum ^ l_minus_v) / 4);
+}
+
 // Lagrange's identity gives sin^2(theta_h) = |n x u|^2 / |u|^2. Highlights of smooth surfaces
 // depend on it, and once n.h is rounded, no rearrangement of 1 - (n.h)^2 recovers it.
-//
-// For unit vectors u is perpendicular to l - v, but rounding makes |l| and |v| differ, which tilts
-// a small u (light and viewer opposed, both grazing) considerably. Its component along l - v is
-// therefore subtracted; |l - v|^2 is 4 where that matters, so no division is needed.
 template <typename Real>
 Angles<Real> ComputeAngles(const Imath::Vec3<Real>& n, const Imath::Vec3<Real>& l,
                            const Imath::Vec3<Real>& v) {
-  const Imath::Vec3<Real> l_minus_v = l - v;
-  const Imath::Vec3<Real> sum = l + v;
-  const Imath::Vec3<Real> u = sum - l_minus_v * ((sum ^ l_minus_v) / 4);
-  return {n ^ l, n ^ v, n ^ u, u.length2(), (n % u).length2(), l_minus_v.length2()};
+  const Imath::Vec3<Real> u = HalfSum(l, v);
+  return {n ^ l, n ^ v, n ^ u, u.length2(), (n % u).length2(), (l - v).length2()};
 }
 
 // l.v, as |l + v|^2 - |l - v|^2 = 4 l.v.
