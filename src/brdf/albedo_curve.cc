@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "brdf/albedo_curve.h"
 
+#include "brdf/chebyshev.h"
+
 namespace nacre {
-namespace {
-
-double NodeAngle(int i) { return M_PI * (i + 0.5) / kAlbedoTerms; }
-
-}  // namespace
-
 AlbedoShape MakeAlbedoShape(Shadowing shadowing, double roughness) {
   AlbedoShape shape;
   double alpha = AlphaFromRoughness(roughness);
@@ -29,31 +25,14 @@ AlbedoShape MakeAlbedoShape(Shadowing shadowing, double roughness) {
 }
 
 double AlbedoNodeCosine(const AlbedoShape& shape, int i) {
-  const double root = (1 + std::cos(NodeAngle(i))) / double{shape.scale};
+  const double root =
+      (1 + ChebyshevNode(static_cast<size_t>(i), kAlbedoTerms)) / double{shape.scale};
   const double tangent = root * root;  // tan(theta / 2)
   return std::min(1.0, 2 * double{shape.offset} * tangent / ((1 - tangent) * (1 + tangent)));
 }
 
 std::array<double, kAlbedoTerms> InterpolateAlbedo(const std::array<double, kAlbedoTerms>& values) {
-  std::array<double, kAlbedoTerms> polynomial{};
-  // `chebyshev` holds the coefficients of T_j, from the recurrence T_j+1 = 2 z T_j - T_j-1.
-  std::array<double, kAlbedoTerms> before{};
-  std::array<double, kAlbedoTerms> chebyshev{1};
-  for (size_t j = 0; j < kAlbedoTerms; ++j) {
-    double weight = 0;
-    for (size_t i = 0; i < kAlbedoTerms; ++i) {
-      weight += values[i] * std::cos(static_cast<double>(j) * NodeAngle(static_cast<int>(i)));
-    }
-    weight *= (j == 0 ? 1.0 : 2.0) / kAlbedoTerms;
-    std::array<double, kAlbedoTerms> next{};
-    for (size_t i = 0; i < kAlbedoTerms; ++i) {
-      polynomial[i] += weight * chebyshev[i];
-      next[i] = (i == 0 ? 0 : (j == 0 ? 1.0 : 2.0) * chebyshev[i - 1]) - before[i];
-    }
-    before = chebyshev;
-    chebyshev = next;
-  }
-  return polynomial;
+  return InterpolateChebyshev(values);
 }
 
 }  // namespace nacre

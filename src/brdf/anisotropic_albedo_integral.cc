@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// brdf/anisotropic_albedo_integral.cc: the integral is taken over the normals that the view sees of
+// a surface that is squeezed by both alphas, where they are those of a hemisphere, in proportion to
+// their cosine to the squeezed view q. What is left of the integrand is G2 / G1(v) F, which is
+// between 0 and 1 and has no peak, however narrow the lobe is.
+//
+// (X, Y, 1) is a normal of that surface and (ax X, ay Y, 1) the half vector. Its light comes from
+// above the surface where (ax X - v.x / v.z)^2 + (ay Y - v.y / v.z)^2 < 1 / v.z^2: in an ellipse,
+// to whose inside the quadrature is confined, so that it meets no kink at the horizon. Rows are
+// lines of constant Y.
+#include "brdf/anisotropic_albedo_integral.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "brdf/quadrature.h"
+
+namespace nacre {
+namespace {
+
+constexpr double kPanelGrowth = 4;      // size of a panel over that of the one before
+constexpr double kLeastCosine = 1e-12;  // of the view: the ellipse is bounded
+
+struct Setup {
+  GgxAlphas<double> alpha;
+  Vec3d view;
+  double view_root;
+  Vec3d q;
+};
+
+// The axes are named so that rows cross the horizon rather than run along it: the horizon's normal
+// has components of about alpha times the view's cosines. By symmetry the view's components count
+// as positive.
+Setup MakeSetup(GgxAlphas<double> alpha, const Vec3d& view) {
+  Vec3d v(std::abs(view.x), std::abs(view.y), std::max(view.z, kLeastCosine));
+  if (alpha.x * std::hypot(v.x, v.z) < alpha.y * std::hypot(v.y, v.z)) {
+    std::swap(alpha.x, alpha.y);
+    std::swap(v.x, v.y);
+  }
+  const double root = SmithRoot(v.z, v.x, v.y, alpha);
+  return {alpha, v, root, Vec3d(alpha.x * v.x, alpha.y * v.y, v.z) / root};
+}
+
+void AddLight(const Setup& setup, const Vec3d& h, double weight,
+              std::array<AnisotropicAlbedo, 2>* sum) {
+  const Vec3d half = h.normalized();
+  const double v_dot_h = setup.view ^ half;
+  const Vec3d l = half * (2 * v_dot_h) - setup.view;
+  const double n_dot_l = std::max(l.z, 0.0), n_dot_v = setup.view.z;
+  const double x = setup.alpha.x * l.x, y = setup.alpha.y * l.y;
+  const double spread = x * x + y * y;
+  const double root = std::sqrt(n_dot_l * n_dot_l + spread);
+  const double sum_l = n_dot_l + root;
+  const double both = n_dot_l * setup.view_root + n_dot_v * root;
+  // G2 / G1(v), and what it is short of 1: root - n.l is spread / sum_l.
+  const double kept[] = {n_dot_l * (n_dot_v + setup.view_root) / both, 2 * n_dot_l / sum_l};
+  const double lost[] = {n_dot_v * spread / (sum_l * both), spread / (sum_l * sum_l)};
+  const double one_minus_vh = (setup.view % half).length2() / (1 + v_dot_h);
+  for (size_t form = 0; form < 2; ++form) {
+    (*sum)[form].loss += weight * lost[form];
+    double term = weight * kept[form];
+    for (double& power : (*sum)[form].powers) power += term *= one_minus_vh;
+  }
+}
+
+// The solutions of a x^2 - 2 b x - c = 0, in order, for a > 0.
+struct Roots {
+  double low, high;
+};
+Roots Solve(double a, double b, double c) {
+  // Without cancellation: the product of the roots is -c / a.
+  const double far = b + std::copysign(std::sqrt(std::max(b * b + a * c, 0.0)), b);
+  const double first = far / a, second = far != 0 ? -c / far : 0;
+  return {std::min(first, second), std::max(first, second)};
+}
+
+// Calls add(x, weight) for the points of Gauss-Legendre panels from `start` to `end` that grow from
+// `first` on.
+template <class Add>
+void ForPanels(double start, double end, double first, const QuadratureRule& rule, const Add& add) {
+  const double sign = end > start ? 1 : -1;
+  const double whole = std::abs(end - start);
+  double size = first;
+  for (double at = 0; at < whole;) {
+    const double length = at + 1.5 * size < whole ? size : whole - at;  // no sliver at the end
+    for (size_t k = 0; k < rule.x.size(); ++k) {
+      add(start + sign * (at + length * rule.x[k]), rule.w[k] * length);
+    }
+    at += length;
+    size *= kPanelGrowth;
+  }
+}
+
+}  // namespace
+
+std::array<AnisotropicAlbedo, 2> IntegrateAlbedos(const GgxAlphas<double>& alpha, const Vec3d& view,
+                                                  const AnisotropicQuadrature& rule) {
+  const Setup setup = MakeSetup(alpha, view);
+  const Vec3d &v = setup.view, &q = setup.q;
+  const double a_x = setup.alpha.x, a_y = setup.alpha.y;
+  // The density of normals, (X q.x + Y q.y + q.z) / (1 + X^2 + Y^2)^2, integrates to this.
+  const double norm = M_PI_2 * (1 + q.z);
+  const QuadratureRule& rows = GaussLegendre(rule.rows);
+  const QuadratureRule& gauss = GaussLegendre(rule.points);
+  const Roots ends = Solve(v.z * v.z * a_y * a_y, v.z * a_y * v.y, v.x * v.x + v.z * v.z);
+  const double eta_middle = (std::atan(ends.high) + std::atan(ends.low)) / 2;
+  const double eta_half = (std::atan(ends.high) - std::atan(ends.low)) / 2;
+  std::array<AnisotropicAlbedo, 2> sum;
+  double lit = 0;
+  for (int i = 0; i < rule.panels * rule.rows; ++i) {
+    // Y = tan(eta). Rows are denser towards the ends, where their lengths fall as roots, twice
+    // over, because of grazing views the ends are narrow.
+    const auto j = static_cast<size_t>(i % rule.rows);
+    const double span = M_PI / rule.panels;
+    const double turn = span * (i / rule.rows + rows.x[j]) - M_PI_2;
+    const double inner = M_PI_2 * std::sin(turn);
+    const double eta = eta_middle + eta_half * std::sin(inner);
+    const double row_weight =
+        rows.w[j] * span * eta_half * std::cos(inner) * M_PI_2 * std::cos(turn) / norm;
+    const double y = std::tan(eta), secant = std::sqrt(1 + y * y);
+    const double half_y = a_y * y;
+    const Roots x = Solve(v.z * a_x * a_x, a_x * v.x, v.z + (2 * v.y - v.z * half_y) * half_y);
+    // With X = secant tan(xi) the density is cos(xi) (sin(xi) q.x + cos(xi) across).
+    const double across = std::sin(eta) * q.y + std::cos(eta) * q.z;
+    const auto add = [&](double xi, double length) {
+      const double sin = std::sin(xi), cos = std::cos(xi);
+      const double weight = row_weight * length * cos * (sin * q.x + cos * across);
+      lit += weight;
+      AddLight(setup, {a_x * (secant * sin / cos), half_y, 1}, weight, &sum);
+    };
+    // Panels grow from both horizons, above which shadowing bends, and from X = 0, where light that
+    // grazes the surface far along the row crosses the plane of the normal.
+    const double low = std::atan(x.low / secant), high = std::atan(x.high / secant);
+    // Where n.l is about n.v, height-correlated shadowing changes fastest.
+    const double finest = std::min(rule.finest * (high - low) / 2, std::max(q.z / 2, 1e-9));
+    if (low < 0 && high > 0) {
+      const double bend = std::min(a_y / a_x, 1.0) / 2;
+      ForPanels(low, low / 2, finest, gauss, add);
+      // Fine where a horizon is near, on the other side of 0.
+      ForPanels(0, low / 2, std::min(bend, std::max(high, finest)), gauss, add);
+      ForPanels(0, high / 2, std::min(bend, std::max(-low, finest)), gauss, add);
+      ForPanels(high, high / 2, finest, gauss, add);
+    } else {
+      ForPanels(low, (low + high) / 2, finest, gauss, add);
+      ForPanels(high, (low + high) / 2, finest, gauss, add);
+    }
+  }
+  for (AnisotropicAlbedo& albedo : sum) albedo.loss += 1 - lit;
+  return sum;
+}
+
+}  // namespace nacre

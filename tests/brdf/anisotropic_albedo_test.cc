@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+// tests/brdf/anisotropic_albedo_test.cc: the anisotropic albedos against the quadrature that they
+// were fitted to, the quadrature against the isotropic one, white furnaces, and the SIMD twins.
+#include "brdf/anisotropic_albedo.h"
+
+#include <cmath>
+#include <random>
+
+#include "brdf/albedo_integral.h"
+#include "brdf/anisotropic_albedo_integral.h"
+#include "brdf/anisotropic_kernel.h"
+#include "brdf/multi_scatter.h"
+#include "brdf/quadrature.h"
+#include "catch.h"
+#include "targets.h"
+
+namespace nacre {
+namespace {
+
+constexpr Shadowing kSmith[] = {Shadowing::kHeightCorrelated, Shadowing::kSeparable};
+
+// The azimuth counts from the tangent, in degrees; at 90 it is the bitangent's exactly.
+Vec3d ViewAt(double n_dot_v, double degrees) {
+  const double sin = std::sqrt((1 - n_dot_v) * (1 + n_dot_v));
+  const Rotation<double> azimuth = RotationOfDegrees(degrees);
+  return {sin * azimuth.cos, sin * azimuth.sin, n_dot_v};
+}
+
+AnisotropicAlbedoVariables<double> VariablesAt(const AnisotropicAlbedoFit& fit, const Vec3d& v) {
+  return ComputeAlbedoVariables(fit.shape, v.z, v.x, v.y);
+}
+
+TEST_CASE("the anisotropic quadrature is the isotropic one for equal alphas") {
+  for (const double roughness : {0.05, 0.3, 0.7, 1.0}) {
+    const double alpha = AlphaFromRoughness(roughness);
+    for (const double n_dot_v : {1e-4, 0.01, 0.2, 0.6, 1.0}) {
+      for (const double azimuth : {0.0, 30.0, 90.0}) {
+        CAPTURE(roughness, n_dot_v, azimuth);
+        const auto albedos =
+            IntegrateAlbedos({alpha, alpha}, ViewAt(n_dot_v, azimuth), kFineAnisotropicQuadrature);
+        for (const size_t form : {0u, 1u}) {
+          const Shadowing shadowing = kSmith[form];
+          CHECK(std::abs(1 - albedos[form].loss - AlbedoOfOne(shadowing, roughness, n_dot_v)) <
+                1e-5);
+          CHECK(std::abs(albedos[form].powers[4] - AlbedoOfSchlick(shadowing, roughness, n_dot_v)) <
+                1e-5);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("the anisotropic quadrature converges, and is the mean of the sampler's weights") {
+  const GgxAlphas<double> alphas[] = {{0.9, 0.1}, {0.3, 0.2}, {0.5, 1e-4}, {1.4, 0.7}, {0.05, 0.6}};
+  for (const GgxAlphas<double>& alpha : alphas) {
+    for (const double n_dot_v : {1e-4, 0.02, 0.2, 0.7, 1.0}) {
+      for (const double azimuth : {0.0, 50.0, 89.0, 90.0}) {
+        CAPTURE(alpha.x, alpha.y, n_dot_v, azimuth);
+        const Vec3d v = ViewAt(n_dot_v, azimuth);
+        const auto fine = IntegrateAlbedos(alpha, v, kFineAnisotropicQuadrature);
+        const auto coarse = IntegrateAlbedos(alpha, v);
+        for (const size_t form : {0u, 1u}) {
+          CHECK(std::abs(fine[form].loss - coarse[form].loss) < 1e-4);
+          CHECK(std::abs(fine[form].powers[4] - coarse[form].powers[4]) < 1e-4);
+        }
+        if (n_dot_v < 0.1) continue;
+        // The midpoint rule of 150^2 points, u1 denser towards 1, where the lobe's tail is.
+        constexpr int kSteps = 150;
+        const Basis<double> upright{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+        double sum = 0;
+        for (int i = 0; i < kSteps * kSteps; ++i) {
+          const double root = (i / kSteps + 0.5) / kSteps;
+          const Vec3d l =
+              SampleGgxVisible(upright, v, alpha, (i % kSteps + 0.5) / kSteps, 1 - root * root);
+          const FrameAngles<double> a = ComputeAngles(upright, l, v);
+          if (!(a.n_dot_l > 0)) continue;
+          sum += 2 * root * GgxDistribution(a, alpha) * VisibilitySeparable(a, alpha) * a.n_dot_l /
+                 GgxVisiblePdf(a, alpha);
+        }
+        CHECK(std::abs(sum / (kSteps * kSteps) - (1 - fine[1].loss)) < 5e-4);
+      }
+    }
+  }
+}
+
+// Views and surfaces of the furnaces.
+const double kCosines[] = {1e-4, 1e-3, 0.01, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 0.9, 1};
+const double kAzimuths[] = {0, 20, 45, 70, 85, 89, 89.9, 90};
+const double kRoughnesses[] = {0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1};
+const double kAnisotropies[] = {0, 0.1, 0.3, 0.5, 0.7, 0.9, 0.95, 0.98, 0.999, 1};
+
+// The mean of 1 - E over the hemisphere, by panels that halve towards the horizon and towards the
+// bitangent.
+double MeanLoss(const AnisotropicAlbedoFit& fit) {
+  const QuadratureRule& rule = GaussLegendre(6);
+  const auto halving = [&](int panels, const auto& f) {
+    double sum = 0, end = 1;
+    for (int panel = 0; panel < panels; ++panel) {
+      const double begin = panel == panels - 1 ? 0 : end / 2;
+      for (size_t i = 0; i < rule.x.size(); ++i) {
+        sum += rule.w[i] * (end - begin) * f(begin + (end - begin) * rule.x[i]);
+      }
+      end = begin;
+    }
+    return sum;
+  };
+  return halving(20, [&](double n) {
+    return 2 * n * halving(9, [&](double azimuth) {
+             return AlbedoLoss(fit, VariablesAt(fit, ViewAt(n, 90 - 90 * azimuth)));
+           });
+  });
+}
+
+// Conductors must reflect 1 +- 1e-3 with either compensation: Turquin's factor 1 / E, and the
+// second lobe of Kulla and Conty.
+TEST_CASE("white furnace: anisotropic conductors") {
+  double turquin = 0, kulla_conty = 0, schlick = 0;
+  for (const AlphaLimit limit : {AlphaLimit::kOne, AlphaLimit::kNone}) {
+    for (const double roughness : kRoughnesses) {
+      for (const double anisotropy : kAnisotropies) {
+        const GgxAlphas<double> alpha = OpenPbrAlphas(roughness, anisotropy, limit);
+        if (limit == AlphaLimit::kNone && !(alpha.x > 1)) continue;
+        const AnisotropicAlbedoFit fits[] = {MakeAnisotropicAlbedoFit(kSmith[0], alpha),
+                                             MakeAnisotropicAlbedoFit(kSmith[1], alpha)};
+        const double means[] = {MeanLoss(fits[0]), MeanLoss(fits[1])};
+        for (const double n_dot_v : kCosines) {
+          for (const double azimuth : kAzimuths) {
+            const Vec3d v = ViewAt(n_dot_v, azimuth);
+            const bool mirror = IsDeltaLobe(alpha);
+            const auto albedos =
+                mirror ? std::array<AnisotropicAlbedo, 2>{} : IntegrateAlbedos(alpha, v);
+            for (const size_t form : {0u, 1u}) {
+              const AnisotropicAlbedoFit& fit = fits[form];
+              const auto x = VariablesAt(fit, v);
+              const double e = 1 - albedos[form].loss;
+              const double e_fit = AlbedoOne(fit, x);
+              const double second =
+                  AlbedoLoss(fit, x) * M_PI * KullaContyScale(fit.e_average) * means[form];
+              turquin = std::max(turquin, std::abs(e / e_fit - 1));
+              kulla_conty = std::max(kulla_conty, std::abs(e + second - 1));
+              const double b = mirror ? Power5(1 - n_dot_v) : albedos[form].powers[4];
+              schlick = std::max(schlick, std::abs(AlbedoSchlick(fit, e_fit, x) - b));
+              if (turquin > 1e-3 || kulla_conty > 1e-3) {
+                FAIL("roughness " << roughness << " anisotropy " << anisotropy << " n.v " << n_dot_v
+                                  << " azimuth " << azimuth << ": " << turquin << ", "
+                                  << kulla_conty);
+              }
+            }
+          }
+        }
+      }
+    }
+  }
+  CAPTURE(turquin, kulla_conty, schlick);
+  CHECK(turquin <= 9e-4);
+  CHECK(kulla_conty <= 9e-4);
+  CHECK(schlick <= 2e-3);  // of streaks, in the plane of normal and bitangent
+}
+
+TEST_CASE("fits between the table's entries, and averages, are near the truth") {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> unit(0, 1);
+  double one = 0, schlick = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const double roughness = i % 2 == 0 ? unit(random) : std::pow(10, -2 * unit(random));
+    const GgxAlphas<double> alpha = GltfAlphas(roughness, unit(random));
+    const Vec3d v = ViewAt(i % 3 == 0 ? unit(random) : std::pow(10, -4 * unit(random)),
+                           i % 4 == 0 ? 90 : 90 * unit(random));
+    const auto albedos = IntegrateAlbedos(alpha, v);
+    for (const size_t form : {0u, 1u}) {
+      const AnisotropicAlbedoFit fit = MakeAnisotropicAlbedoFit(kSmith[form], alpha);
+      const auto x = VariablesAt(fit, v);
+      const double e = AlbedoOne(fit, x);
+      one = std::max(one, std::abs(e / (1 - albedos[form].loss) - 1));
+      schlick = std::max(schlick, std::abs(AlbedoSchlick(fit, e, x) - albedos[form].powers[4]));
+    }
+  }
+  CAPTURE(one, schlick);
+  CHECK(one <= 8e-4);
+  CHECK(schlick <= 1.5e-3);
+  // Isotropic surfaces are those of brdf/albedo.h.
+  for (const Shadowing form : kSmith) {
+    for (const double roughness : {0.05, 0.3, 0.8, 1.0}) {
+      const double alpha = AlphaFromRoughness(roughness);
+      const AnisotropicAlbedoFit fit = MakeAnisotropicAlbedoFit(form, {alpha, alpha});
+      const AlbedoFit isotropic = MakeAlbedoFit(form, roughness);
+      CHECK(std::abs(fit.e_average - isotropic.e_average) < 3e-4);
+      CHECK(std::abs(fit.schlick_average - isotropic.schlick_average) < 3e-4);
+    }
+  }
+}
+
+TEST_CASE("SIMD anisotropic albedos are their scalar twins on every target, in range everywhere") {
+  std::vector<Vec3f> directions = {Vec3f(0, 0, 1),  Vec3f(1, 0, 0),         Vec3f(0, 1, 0),
+                                   Vec3f(0, 0, 0),  Vec3f(1, 0, -1e-6f),    Vec3f(0, 1, 1e-30f),
+                                   Vec3f(0, 0, -1), Vec3f(1e-30f, 0, 1.0f), Vec3f(0, 1, 1e-40f)};
+  for (int i = 0; i <= 300; ++i) {
+    directions.emplace_back(ViewAt(std::pow(10, -i / 50.0), i % 90 + (i % 7 == 0 ? 0.5 : 0)));
+  }
+  std::vector<AnisotropicAlbedoFit> fits;
+  for (const Shadowing form : kSmith) {
+    for (const double roughness : {0.0, 1e-6, 1e-3, 0.1, 0.37, 1.0}) {
+      for (const double anisotropy : {0.0, 0.4, 0.95, 1.0}) {
+        fits.push_back(MakeAnisotropicAlbedoFit(
+            form, OpenPbrAlphas(roughness, anisotropy, AlphaLimit::kNone)));
+      }
+    }
+  }
+  std::vector<AnisotropicAlbedoFit> mixed;  // one for each direction
+  for (size_t i = 0; i < directions.size(); ++i) mixed.push_back(fits[i % fits.size()]);
+  ForEachTarget([&](Target) {
+    double worst = 0, lanes = 0;
+    bool in_range = true;
+    const auto check = [&](const AnisotropicAlbedoFit& fit, const Vec3f& v,
+                           const AnisotropicAlbedoOutput& out, double* error) {
+      const auto x = VariablesAt(fit, Vec3d(v));
+      const double loss = AlbedoLoss(fit, x);
+      *error = std::max({*error, std::abs(out.loss - loss),
+                         std::abs(out.schlick - AlbedoSchlick(fit, 1 - loss, x))});
+      for (const float value : {out.loss, out.schlick}) {
+        in_range = in_range && value >= 0 && value <= 1;
+      }
+    };
+    for (const AnisotropicAlbedoFit& fit : fits) {
+      const auto outputs = EvaluateAnisotropicAlbedos(fit, directions);
+      for (size_t i = 0; i < directions.size(); ++i) check(fit, directions[i], outputs[i], &worst);
+    }
+    const auto outputs = EvaluateAnisotropicAlbedos(mixed, directions);
+    for (size_t i = 0; i < directions.size(); ++i) {
+      check(mixed[i], directions[i], outputs[i], &lanes);
+    }
+    // The polynomials' coefficients sum to less than 200, so the error is at most 200 roundings.
+    CHECK(worst < 200 * 0x1p-24);
+    CHECK(lanes < 200 * 0x1p-24);
+    CHECK(in_range);
+  });
+}
+
+}  // namespace
+}  // namespace nacre
