@@ -4,7 +4,14 @@
 // quadrature of brdf/anisotropic_albedo_integral.h.
 //
 // A fit holds the polynomials of one pair of alphas. A material whose alphas are constant makes one
-// fit; hits whose alphas come from maps make one each, of 16 entries of a table.
+// fit; hits whose alphas come from maps make one each, of 16 entries of a table, in half a
+// microsecond.
+//
+// Worst errors found in float, over alphas along the tangent up to sqrt(2), ratios in [0, 1], n.v
+// in [1e-4, 1] and all azimuths: E 7e-4, relative to itself, so that white furnaces of conductors
+// close within that, with Turquin's factor as with Kulla and Conty's lobe. B 7e-4, except for
+// streaks, of ratios from 0.01 to 0.1, seen within a degree or so of the plane of normal and
+// bitangent: 1.4e-3 for alphas up to 1, and 2e-3 above.
 #pragma once
 
 #include "brdf/anisotropic_albedo_curve.h"

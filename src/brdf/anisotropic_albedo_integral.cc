@@ -92,6 +92,42 @@ void ForPanels(double start, double end, double first, const QuadratureRule& rul
   }
 }
 
+const QuadratureRule& UnlitRule() { return GaussLegendre(10); }
+
+// Integrals of a row's density, cos(xi) (sin(xi) q.x + cos(xi) across), over its ends. By the angle
+// a from xi = -pi/2 the density is radius sin(a) sin(a - visible), and is seen from `visible` on.
+struct Row {
+  double q_x, across;
+  double radius, visible;
+
+  // Over angles from `visible` to `end`.
+  double Below(double end) const {
+    const QuadratureRule& rule = UnlitRule();
+    double sum = 0;
+    for (size_t k = 0; k < rule.x.size(); ++k) {
+      const double more = (end - visible) * rule.x[k];
+      sum += rule.w[k] * std::sin(visible + more) * std::sin(more);
+    }
+    return radius * (end - visible) * sum;
+  }
+  // Over angles up to `end` from xi = pi/2.
+  double Above(double end) const {
+    const QuadratureRule& rule = UnlitRule();
+    double sum = 0;
+    for (size_t k = 0; k < rule.x.size(); ++k) {
+      const double sin = std::sin(end * rule.x[k]), cos = std::cos(end * rule.x[k]);
+      sum += rule.w[k] * sin * (cos * q_x + sin * across);
+    }
+    return end * sum;
+  }
+  double Whole() const {
+    return radius / 2 * (std::cos(visible) * (M_PI - visible) + std::sin(visible));
+  }
+};
+Row MakeRow(double q_x, double across) {
+  return {q_x, across, std::hypot(q_x, across), std::atan2(q_x, across)};
+}
+
 }  // namespace
 
 std::array<AnisotropicAlbedo, 2> IntegrateAlbedos(const GgxAlphas<double>& alpha, const Vec3d& view,
@@ -107,7 +143,7 @@ std::array<AnisotropicAlbedo, 2> IntegrateAlbedos(const GgxAlphas<double>& alpha
   const double eta_middle = (std::atan(ends.high) + std::atan(ends.low)) / 2;
   const double eta_half = (std::atan(ends.high) - std::atan(ends.low)) / 2;
   std::array<AnisotropicAlbedo, 2> sum;
-  double lit = 0;
+  double unlit = 0;  // summed for itself: of smooth surfaces it is far below rounding errors of 1
   for (int i = 0; i < rule.panels * rule.rows; ++i) {
     // Y = tan(eta). Rows are denser towards the ends, where their lengths fall as roots, twice
     // over, because of grazing views the ends are narrow.
@@ -126,9 +162,11 @@ std::array<AnisotropicAlbedo, 2> IntegrateAlbedos(const GgxAlphas<double>& alpha
     const auto add = [&](double xi, double length) {
       const double sin = std::sin(xi), cos = std::cos(xi);
       const double weight = row_weight * length * cos * (sin * q.x + cos * across);
-      lit += weight;
       AddLight(setup, {a_x * (secant * sin / cos), half_y, 1}, weight, &sum);
     };
+    const Row all = MakeRow(q.x, across);
+    unlit += row_weight *
+             (all.Below(std::atan2(secant, -x.low)) + all.Above(std::atan2(secant, x.high)));
     // Panels grow from both horizons, above which shadowing bends, and from X = 0, where light that
     // grazes the surface far along the row crosses the plane of the normal.
     const double low = std::atan(x.low / secant), high = std::atan(x.high / secant);
@@ -146,7 +184,22 @@ std::array<AnisotropicAlbedo, 2> IntegrateAlbedos(const GgxAlphas<double>& alpha
       ForPanels(high, (low + high) / 2, finest, gauss, add);
     }
   }
-  for (AnisotropicAlbedo& albedo : sum) albedo.loss += 1 - lit;
+  // Rows beyond the ellipse, by their angle from the horizontal. On the far side from the view they
+  // are hardly seen up to the angle at which the plane of seen normals meets them.
+  const QuadratureRule& beyond = UnlitRule();
+  const auto add_rows = [&](double side, double begin, double end) {
+    for (size_t k = 0; k < beyond.x.size(); ++k) {
+      const double angle = begin + (end - begin) * beyond.x[k];
+      const double across = side * std::cos(angle) * q.y + std::sin(angle) * q.z;
+      unlit += (end - begin) * beyond.w[k] * MakeRow(q.x, across).Whole() / norm;
+    }
+  };
+  const double near_end = std::atan2(1.0, ends.high), far_end = std::atan2(1.0, -ends.low);
+  const double seen = std::min(std::atan2(q.y, q.z), far_end);
+  add_rows(1, 0, near_end);
+  add_rows(-1, 0, seen);
+  add_rows(-1, seen, far_end);
+  for (AnisotropicAlbedo& albedo : sum) albedo.loss += unlit;
   return sum;
 }
 

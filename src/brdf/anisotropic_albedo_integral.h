@@ -21,7 +21,9 @@ struct AnisotropicAlbedo {
 
 // The resolution of the quadrature. Compared with a rule of several times as many points, over
 // alphas in [1e-3, sqrt(2)], ratios in [1e-5, 1], all azimuths and n.v in [1e-8, 1], albedos of the
-// default have errors of 7e-5 and take a tenth of a millisecond, those of the fine rule 4e-6.
+// default have errors of 4e-5 and take a tenth of a millisecond, those of the fine rule 1e-6.
+// Losses have small errors relative to themselves, too, 6 % at worst, where they are far below
+// 1e-5.
 struct AnisotropicQuadrature {
   int rows = 28;         // Gauss-Legendre points across the lobe
   int points = 5;        // in each panel of a row

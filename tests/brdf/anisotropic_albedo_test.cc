@@ -152,8 +152,8 @@ TEST_CASE("white furnace: anisotropic conductors") {
     }
   }
   CAPTURE(turquin, kulla_conty, schlick);
-  CHECK(turquin <= 9e-4);
-  CHECK(kulla_conty <= 9e-4);
+  CHECK(turquin <= 7e-4);
+  CHECK(kulla_conty <= 7e-4);
   CHECK(schlick <= 2e-3);  // of streaks, in the plane of normal and bitangent
 }
 
@@ -176,7 +176,7 @@ TEST_CASE("fits between the table's entries, and averages, are near the truth") 
     }
   }
   CAPTURE(one, schlick);
-  CHECK(one <= 8e-4);
+  CHECK(one <= 7e-4);
   CHECK(schlick <= 1.5e-3);
   // Isotropic surfaces are those of brdf/albedo.h.
   for (const Shadowing form : kSmith) {
@@ -229,7 +229,7 @@ TEST_CASE("SIMD anisotropic albedos are their scalar twins on every target, in r
     for (size_t i = 0; i < directions.size(); ++i) {
       check(mixed[i], directions[i], outputs[i], &lanes);
     }
-    // The polynomials' coefficients sum to less than 200, so the error is at most 200 roundings.
+    // The polynomials' coefficients sum to 200 at most, so the error is at most 200 roundings of 1.
     CHECK(worst < 200 * 0x1p-24);
     CHECK(lanes < 200 * 0x1p-24);
     CHECK(in_range);

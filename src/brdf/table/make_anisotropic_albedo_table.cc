@@ -20,7 +20,7 @@ namespace {
 
 // A ratio of 0 has no directions of its own at the nodes of the second variable: its limit is
 // taken.
-constexpr double kLeastRatio = 1e-7;
+constexpr double kLeastRatio = 1e-5;
 
 using KappaValues = std::array<double, kKappaTerms>;
 
