@@ -9,6 +9,8 @@
 #define NACRE_BRDF_ANISOTROPIC_ALBEDO_INL_H_
 #endif
 
+#include <limits>
+
 #include "brdf/albedo-inl.h"
 #include "brdf/anisotropic_albedo.h"
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "brdf/anisotropic_albedo.h"
 
+#include <algorithm>
+
 #include "brdf/anisotropic_albedo_table.h"
 
 namespace nacre {

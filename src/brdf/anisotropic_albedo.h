@@ -14,6 +14,8 @@
 // bitangent: 1.4e-3 for alphas up to 1, and 2e-3 above.
 #pragma once
 
+#include <algorithm>
+
 #include "brdf/anisotropic_albedo_curve.h"
 #include "brdf/fresnel.h"
 

@@ -16,6 +16,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 
 #include "brdf/albedo_curve.h"
 #include "brdf/ggx_anisotropic.h"

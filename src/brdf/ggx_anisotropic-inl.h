@@ -179,8 +179,8 @@ HWY_INLINE Vec3V<V> SampleGgxVisible(D d, const BasisV<V>& frame, const Vec3V<V>
 
 // GgxVisiblePdf from known values of GgxDistribution and SmithRootOfView.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V GgxVisiblePdfFromRoot(D d, V distribution, V n_dot_v, V view_root) {
-  const V sum = hn::Add(hn::Max(n_dot_v, hn::Zero(d)), view_root);
+HWY_INLINE V GgxVisiblePdf(D d, V distribution, const FrameAnglesV<V>& a, V view_root) {
+  const V sum = hn::Add(hn::Max(a.n_dot_v, hn::Zero(d)), view_root);
   return hn::Div(distribution, hn::Add(sum, sum));
 }
 

@@ -32,8 +32,7 @@ std::vector<AnisotropicAnswer> AskAnisotropicT(const std::vector<AnisotropicQuer
                  &AnisotropicAnswer::height_correlated);
     packet.Store(hn::Div(one, VisibilityDenominatorSeparable(d, a, l_root, v_root, one)),
                  &AnisotropicAnswer::separable);
-    packet.Store(GgxVisiblePdfFromRoot(d, distribution, a.n_dot_v, v_root),
-                 &AnisotropicAnswer::pdf);
+    packet.Store(GgxVisiblePdf(d, distribution, a, v_root), &AnisotropicAnswer::pdf);
     packet.Store3(SampleGgxVisible(d, frame, v, alpha, packet.Number(&AnisotropicQuery::u0),
                                    packet.Number(&AnisotropicQuery::u1)),
                   &AnisotropicAnswer::sample);

@@ -4,6 +4,7 @@
 // brdf/anisotropic_albedo_integral.h.
 //
 // make_anisotropic_albedo_table FILE
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
