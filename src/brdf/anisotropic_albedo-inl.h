@@ -20,7 +20,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // An AnisotropicAlbedoFit for each lane, as structure of arrays.
 struct AnisotropicAlbedoShapeLanes {
-  const float *alpha_x, *alpha_y, *mean_square, *ratio_squared, *scale;
+  const float *alpha_x, *alpha_y, *mean_square, *ratio_squared, *streak, *scale;
 };
 struct KappaPolynomialLanes {
   const float* first;
@@ -42,7 +42,7 @@ struct AnisotropicAlbedoFitLanes {
 
 template <class V>
 struct AnisotropicAlbedoVariablesV {
-  V z, share, width, n_dot_x, factor;
+  V z, share, width, n_dot_x, factor, rest;
 };
 
 template <class D, class Shape, class V = hn::Vec<D>>
@@ -65,9 +65,14 @@ HWY_INLINE AnisotropicAlbedoVariablesV<V> ComputeAlbedoVariables(D d, const Shap
   const V share = hn::Div(hn::Abs(y), SquareRoot(d, hn::Max(rho2, tiny)));
   const V across2 = hn::MulAdd(AlbedoNumber(d, shape.ratio_squared), hn::Mul(b_dot_x, b_dot_x),
                                hn::Mul(t_dot_x, t_dot_x));
-  const V width = hn::Min(SquareRoot(d, hn::Add(n2, across2)), one);
+  const V width2 = hn::Min(hn::Add(n2, across2), one);
   const V factor = hn::Mul(hn::Mul(layer, layer), hn::Add(one, hn::Div(normal2, k2)));
-  return {z, hn::Sub(hn::Add(share, share), one), width, n, factor};
+  return {z,
+          hn::Sub(hn::Add(share, share), one),
+          SquareRoot(d, width2),
+          n,
+          factor,
+          hn::NegMulAdd(AlbedoNumber(d, shape.streak), width2, one)};
 }
 
 template <class D>
@@ -105,7 +110,7 @@ HWY_INLINE V AlbedoSchlick(D d, const Fit& fit, V albedo_one,
   const V one = hn::Set(d, 1.0f);
   const V wider = EvaluateAlbedoPolynomials<kShareTerms>(d, fit.schlick, x.z, x.share);
   const V streak = EvaluateAlbedoPolynomials<kWidthTerms>(d, fit.streak, x.z, x.width);
-  const V more = hn::MulAdd(x.width, streak, wider);
+  const V more = hn::MulAdd(x.width, streak, hn::Mul(x.rest, wider));
   const V albedo = hn::MulAdd(Power5(hn::Sub(one, x.n_dot_x)), albedo_one, more);
   return hn::Min(hn::Max(albedo, hn::Zero(d)), one);
 }

@@ -9,9 +9,7 @@
 //
 // Worst errors found in float, over alphas along the tangent up to sqrt(2), ratios in [0, 1], n.v
 // in [1e-4, 1] and all azimuths: E 7e-4, relative to itself, so that white furnaces of conductors
-// close within that, with Turquin's factor as with Kulla and Conty's lobe. B 7e-4, except for
-// streaks, of ratios from 0.01 to 0.1, seen within a degree or so of the plane of normal and
-// bitangent: 1.4e-3 for alphas up to 1, and 2e-3 above.
+// close within that, with Turquin's factor as with Kulla and Conty's lobe; B 9e-4.
 #pragma once
 
 #include <algorithm>
@@ -55,13 +53,13 @@ Real AlbedoOne(const AnisotropicAlbedoFit& fit, const AnisotropicAlbedoVariables
 // Where ay = 0, half vectors lie in the plane of n and t, and v.h is v's length in this plane, w,
 // times a cosine that depends on kappa alone: B is a polynomial in w of degree 5, whose
 // coefficients are functions of z. This part is taken with w = x.width for every ay, and is 0 for
-// w = 0, where B is E; what is left is small next to the bitangent, too.
+// w = 0, where B is E. What is left has a polynomial like that of E.
 template <typename Real>
 Real AlbedoSchlick(const AnisotropicAlbedoFit& fit, Real albedo_one,
                    const AnisotropicAlbedoVariables<Real>& x) {
   const Real mirror = Power5(1 - x.n_dot_x) * albedo_one;
   const Real streak = x.width * EvaluatePolynomial(fit.streak, x.z, x.width);
-  const Real albedo = mirror + streak + EvaluatePolynomial(fit.schlick, x.z, x.share);
+  const Real albedo = mirror + streak + x.rest * EvaluatePolynomial(fit.schlick, x.z, x.share);
   return std::min(std::max(albedo, Real(0)), Real(1));
 }
 

@@ -42,6 +42,7 @@ struct AnisotropicAlbedoShape {
   float alpha_x = 0, alpha_y = 0;
   float mean_square = 0;    // (ax^2 + ay^2) / 2
   float ratio_squared = 0;  // (ay / ax)^2
+  float streak = 0;         // (1 - ay / ax)^3: 0 of isotropic lobes, 1 where ay is 0
   float scale = 2;          // makes z 1 along the normal
 };
 
@@ -54,7 +55,9 @@ inline AnisotropicAlbedoShape MakeAnisotropicAlbedoShape(const GgxAlphas<double>
   shape.alpha_x = static_cast<float>(alpha.x);
   shape.alpha_y = static_cast<float>(alpha.y);
   shape.mean_square = static_cast<float>(mean_square);
-  shape.ratio_squared = static_cast<float>(alpha.y / alpha.x * (alpha.y / alpha.x));
+  const double ratio = alpha.y / alpha.x;
+  shape.ratio_squared = static_cast<float>(ratio * ratio);
+  shape.streak = static_cast<float>((1 - ratio) * (1 - ratio) * (1 - ratio));
   shape.scale = static_cast<float>(2 * std::sqrt(width + std::sqrt(1 + width * width)));
   return shape;
 }
@@ -67,6 +70,9 @@ struct AnisotropicAlbedoVariables {
   Real width;    // sqrt(n^2 + t^2 + (ay / ax)^2 b^2), in [0, 1]: the direction's distance from b
   Real n_dot_x;  // in (0, 1]
   Real factor;   // the loss 1 - E is this times its polynomial
+  // What is left of the albedo for Schlick's weight is this times its polynomial. Of streaks little
+  // is left apart from the bitangent, where the width is not small.
+  Real rest;
 };
 
 // kappa^2 + (ax^2 + ay^2) / 2 takes the place of (alpha / n)^2 of the isotropic variables, and
@@ -83,10 +89,14 @@ AnisotropicAlbedoVariables<Real> ComputeAlbedoVariables(const AnisotropicAlbedoS
   const Real k6 = 6 * std::sqrt(k2);
   const Real inverse = 1 / (k6 + std::sqrt(n * n + 36 * k2));
   const Real layer = 2 * k6 * inverse;
-  const Real width2 = n * n + t_dot_x * t_dot_x + shape.ratio_squared * (b_dot_x * b_dot_x);
+  const Real width2 =
+      std::min(n * n + t_dot_x * t_dot_x + shape.ratio_squared * (b_dot_x * b_dot_x), Real(1));
   return {shape.scale * std::sqrt(n * inverse) - 1,
           2 * (std::abs(y) / std::sqrt(std::max(rho2, tiny))) - 1,
-          std::min(std::sqrt(width2), Real(1)), n, layer * layer * (1 + normal2 / k2)};
+          std::sqrt(width2),
+          n,
+          layer * layer * (1 + normal2 / k2),
+          1 - shape.streak * width2};
 }
 
 // Sums of monomials by Horner's rule.

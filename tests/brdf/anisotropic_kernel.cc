@@ -74,7 +74,7 @@ std::vector<AnisotropicAlbedoOutput> EvaluateEachAnisotropicAlbedosT(
   return AskInPackets<float, AnisotropicAlbedoOutput>(directions, [&](const auto& packet) {
     constexpr size_t kLanes = 32;
     constexpr size_t kShare = kShareTerms * kKappaTerms, kWidth = kWidthTerms * kKappaTerms;
-    std::vector<float> numbers((5 + 2 * kShare + kWidth) * kLanes);
+    std::vector<float> numbers((6 + 2 * kShare + kWidth) * kLanes);
     for (size_t lane = 0; lane < kLanes; ++lane) {
       const AnisotropicAlbedoFit& fit = fits[std::min(packet.first + lane, fits.size() - 1)];
       float* to = numbers.data() + lane;
@@ -91,16 +91,17 @@ std::vector<AnisotropicAlbedoOutput> EvaluateEachAnisotropicAlbedosT(
       put(fit.shape.alpha_y);
       put(fit.shape.mean_square);
       put(fit.shape.ratio_squared);
+      put(fit.shape.streak);
       put(fit.shape.scale);
       put_all(fit.loss);
       put_all(fit.schlick);
       put_all(fit.streak);
     }
     const auto at = [&](size_t i) { return numbers.data() + i * kLanes; };
-    StoreAlbedos(AnisotropicAlbedoFitLanes{{at(0), at(1), at(2), at(3), at(4)},
-                                           {at(5), kLanes},
-                                           {at(5 + kShare), kLanes},
-                                           {at(5 + 2 * kShare), kLanes}},
+    StoreAlbedos(AnisotropicAlbedoFitLanes{{at(0), at(1), at(2), at(3), at(4), at(5)},
+                                           {at(6), kLanes},
+                                           {at(6 + kShare), kLanes},
+                                           {at(6 + 2 * kShare), kLanes}},
                  packet);
   });
 }

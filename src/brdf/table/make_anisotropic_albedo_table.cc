@@ -167,8 +167,9 @@ std::array<AnisotropicAlbedoEntry, kSmithForms> EntryAt(
       for (size_t form = 0; form < kSmithForms; ++form) {
         const double lost = albedos[form].loss;
         loss[form][s][k] = lost / x.factor;
-        schlick[form][s][k] = albedos[form].powers[4] - Power5(1 - v.z) * (1 - lost) -
-                              x.width * EvaluatePolynomial(streaks[form], x.z, x.width);
+        schlick[form][s][k] = (albedos[form].powers[4] - Power5(1 - v.z) * (1 - lost) -
+                               x.width * EvaluatePolynomial(streaks[form], x.z, x.width)) /
+                              x.rest;
       }
     }
   }
