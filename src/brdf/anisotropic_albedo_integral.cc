@@ -96,8 +96,8 @@ const QuadratureRule& UnlitRule() { return GaussLegendre(10); }
 
 // Integrals of a row's density, cos(xi) (sin(xi) q.x + cos(xi) across), over its ends. By the angle
 // a from xi = -pi/2 the density is radius sin(a) sin(a - visible), and is seen from `visible` on.
-struct Row {
-  double q_x, across;
+struct Density {
+  double along, across;  // along: q.x
   double radius, visible;
 
   // Over angles from `visible` to `end`.
@@ -116,7 +116,7 @@ struct Row {
     double sum = 0;
     for (size_t k = 0; k < rule.x.size(); ++k) {
       const double sin = std::sin(end * rule.x[k]), cos = std::cos(end * rule.x[k]);
-      sum += rule.w[k] * sin * (cos * q_x + sin * across);
+      sum += rule.w[k] * sin * (cos * along + sin * across);
     }
     return end * sum;
   }
@@ -124,74 +124,59 @@ struct Row {
     return radius / 2 * (std::cos(visible) * (M_PI - visible) + std::sin(visible));
   }
 };
-Row MakeRow(double q_x, double across) {
-  return {q_x, across, std::hypot(q_x, across), std::atan2(q_x, across)};
+Density MakeDensity(double along, double across) {
+  const Vec2d both(along, across);
+  return {along, across, both.length(), std::atan2(both.x, both.y)};
 }
 
-}  // namespace
-
-std::array<AnisotropicAlbedo, 2> IntegrateAlbedos(const GgxAlphas<double>& alpha, const Vec3d& view,
-                                                  const AnisotropicQuadrature& rule) {
-  const Setup setup = MakeSetup(alpha, view);
+// Adds the row of Y = tan(eta): what its light loses and keeps, and what is below the horizon.
+void AddRow(const Setup& setup, double eta, double row_weight, const AnisotropicQuadrature& rule,
+            std::array<AnisotropicAlbedo, 2>* sum, double* unlit) {
   const Vec3d &v = setup.view, &q = setup.q;
   const double a_x = setup.alpha.x, a_y = setup.alpha.y;
-  // The density of normals, (X q.x + Y q.y + q.z) / (1 + X^2 + Y^2)^2, integrates to this.
-  const double norm = M_PI_2 * (1 + q.z);
-  const QuadratureRule& rows = GaussLegendre(rule.rows);
+  const double y = std::tan(eta), secant = std::sqrt(1 + y * y);
+  const double half_y = a_y * y;
+  const Roots x = Solve(v.z * a_x * a_x, a_x * v.x, v.z + (2 * v.y - v.z * half_y) * half_y);
+  // With X = secant tan(xi) the density is cos(xi) (sin(xi) q.x + cos(xi) across).
+  const double across = std::sin(eta) * q.y + std::cos(eta) * q.z;
+  const auto add = [&](double xi, double length) {
+    const double sin = std::sin(xi), cos = std::cos(xi);
+    const double weight = row_weight * length * cos * (sin * q.x + cos * across);
+    AddLight(setup, {a_x * (secant * sin / cos), half_y, 1}, weight, sum);
+  };
+  const Density density = MakeDensity(q.x, across);
+  *unlit += row_weight *
+            (density.Below(std::atan2(secant, -x.low)) + density.Above(std::atan2(secant, x.high)));
+  // Panels grow from both horizons, above which shadowing bends, and from X = 0, where light that
+  // grazes the surface far along the row crosses the plane of the normal.
   const QuadratureRule& gauss = GaussLegendre(rule.points);
-  const Roots ends = Solve(v.z * v.z * a_y * a_y, v.z * a_y * v.y, v.x * v.x + v.z * v.z);
-  const double eta_middle = (std::atan(ends.high) + std::atan(ends.low)) / 2;
-  const double eta_half = (std::atan(ends.high) - std::atan(ends.low)) / 2;
-  std::array<AnisotropicAlbedo, 2> sum;
-  double unlit = 0;  // summed for itself: of smooth surfaces it is far below rounding errors of 1
-  for (int i = 0; i < rule.panels * rule.rows; ++i) {
-    // Y = tan(eta). Rows are denser towards the ends, where their lengths fall as roots, twice
-    // over, because of grazing views the ends are narrow.
-    const auto j = static_cast<size_t>(i % rule.rows);
-    const double span = M_PI / rule.panels;
-    const double turn = span * (i / rule.rows + rows.x[j]) - M_PI_2;
-    const double inner = M_PI_2 * std::sin(turn);
-    const double eta = eta_middle + eta_half * std::sin(inner);
-    const double row_weight =
-        rows.w[j] * span * eta_half * std::cos(inner) * M_PI_2 * std::cos(turn) / norm;
-    const double y = std::tan(eta), secant = std::sqrt(1 + y * y);
-    const double half_y = a_y * y;
-    const Roots x = Solve(v.z * a_x * a_x, a_x * v.x, v.z + (2 * v.y - v.z * half_y) * half_y);
-    // With X = secant tan(xi) the density is cos(xi) (sin(xi) q.x + cos(xi) across).
-    const double across = std::sin(eta) * q.y + std::cos(eta) * q.z;
-    const auto add = [&](double xi, double length) {
-      const double sin = std::sin(xi), cos = std::cos(xi);
-      const double weight = row_weight * length * cos * (sin * q.x + cos * across);
-      AddLight(setup, {a_x * (secant * sin / cos), half_y, 1}, weight, &sum);
-    };
-    const Row all = MakeRow(q.x, across);
-    unlit += row_weight *
-             (all.Below(std::atan2(secant, -x.low)) + all.Above(std::atan2(secant, x.high)));
-    // Panels grow from both horizons, above which shadowing bends, and from X = 0, where light that
-    // grazes the surface far along the row crosses the plane of the normal.
-    const double low = std::atan(x.low / secant), high = std::atan(x.high / secant);
-    // Where n.l is about n.v, height-correlated shadowing changes fastest.
-    const double finest = std::min(rule.finest * (high - low) / 2, std::max(q.z / 2, 1e-9));
-    if (low < 0 && high > 0) {
-      const double bend = std::min(a_y / a_x, 1.0) / 2;
-      ForPanels(low, low / 2, finest, gauss, add);
-      // Fine where a horizon is near, on the other side of 0.
-      ForPanels(0, low / 2, std::min(bend, std::max(high, finest)), gauss, add);
-      ForPanels(0, high / 2, std::min(bend, std::max(-low, finest)), gauss, add);
-      ForPanels(high, high / 2, finest, gauss, add);
-    } else {
-      ForPanels(low, (low + high) / 2, finest, gauss, add);
-      ForPanels(high, (low + high) / 2, finest, gauss, add);
-    }
+  const double low = std::atan(x.low / secant), high = std::atan(x.high / secant);
+  // Where n.l is about n.v, height-correlated shadowing changes fastest.
+  const double finest = std::min(rule.finest * (high - low) / 2, std::max(q.z / 2, 1e-9));
+  if (low < 0 && high > 0) {
+    const double bend = std::min(a_y / a_x, 1.0) / 2;
+    ForPanels(low, low / 2, finest, gauss, add);
+    // Fine where a horizon is near, on the other side of 0.
+    ForPanels(0, low / 2, std::min(bend, std::max(high, finest)), gauss, add);
+    ForPanels(0, high / 2, std::min(bend, std::max(-low, finest)), gauss, add);
+    ForPanels(high, high / 2, finest, gauss, add);
+  } else {
+    ForPanels(low, (low + high) / 2, finest, gauss, add);
+    ForPanels(high, (low + high) / 2, finest, gauss, add);
   }
-  // Rows beyond the ellipse, by their angle from the horizontal. On the far side from the view they
-  // are hardly seen up to the angle at which the plane of seen normals meets them.
-  const QuadratureRule& beyond = UnlitRule();
+}
+
+// The integral over the rows beyond the ellipse, by their angle from the horizontal. On the far
+// side from the view they are hardly seen up to the angle at which the plane of seen normals meets
+// them.
+double UnlitBeyond(const Vec3d& q, const Roots& ends) {
+  const QuadratureRule& rule = UnlitRule();
+  double sum = 0;
   const auto add_rows = [&](double side, double begin, double end) {
-    for (size_t k = 0; k < beyond.x.size(); ++k) {
-      const double angle = begin + (end - begin) * beyond.x[k];
+    for (size_t k = 0; k < rule.x.size(); ++k) {
+      const double angle = begin + (end - begin) * rule.x[k];
       const double across = side * std::cos(angle) * q.y + std::sin(angle) * q.z;
-      unlit += (end - begin) * beyond.w[k] * MakeRow(q.x, across).Whole() / norm;
+      sum += (end - begin) * rule.w[k] * MakeDensity(q.x, across).Whole();
     }
   };
   const double near_end = std::atan2(1.0, ends.high), far_end = std::atan2(1.0, -ends.low);
@@ -199,6 +184,36 @@ std::array<AnisotropicAlbedo, 2> IntegrateAlbedos(const GgxAlphas<double>& alpha
   add_rows(1, 0, near_end);
   add_rows(-1, 0, seen);
   add_rows(-1, seen, far_end);
+  return sum;
+}
+
+}  // namespace
+
+std::array<AnisotropicAlbedo, 2> IntegrateAlbedos(const GgxAlphas<double>& alpha, const Vec3d& view,
+                                                  const AnisotropicQuadrature& rule) {
+  const Setup setup = MakeSetup(alpha, view);
+  const Vec3d& v = setup.view;
+  // The density of normals, (X q.x + Y q.y + q.z) / (1 + X^2 + Y^2)^2, integrates to this.
+  const double norm = M_PI_2 * (1 + setup.q.z);
+  const double width = v.z * setup.alpha.y;
+  const Roots ends = Solve(width * width, width * v.y, v.x * v.x + v.z * v.z);
+  const double begin = std::atan(ends.low), end = std::atan(ends.high);
+  const QuadratureRule& rows = GaussLegendre(rule.rows);
+  const double span = M_PI / rule.panels;
+  std::array<AnisotropicAlbedo, 2> sum;
+  double unlit = 0;  // summed for itself: of smooth surfaces it is far below rounding errors of 1
+  for (int panel = 0; panel < rule.panels; ++panel) {
+    for (size_t j = 0; j < rows.x.size(); ++j) {
+      // Rows are denser towards the ends, where their lengths fall as roots, twice over, because of
+      // grazing views the ends are narrow.
+      const double turn = span * (panel + rows.x[j]) - M_PI_2;
+      const double inner = M_PI_2 * std::sin(turn);
+      const double eta = (begin + end) / 2 + (end - begin) / 2 * std::sin(inner);
+      const double slope = (end - begin) / 2 * std::cos(inner) * M_PI_2 * std::cos(turn);
+      AddRow(setup, eta, rows.w[j] * span * slope / norm, rule, &sum, &unlit);
+    }
+  }
+  unlit += UnlitBeyond(setup.q, ends) / norm;
   for (AnisotropicAlbedo& albedo : sum) albedo.loss += unlit;
   return sum;
 }
