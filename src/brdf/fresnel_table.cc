@@ -33,7 +33,7 @@ struct Factor {
 constexpr double kThickFilmPhase = 5;
 
 // The least cosine at which (1 - R) / cosine is computed: its limit there is that at 0.
-constexpr double kLeastCosine = 1e-9;
+constexpr double kLeastTableCosine = 1e-9;
 
 // A loss that does not fall to 0 with the cosine, of an interface that hardly exists, cannot be
 // divided by it.
@@ -115,7 +115,7 @@ class SplineFit {
 
  private:
   Rgb Sample(double x) const {
-    const double cosine = std::max(variable_.Cosine(x), factor_.constant > 0 ? 0.0 : kLeastCosine);
+    const double cosine = std::max(variable_.Cosine(x), factor_.constant > 0 ? 0.0 : kLeastTableCosine);
     return curve_->loss(cosine) / factor_.At(cosine);
   }
 
