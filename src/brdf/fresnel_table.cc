@@ -115,7 +115,8 @@ class SplineFit {
 
  private:
   Rgb Sample(double x) const {
-    const double cosine = std::max(variable_.Cosine(x), factor_.constant > 0 ? 0.0 : kLeastTableCosine);
+    const double cosine =
+        std::max(variable_.Cosine(x), factor_.constant > 0 ? 0.0 : kLeastTableCosine);
     return curve_->loss(cosine) / factor_.At(cosine);
   }
 

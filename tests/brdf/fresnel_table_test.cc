@@ -137,7 +137,7 @@ TEST_CASE("SIMD tables are the scalar ones on every target") {
         // Positions have a rounding error of 2^-23 of the table's length, in which steep curves
         // change a little; coefficients up to 6 are multiplied by the cosine.
         for (size_t c = 0; c < 3; ++c) {
-          const float got = losses[i][static_cast<unsigned>(c)];
+          const float got = losses[i][static_cast<int>(c)];
           CHECK(std::abs(got - want[c]) <= 1e-5f);
           CHECK(std::abs(double{got} - exact[c]) <= 1e-5);
           CHECK((got >= 0 && got <= 1));
