@@ -15,6 +15,7 @@
 #include "base/target_ops-inl.h"
 #include "brdf/angles-inl.h"
 #include "brdf/ggx_anisotropic.h"
+#include "brdf/lobe_sampling-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre::HWY_NAMESPACE {
@@ -158,23 +159,8 @@ HWY_INLINE V VisibilityDenominatorSeparable(D d, const FrameAnglesV<V>& a, V lig
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Vec3V<V> SampleGgxVisible(D d, const BasisV<V>& frame, const Vec3V<V>& to_view,
                                      const GgxAlphasV<V>& alpha, V u0, V u1) {
-  const V one = hn::Set(d, 1.0f);
-  const Vec3V<V> v = ToLocal(frame, to_view);
-  const V smallest = hn::Set(d, std::numeric_limits<float>::min());
-  const Vec3V<V> scaled{hn::Mul(alpha.x, v.x), hn::Mul(alpha.y, v.y), hn::Max(v.z, hn::Zero(d))};
-  const V across2 = hn::MulAdd(scaled.x, scaled.x, hn::Mul(scaled.y, scaled.y));
-  const V length = hn::Max(hn::Sqrt(hn::MulAdd(scaled.z, scaled.z, across2)), smallest);
-  const Vec3V<V> squeezed = Scale(scaled, hn::Div(one, length));
-  const SinCosV<V> phi = SinCosTurns(d, u0);
-  const V top = hn::Add(one, squeezed.z);
-  const V half_z = hn::Mul(hn::Sub(one, u1), top);
-  const V top_square = hn::Mul(length, hn::Add(length, scaled.z));
-  const V one_plus_z = hn::Add(half_z, hn::Div(across2, hn::Max(top_square, smallest)));
-  const V sin = hn::Sqrt(hn::Mul(hn::Mul(u1, top), one_plus_z));
-  const Vec3V<V> half{hn::Mul(alpha.x, hn::MulAdd(sin, phi.cos, squeezed.x)),
-                      hn::Mul(alpha.y, hn::MulAdd(sin, phi.sin, squeezed.y)), half_z};
-  const V inverse = hn::Div(one, hn::Sqrt(FusedDot(half, half)));
-  return Mirrored(to_view, ToWorld(frame, Scale(half, inverse)));
+  const Vec3V<V> half = SampleGgxHalf(d, ToLocal(frame, to_view), alpha.x, alpha.y, u0, u1);
+  return Mirrored(to_view, ToWorld(frame, half));
 }
 
 // GgxVisiblePdf from known values of GgxDistribution and SmithRootOfView.

@@ -18,6 +18,7 @@
 #include "base/basis.h"
 #include "brdf/angles.h"
 #include "brdf/ggx.h"
+#include "brdf/lobe_sampling.h"
 
 namespace nacre {
 
@@ -248,25 +249,13 @@ Real VisibilitySeparable(const FrameAngles<Real>& a, const GgxAlphas<Real>& alph
   return 1 / ((a.n_dot_l + SmithRootOfLight(a, alpha)) * (n_dot_v + SmithRootOfView(a, alpha)));
 }
 
-// SampleGgxVisible of brdf/lobe_sampling.h, with the surface squeezed by both alphas.
+// Samples the direction to light (SampleGgxHalf).
 template <typename Real>
 Imath::Vec3<Real> SampleGgxVisible(const Basis<Real>& frame, const Imath::Vec3<Real>& to_view,
                                    const GgxAlphas<Real>& alpha, Real u0, Real u1) {
   if (IsDeltaLobe(alpha)) return Mirrored(to_view, frame.z);
   const Imath::Vec3<Real> v = frame.ToLocal(to_view);
-  const Imath::Vec3<Real> scaled(alpha.x * v.x, alpha.y * v.y, std::max(v.z, Real(0)));
-  const Real length = std::max(scaled.length(), std::numeric_limits<Real>::min());
-  const Imath::Vec3<Real> squeezed = scaled / length;
-  const Real phi = 2 * static_cast<Real>(M_PI) * u0;
-  const Real half_z = (1 - u1) * (1 + squeezed.z);
-  const Real one_minus_z = u1 * (1 + squeezed.z);
-  const Real across_squared = scaled.x * scaled.x + scaled.y * scaled.y;
-  const Real one_plus_z = half_z + across_squared / std::max(length * (length + scaled.z),
-                                                             std::numeric_limits<Real>::min());
-  const Real sin = std::sqrt(one_minus_z * one_plus_z);
-  const Imath::Vec3<Real> half(alpha.x * (sin * std::cos(phi) + squeezed.x),
-                               alpha.y * (sin * std::sin(phi) + squeezed.y), half_z);
-  return Mirrored(to_view, frame.ToWorld(half.normalized()));
+  return Mirrored(to_view, frame.ToWorld(SampleGgxHalf(v, alpha.x, alpha.y, u0, u1)));
 }
 
 // D(h) G1(v) / (4 n.v) = D / (2 (n.v + root)), finite at grazing angles. 0 for a delta lobe.

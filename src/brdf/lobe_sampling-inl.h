@@ -35,15 +35,12 @@ HWY_INLINE V CosinePdf(D d, V n_dot_l) {
   return hn::Mul(hn::Max(n_dot_l, hn::Zero(d)), hn::Set(d, static_cast<float>(M_1_PI)));
 }
 
-// alpha must not be a delta lobe's.
+// The half vector in the frame of the lobe. Alphas must not be a delta lobe's, here and below.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE Vec3V<V> SampleGgxVisible(D d, const Vec3V<V>& normal, const Vec3V<V>& to_view, V alpha,
-                                     V u0, V u1) {
+HWY_INLINE Vec3V<V> SampleGgxHalf(D d, const Vec3V<V>& v, V alpha_x, V alpha_y, V u0, V u1) {
   const V one = hn::Set(d, 1.0f);
-  const BasisV<V> basis = BasisAbout(d, normal);
-  const Vec3V<V> v = ToLocal(basis, to_view);
   const V smallest = hn::Set(d, std::numeric_limits<float>::min());
-  const Vec3V<V> scaled{hn::Mul(alpha, v.x), hn::Mul(alpha, v.y), hn::Max(v.z, hn::Zero(d))};
+  const Vec3V<V> scaled{hn::Mul(alpha_x, v.x), hn::Mul(alpha_y, v.y), hn::Max(v.z, hn::Zero(d))};
   const V across2 = hn::MulAdd(scaled.x, scaled.x, hn::Mul(scaled.y, scaled.y));
   const V length = hn::Max(hn::Sqrt(hn::MulAdd(scaled.z, scaled.z, across2)), smallest);
   const Vec3V<V> squeezed = Scale(scaled, hn::Div(one, length));
@@ -53,10 +50,18 @@ HWY_INLINE Vec3V<V> SampleGgxVisible(D d, const Vec3V<V>& normal, const Vec3V<V>
   const V top_square = hn::Mul(length, hn::Add(length, scaled.z));
   const V one_plus_z = hn::Add(half_z, hn::Div(across2, hn::Max(top_square, smallest)));
   const V sin = hn::Sqrt(hn::Mul(hn::Mul(u1, top), one_plus_z));
-  const Vec3V<V> half{hn::Mul(alpha, hn::MulAdd(sin, phi.cos, squeezed.x)),
-                      hn::Mul(alpha, hn::MulAdd(sin, phi.sin, squeezed.y)), half_z};
+  const Vec3V<V> half{hn::Mul(alpha_x, hn::MulAdd(sin, phi.cos, squeezed.x)),
+                      hn::Mul(alpha_y, hn::MulAdd(sin, phi.sin, squeezed.y)), half_z};
   const V inverse = hn::Div(one, hn::Sqrt(FusedDot(half, half)));
-  return Mirrored(to_view, ToWorld(basis, Scale(half, inverse)));
+  return Scale(half, inverse);
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Vec3V<V> SampleGgxVisible(D d, const Vec3V<V>& normal, const Vec3V<V>& to_view, V alpha,
+                                     V u0, V u1) {
+  const BasisV<V> basis = BasisAbout(d, normal);
+  const Vec3V<V> half = SampleGgxHalf(d, ToLocal(basis, to_view), alpha, alpha, u0, u1);
+  return Mirrored(to_view, ToWorld(basis, half));
 }
 
 // GgxVisiblePdf from a known value of GgxDistribution.

@@ -35,14 +35,13 @@ Real CosinePdf(Real n_dot_l) {
 // GGX Normals with Spherical Caps". With the surface squeezed by alpha, the normals are those of a
 // hemisphere, and the mirror directions of the part that v sees fill the cap above -v uniformly. A
 // delta lobe gives the mirror direction. An n.v that rounding makes negative counts as 0, the limit
-// for grazing viewers, here, in the pdf and in the reflection models.
+// for grazing viewers, here, in the pdf and in the reflection models. SampleGgxHalf samples the
+// half vector in the lobe's frame, where `v` is the viewer; the squeeze is by an alpha along each
+// axis.
 template <typename Real>
-Imath::Vec3<Real> SampleGgxVisible(const Imath::Vec3<Real>& normal,
-                                   const Imath::Vec3<Real>& to_view, Real alpha, Real u0, Real u1) {
-  if (IsDeltaLobe(alpha)) return Mirrored(to_view, normal);
-  const Basis<Real> basis = BasisAbout(normal);
-  const Imath::Vec3<Real> v = basis.ToLocal(to_view);
-  const Imath::Vec3<Real> scaled(alpha * v.x, alpha * v.y, std::max(v.z, Real(0)));
+Imath::Vec3<Real> SampleGgxHalf(const Imath::Vec3<Real>& v, Real alpha_x, Real alpha_y, Real u0,
+                                Real u1) {
+  const Imath::Vec3<Real> scaled(alpha_x * v.x, alpha_y * v.y, std::max(v.z, Real(0)));
   // The length is above 0 except for v = -n, which has no azimuth: samples are then distributed
   // evenly about n.
   const Real length = std::max(scaled.length(), std::numeric_limits<Real>::min());
@@ -56,9 +55,19 @@ Imath::Vec3<Real> SampleGgxVisible(const Imath::Vec3<Real>& normal,
   const Real one_plus_z = half_z + across_squared / std::max(length * (length + scaled.z),
                                                              std::numeric_limits<Real>::min());
   const Real sin = std::sqrt(one_minus_z * one_plus_z);
-  const Imath::Vec3<Real> half(alpha * (sin * std::cos(phi) + squeezed.x),
-                               alpha * (sin * std::sin(phi) + squeezed.y), half_z);
-  return Mirrored(to_view, basis.ToWorld(half.normalized()));
+  const Imath::Vec3<Real> half(alpha_x * (sin * std::cos(phi) + squeezed.x),
+                               alpha_y * (sin * std::sin(phi) + squeezed.y), half_z);
+  return half.normalized();
+}
+
+// Samples the direction to light of an isotropic lobe.
+template <typename Real>
+Imath::Vec3<Real> SampleGgxVisible(const Imath::Vec3<Real>& normal,
+                                   const Imath::Vec3<Real>& to_view, Real alpha, Real u0, Real u1) {
+  if (IsDeltaLobe(alpha)) return Mirrored(to_view, normal);
+  const Basis<Real> basis = BasisAbout(normal);
+  const Imath::Vec3<Real> half = SampleGgxHalf(basis.ToLocal(to_view), alpha, alpha, u0, u1);
+  return Mirrored(to_view, basis.ToWorld(half));
 }
 
 // D(h) G1(v) / (4 n.v) = D / (2 (n.v + root)), finite at grazing angles. 0 for a delta lobe.
