@@ -475,6 +475,38 @@ struct MicrofacetTerms {
   std::array<std::vector<double>, 3> f;
 };
 
+// Numbers with named columns, row by row: the values of a BRDF over pairs of directions, of nacre
+// or of another program.
+struct Table {
+  std::string header;  // a JSON object that says what the numbers depend on; may be empty
+  std::vector<std::string> columns;
+  std::vector<double> values;  // columns.size() for each row
+};
+
+// Angles in degrees: of light and view from the normal +z, and of the light about it, counted from
+// the view, which itself is at an azimuth from the tangent +x.
+struct TableGrid {
+  std::vector<double> light{0, 15, 30, 45, 60, 75, 85, 89};
+  std::vector<double> view{0, 15, 30, 45, 60, 75, 85, 89};
+  std::vector<double> phi{0, 45, 90, 135, 165, 175, 180};
+  double view_phi = 30;
+};
+
+// All pairs of directions of a grid: the columns light_x, light_y, light_z, view_x, view_y, view_z.
+NACRE_API Table TableDirections(const TableGrid& grid = {});
+
+// A table as a file: .csv, .json or .npy. Each double is read as it was written. The header of a
+// .npy file is in a second one, FILE.npy.json. ReadTable takes the files of other programs as well.
+NACRE_API Table ReadTable(const std::string& path);
+NACRE_API void WriteTable(const Table& table, const std::string& path);
+
+// What is wrong with the table of another program.
+struct TableCheck {
+  bool ok = false;   // all values are finite and within the tolerance
+  std::string page;  // for people: where it differs, by how much, and what explains it
+  std::string json;  // the same for programs
+};
+
 // A material without maps, emission and ambient light, for measurements and for other renderers.
 // The lobe of a perfect mirror (roughness below 2^-20) is omitted.
 class NACRE_API Brdf {
@@ -509,6 +541,19 @@ class NACRE_API Brdf {
 
   // Throws Error for models without a microfacet lobe. Below the surface, all terms are 0.
   MicrofacetTerms Terms(const Directions& directions) const;
+
+  // Evaluates the pairs of directions of a table, whose other columns are not read. The columns
+  // are these directions, f in 1/sr without n.l, what each lobe contributes to it, the pdf of
+  // Sample, and the directional albedo, unless it is left out. The normal is +z. Throws Error for
+  // directions that are not unit vectors.
+  Table Tabulate(const Table& directions, bool albedo = true) const;
+
+  // Compares a table of another program, with columns light_x ... view_z and f_r, f_g, f_b, with
+  // the values of this model. Tries the mistakes that implementers make, and says which one
+  // explains the differences. `name` is the table's name in messages. The tolerance is that of a
+  // difference relative to the larger of both values. Throws Error for what is no such table.
+  TableCheck CheckTable(const Table& theirs, double tolerance = 1e-3,
+                        const std::string& name = "table") const;
 
  private:
   struct Impl;

@@ -8,22 +8,32 @@
 #include <fmt/format.h>
 
 #include "api/scene_impl.h"
+#include "api/table.h"
 #include "base/float_mode.h"
 #include "brdf/fresnel.h"
 #include "brdf/ggx.h"
 #include "shading/bsdf.h"
 #include "shading/scalar_bsdf.h"
 #include "shading/share.h"
+#include "table/brdf_table.h"
+#include "table/check_table.h"
+#include "table/read_table.h"
 
 namespace nacre::v0 {
 
 struct Brdf::Impl {
   ShadingMaterial material;
+  nacre::Material source;  // what it was prepared from
 };
 
 namespace {
 
-ShadingMaterial Prepare(const Scene& scene, const std::string& name) {
+struct Prepared {
+  ShadingMaterial material;
+  nacre::Material source;
+};
+
+Prepared Prepare(const Scene& scene, const std::string& name) {
   const std::shared_ptr<const nacre::Scene> made = scene.impl().Made();
   for (const nacre::Material& material : made->materials) {
     if (material.name != name) continue;
@@ -34,7 +44,7 @@ ShadingMaterial Prepare(const Scene& scene, const std::string& name) {
     }
     // Maps need a place on a shape; without one, the model has its constant factors only.
     DropMaps(&prepared);
-    return prepared;
+    return {std::move(prepared), material};
   }
   throw nacre::Error(
       ExitCode::kUsage, "Brdf", "unknown material \"" + name + "\"",
@@ -175,19 +185,25 @@ Brdf::Brdf(const std::string& model, const Parameters& parameters) {
     material.insert(material.end(), parameters.begin(), parameters.end());
     Scene scene;
     scene.AddMaterial("material", material);
-    return std::make_shared<const Impl>(Impl{Prepare(scene, "material")});
+    Prepared prepared = Prepare(scene, "material");
+    return std::make_shared<const Impl>(
+        Impl{std::move(prepared.material), std::move(prepared.source)});
   });
 }
 
 Brdf::Brdf(const Scene& scene, const std::string& material) {
-  impl_ = AtBorder([&] { return std::make_shared<const Impl>(Impl{Prepare(scene, material)}); });
+  impl_ = AtBorder([&] {
+    Prepared prepared = Prepare(scene, material);
+    return std::make_shared<const Impl>(
+        Impl{std::move(prepared.material), std::move(prepared.source)});
+  });
 }
 
 Brdf::Brdf(const UserBrdf& brdf) {
   impl_ = AtBorder([&] {
     nacre::Material material;
     material.user = ToOwn(brdf, "Brdf");
-    return std::make_shared<const Impl>(Impl{PrepareMaterial(material)});
+    return std::make_shared<const Impl>(Impl{PrepareMaterial(material), material});
   });
 }
 
@@ -271,6 +287,25 @@ Rgb Brdf::Albedo(double n_dot_v) const {
                          "it is above 0, up to 1");
     }
     return ToPublic(ReflectedShare(impl_->material, ShareOf::kFurnace, n_dot_v));
+  });
+}
+
+Table Brdf::Tabulate(const Table& directions, bool albedo) const {
+  return AtBorder([&] {
+    const std::vector<DirectionPair> pairs = DirectionsOf(ToOwn(directions), "Brdf::Tabulate");
+    return ToPublic(TabulateBrdf(impl_->source, pairs, {.albedo = albedo}));
+  });
+}
+
+TableCheck Brdf::CheckTable(const Table& theirs, double tolerance, const std::string& name) const {
+  return AtBorder([&]() -> TableCheck {
+    if (!(tolerance >= 0)) {
+      throw nacre::Error(ExitCode::kUsage, "Brdf::CheckTable",
+                         fmt::format("the tolerance is {}", tolerance), "it is not below 0");
+    }
+    const nacre::TableCheck check =
+        nacre::CheckTable(impl_->source, ToOwn(theirs), name, tolerance);
+    return {check.ok, PageOf(check), JsonText(CheckJson(check))};
   });
 }
 

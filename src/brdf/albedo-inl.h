@@ -137,12 +137,12 @@ HWY_INLINE V AlbedoSchlick(D d, const Fit& fit, V albedo_one, const AlbedoVariab
   return AlbedoNearMirror(d, fit, fit.schlick, mirror, albedo_one, x);
 }
 
-// The albedo for the exact Fresnel curve of the fit's index, from E.
+// The albedo for the exact Fresnel curve of the fit, from E.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V AlbedoFresnel(D d, const FresnelAlbedoFit& fit, V albedo_one,
                            const AlbedoVariablesV<V>& x) {
   const V one_minus_mu = hn::Sub(hn::Set(d, 1.0f), x.n_dot_v);
-  const V mirror = FresnelDielectric(d, x.n_dot_v, one_minus_mu, hn::Set(d, fit.eta));
+  const V mirror = FresnelCoatedDielectric(d, x.n_dot_v, one_minus_mu, fit.curve);
   return AlbedoNearMirror(d, fit.lobe, fit.fresnel, mirror, albedo_one, x);
 }
 

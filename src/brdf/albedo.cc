@@ -54,12 +54,13 @@ AlbedoFit MakeAlbedoFit(Shadowing shadowing, double roughness) {
   return fit;
 }
 
-FresnelAlbedoFit MakeDielectricAlbedoFit(Shadowing shadowing, double roughness, double eta) {
+FresnelAlbedoFit MakeDielectricAlbedoFit(Shadowing shadowing, double roughness,
+                                         const CoatedDielectric<double>& base) {
   FresnelAlbedoFit fit;
   fit.lobe = MakeAlbedoFit(shadowing, roughness);
-  fit.eta = static_cast<float>(eta);
+  fit.curve = base;
   const auto curve = [&](double v_dot_h, double one_minus_vh) {
-    return FresnelDielectric(v_dot_h, one_minus_vh, eta);
+    return FresnelCoatedDielectric(v_dot_h, one_minus_vh, base);
   };
   std::array<double, kAlbedoTerms> values{};  // 0 for a mirror
   for (int i = 0; i < kAlbedoTerms && fit.lobe.shape.offset > 0; ++i) {
@@ -76,14 +77,14 @@ FresnelAlbedoFit MakeDielectricAlbedoFit(Shadowing shadowing, double roughness, 
   return fit;
 }
 
-DielectricCurves MakeDielectricCurves(Shadowing shadowing, double eta) {
+DielectricCurves MakeDielectricCurves(Shadowing shadowing, const CoatedDielectric<double>& curve) {
   DielectricCurves curves;
   curves.fresnel.reserve(kAlbedoIntervals + 1);
   curves.average.reserve(kAlbedoIntervals + 1);
   for (int i = 0; i <= kAlbedoIntervals; ++i) {
     // A mirror has no curve. That of the next roughness is near the limit for roughness 0.
     const double root = std::max(i, 1) / static_cast<double>(kAlbedoIntervals);
-    const FresnelAlbedoFit fit = MakeDielectricAlbedoFit(shadowing, root * root, eta);
+    const FresnelAlbedoFit fit = MakeDielectricAlbedoFit(shadowing, root * root, curve);
     curves.fresnel.push_back(fit.fresnel);
     curves.average.push_back(fit.average);
   }

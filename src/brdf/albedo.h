@@ -31,27 +31,28 @@ AlbedoFit MakeAlbedoFit(Shadowing shadowing, double roughness);
 // MakeAlbedoFit without the averages, whose logarithm is most of the work.
 AlbedoFit BlendAlbedoCurves(Shadowing shadowing, double roughness);
 
-// An AlbedoFit with a third curve, for the exact Fresnel curve of a dielectric.
+// An AlbedoFit with a third curve, for the exact Fresnel curve of a dielectric, coated or not.
 struct FresnelAlbedoFit {
   AlbedoFit lobe;
   AlbedoPolynomial fresnel{};
-  float eta = 1;
+  CoatedDielectric<double> curve;
   double average = 0;  // 2 int of the albedo mu dmu
 };
 
 // eta >= 1: light arrives from the optically thinner side. (From the denser side, total reflection
 // sets in at a corner that a polynomial cannot follow.) Computed by quadrature, in about half a
 // millisecond.
-FresnelAlbedoFit MakeDielectricAlbedoFit(Shadowing shadowing, double roughness, double eta);
+FresnelAlbedoFit MakeDielectricAlbedoFit(Shadowing shadowing, double roughness,
+                                         const CoatedDielectric<double>& curve);
 
-// The third curve of FresnelAlbedoFit, and its average, for one index at all roughnesses of
+// The third curve of FresnelAlbedoFit, and its average, for one curve at all roughnesses of
 // brdf/albedo_table.h. Hits that have a roughness each blend theirs from four of these.
 // MakeDielectricCurves takes some tens of milliseconds.
 struct DielectricCurves {
   std::vector<AlbedoPolynomial> fresnel;
   std::vector<double> average;
 };
-DielectricCurves MakeDielectricCurves(Shadowing shadowing, double eta);
+DielectricCurves MakeDielectricCurves(Shadowing shadowing, const CoatedDielectric<double>& curve);
 
 // The third curve of one roughness, and its average.
 struct DielectricCurve {
@@ -99,11 +100,14 @@ Real AlbedoSchlick(const AlbedoFit& fit, Real n_dot_v) {
   return AlbedoNearMirror(fit, fit.schlick, Power5(1 - mu), mu);
 }
 
-// The albedo for the exact Fresnel curve of the fit's index.
+// The albedo for the exact Fresnel curve of the fit.
 template <typename Real>
 Real AlbedoFresnel(const FresnelAlbedoFit& fit, Real n_dot_v) {
   const Real mu = std::min(std::max(n_dot_v, static_cast<Real>(kLeastAlbedoCosine)), Real(1));
-  const Real mirror = FresnelDielectric(mu, 1 - mu, static_cast<Real>(fit.eta));
+  const CoatedDielectric<Real> curve{
+      static_cast<Real>(fit.curve.eta), static_cast<Real>(fit.curve.coat),
+      static_cast<Real>(fit.curve.eta_in_coat), static_cast<Real>(fit.curve.inverse_coat_eta)};
+  const Real mirror = FresnelCoatedDielectric(mu, 1 - mu, curve);
   return AlbedoNearMirror(fit.lobe, fit.fresnel, mirror, n_dot_v);
 }
 

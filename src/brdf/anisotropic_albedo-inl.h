@@ -40,6 +40,13 @@ struct AnisotropicAlbedoFitLanes {
   AlbedoPolynomialsLanes<kWidthTerms> streak;
 };
 
+// An AnisotropicFresnelCurve for each lane, all of one dielectric.
+struct AnisotropicFresnelCurveLanes {
+  AlbedoPolynomialsLanes<kShareTerms> wider;
+  AlbedoPolynomialsLanes<kStreakTerms> streak;
+  float bend;
+};
+
 template <class V>
 struct AnisotropicAlbedoVariablesV {
   V z, share, width, n_dot_x, factor, rest;
@@ -50,6 +57,13 @@ HWY_INLINE AnisotropicAlbedoVariablesV<V> ComputeAlbedoVariables(D d, const Shap
                                                                  V t_dot_x, V b_dot_x) {
   const V one = hn::Set(d, 1.0f);
   const V tiny = hn::Set(d, std::numeric_limits<float>::min());
+  const V length2 = hn::MulAdd(t_dot_x, t_dot_x, hn::Mul(b_dot_x, b_dot_x));
+  const auto below = hn::Lt(n_dot_x, hn::Zero(d));
+  const auto upright = hn::And(below, hn::Le(length2, tiny));
+  const V lengthen =
+      hn::IfThenElse(below, hn::Div(one, SquareRoot(d, hn::Max(length2, tiny))), one);
+  t_dot_x = hn::IfThenElse(upright, one, hn::Mul(t_dot_x, lengthen));
+  b_dot_x = hn::Mul(b_dot_x, lengthen);
   const V n = hn::Min(hn::Max(n_dot_x, hn::Set(d, static_cast<float>(kLeastAlbedoCosine))), one);
   const V n2 = hn::Mul(n, n);
   const V x = hn::Mul(AlbedoNumber(d, shape.alpha_x), t_dot_x);
@@ -112,6 +126,21 @@ HWY_INLINE V AlbedoSchlick(D d, const Fit& fit, V albedo_one,
   const V streak = EvaluateAlbedoPolynomials<kWidthTerms>(d, fit.streak, x.z, x.width);
   const V more = hn::MulAdd(x.width, streak, hn::Mul(x.rest, wider));
   const V albedo = hn::MulAdd(Power5(hn::Sub(one, x.n_dot_x)), albedo_one, more);
+  return hn::Min(hn::Max(albedo, hn::Zero(d)), one);
+}
+
+// The albedo for an exact Fresnel curve, from E and the curve's value at v.h = x.n_dot_x.
+template <class D, class Curve, class V = hn::Vec<D>>
+HWY_INLINE V AlbedoFresnel(D d, const Curve& curve, V albedo_one, V mirror,
+                           const AnisotropicAlbedoVariablesV<V>& x) {
+  const V one = hn::Set(d, 1.0f);
+  const V bend = hn::Set(d, curve.bend);
+  const V twice = hn::Set(d, 2 * (1 + hn::TFromD<D>{curve.bend}));
+  const V u = hn::MulSub(twice, hn::Div(x.width, hn::Add(x.width, bend)), one);
+  const V wider = EvaluateAlbedoPolynomials<kShareTerms>(d, curve.wider, x.z, x.share);
+  const V streak = EvaluateAlbedoPolynomials<kStreakTerms>(d, curve.streak, x.z, u);
+  const V added = hn::MulAdd(x.rest, wider, hn::Mul(x.width, streak));
+  const V albedo = hn::MulAdd(mirror, albedo_one, added);
   return hn::Min(hn::Max(albedo, hn::Zero(d)), one);
 }
 

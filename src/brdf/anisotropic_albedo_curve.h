@@ -28,6 +28,8 @@ namespace nacre {
 inline constexpr int kKappaTerms = 14;
 inline constexpr int kShareTerms = 7;
 inline constexpr int kWidthTerms = 5;
+// Terms in the StreakVariable of an exact Fresnel curve.
+inline constexpr int kStreakTerms = 8;
 
 // The largest alpha of the fit: that of OpenPBR at roughness 1 and anisotropy 1.
 inline constexpr double kLargestAlbedoAlpha = 1.4142135623730951;
@@ -36,6 +38,7 @@ inline constexpr double kLargestAlbedoAlpha = 1.4142135623730951;
 using KappaPolynomial = std::array<float, kKappaTerms>;
 using SharePolynomial = std::array<KappaPolynomial, kShareTerms>;
 using WidthPolynomial = std::array<KappaPolynomial, kWidthTerms>;
+using StreakPolynomial = std::array<KappaPolynomial, kStreakTerms>;
 
 // The parameters of the variables besides the direction.
 struct AnisotropicAlbedoShape {
@@ -82,6 +85,13 @@ AnisotropicAlbedoVariables<Real> ComputeAlbedoVariables(const AnisotropicAlbedoS
                                                         Real n_dot_x, Real t_dot_x, Real b_dot_x) {
   const Real n = std::min(std::max(n_dot_x, static_cast<Real>(kLeastAlbedoCosine)), Real(1));
   const Real tiny = std::numeric_limits<float>::min();
+  if (n_dot_x < 0) {
+    // A direction below the surface counts as the grazing one of its azimuth.
+    const Real across2 = t_dot_x * t_dot_x + b_dot_x * b_dot_x;
+    const Real scale = 1 / std::sqrt(std::max(across2, tiny));
+    t_dot_x = across2 > tiny ? t_dot_x * scale : Real(1);
+    b_dot_x *= scale;
+  }
   const Real x = shape.alpha_x * t_dot_x, y = shape.alpha_y * b_dot_x;
   const Real rho2 = x * x + y * y;
   const Real normal2 = shape.mean_square * (n * n);
@@ -97,6 +107,13 @@ AnisotropicAlbedoVariables<Real> ComputeAlbedoVariables(const AnisotropicAlbedoS
           n,
           layer * layer * (1 + normal2 / k2),
           1 - shape.streak * width2};
+}
+
+// Exact Fresnel curves bend within a cosine of `bend` from grazing incidence, and polynomials in
+// the width w would need many terms to follow. In w / (w + bend) they need few.
+template <typename Real>
+Real StreakVariable(Real bend, Real width) {
+  return 2 * (1 + bend) * width / (width + bend) - 1;
 }
 
 // Sums of monomials by Horner's rule.

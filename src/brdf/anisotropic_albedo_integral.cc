@@ -27,23 +27,27 @@ struct Setup {
   Vec3d view;
   double view_root;
   Vec3d q;
+  const FresnelFunction* fresnel;  // null without a function
 };
 
 // The axes are named so that rows cross the horizon rather than run along it: the horizon's normal
 // has components of about alpha times the view's cosines. By symmetry the view's components count
 // as positive.
-Setup MakeSetup(GgxAlphas<double> alpha, const Vec3d& view) {
+Setup MakeSetup(GgxAlphas<double> alpha, const Vec3d& view, const FresnelFunction* fresnel) {
   Vec3d v(std::abs(view.x), std::abs(view.y), std::max(view.z, kLeastCosine));
   if (alpha.x * std::hypot(v.x, v.z) < alpha.y * std::hypot(v.y, v.z)) {
     std::swap(alpha.x, alpha.y);
     std::swap(v.x, v.y);
   }
   const double root = SmithRoot(v.z, v.x, v.y, alpha);
-  return {alpha, v, root, Vec3d(alpha.x * v.x, alpha.y * v.y, v.z) / root};
+  return {alpha, v, root, Vec3d(alpha.x * v.x, alpha.y * v.y, v.z) / root, fresnel};
 }
 
-void AddLight(const Setup& setup, const Vec3d& h, double weight,
-              std::array<AnisotropicAlbedo, 2>* sum) {
+struct Light {
+  double v_dot_h, one_minus_vh;
+  std::array<double, 2> kept, lost;  // G2 / G1(v), and what it is short of 1
+};
+Light LightOf(const Setup& setup, const Vec3d& h) {
   const Vec3d half = h.normalized();
   const double v_dot_h = setup.view ^ half;
   const Vec3d l = half * (2 * v_dot_h) - setup.view;
@@ -53,14 +57,23 @@ void AddLight(const Setup& setup, const Vec3d& h, double weight,
   const double root = std::sqrt(n_dot_l * n_dot_l + spread);
   const double sum_l = n_dot_l + root;
   const double both = n_dot_l * setup.view_root + n_dot_v * root;
-  // G2 / G1(v), and what it is short of 1: root - n.l is spread / sum_l.
-  const double kept[] = {n_dot_l * (n_dot_v + setup.view_root) / both, 2 * n_dot_l / sum_l};
-  const double lost[] = {n_dot_v * spread / (sum_l * both), spread / (sum_l * sum_l)};
-  const double one_minus_vh = (setup.view % half).length2() / (1 + v_dot_h);
+  // What G2 / G1(v) is short of 1: root - n.l is spread / sum_l.
+  return {v_dot_h,
+          (setup.view % half).length2() / (1 + v_dot_h),
+          {n_dot_l * (n_dot_v + setup.view_root) / both, 2 * n_dot_l / sum_l},
+          {n_dot_v * spread / (sum_l * both), spread / (sum_l * sum_l)}};
+}
+
+void AddLight(const Setup& setup, const Vec3d& h, double weight,
+              std::array<AnisotropicAlbedo, 2>* sum) {
+  const Light light = LightOf(setup, h);
+  const double fresnel =
+      setup.fresnel != nullptr ? (*setup.fresnel)(light.v_dot_h, light.one_minus_vh) : 0;
   for (size_t form = 0; form < 2; ++form) {
-    (*sum)[form].loss += weight * lost[form];
-    double term = weight * kept[form];
-    for (double& power : (*sum)[form].powers) power += term *= one_minus_vh;
+    (*sum)[form].loss += weight * light.lost[form];
+    (*sum)[form].fresnel += weight * light.kept[form] * fresnel;
+    double term = weight * light.kept[form];
+    for (double& power : (*sum)[form].powers) power += term *= light.one_minus_vh;
   }
 }
 
@@ -190,8 +203,9 @@ double UnlitBeyond(const Vec3d& q, const Roots& ends) {
 }  // namespace
 
 std::array<AnisotropicAlbedo, 2> IntegrateAlbedos(const GgxAlphas<double>& alpha, const Vec3d& view,
-                                                  const AnisotropicQuadrature& rule) {
-  const Setup setup = MakeSetup(alpha, view);
+                                                  const AnisotropicQuadrature& rule,
+                                                  const FresnelFunction& fresnel) {
+  const Setup setup = MakeSetup(alpha, view, fresnel ? &fresnel : nullptr);
   const Vec3d& v = setup.view;
   // The density of normals, (X q.x + Y q.y + q.z) / (1 + X^2 + Y^2)^2, integrates to this.
   const double norm = M_PI_2 * (1 + setup.q.z);
@@ -216,6 +230,33 @@ std::array<AnisotropicAlbedo, 2> IntegrateAlbedos(const GgxAlphas<double>& alpha
   unlit += UnlitBeyond(setup.q, ends) / norm;
   for (AnisotropicAlbedo& albedo : sum) albedo.loss += unlit;
   return sum;
+}
+
+// The density of normals, integrated over Y, is (X q.x + q.z) / (1 + X^2)^(3/2), in xi = atan(X)
+// the cosine to q.
+std::vector<StreakPoint> StreakQuadrature(double alpha_x, double kappa) {
+  const double n = 1 / std::hypot(1.0, kappa / alpha_x);
+  const Setup setup = MakeSetup({alpha_x, 0}, {kappa / alpha_x * n, 0, n}, nullptr);
+  const Vec3d &v = setup.view, &q = setup.q;
+  std::vector<StreakPoint> points;
+  const auto add = [&](double xi, double length) {
+    const double sin = std::sin(xi), cos = std::cos(xi);
+    const Light light = LightOf(setup, {alpha_x * sin, 0, cos});
+    const double weight = length * (sin * q.x + cos * q.z) / (1 + q.z);
+    points.push_back(
+        {light.v_dot_h, light.one_minus_vh, {weight * light.kept[0], weight * light.kept[1]}});
+  };
+  const QuadratureRule& gauss = GaussLegendre(8);
+  const Roots x = Solve(v.z * alpha_x * alpha_x, alpha_x * v.x, v.z);
+  const double low = std::atan(x.low), high = std::atan(x.high);
+  const double finest = std::min(1e-3 * (high - low) / 2, std::max(q.z / 2, 1e-9));
+  // As the middle row of IntegrateAlbedos: panels grow from both horizons and from X = 0, which is
+  // between them.
+  ForPanels(low, low / 2, finest, gauss, add);
+  ForPanels(0, low / 2, finest, gauss, add);
+  ForPanels(0, high / 2, finest, gauss, add);
+  ForPanels(high, high / 2, finest, gauss, add);
+  return points;
 }
 
 }  // namespace nacre

@@ -9,6 +9,7 @@
 
 #include "base/target_ops-inl.h"
 #include "brdf/angles-inl.h"
+#include "brdf/fresnel.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre::HWY_NAMESPACE {
@@ -64,6 +65,24 @@ HWY_INLINE V FresnelDielectric(D d, V v_dot_h, V one_minus_vh, V eta) {
       hn::Div(hn::Mul(contrast, hn::Sub(hn::Mul(eta2, cos2), sin2)), hn::Mul(root_p, root_p));
   const V mean = hn::Mul(hn::MulAdd(s, s, hn::Mul(p, p)), hn::Set(d, hn::TFromD<D>(0.5)));
   return hn::IfThenElse(partial, mean, one);
+}
+
+// The curve of a dielectric base of which a coat covers a fraction, the same for all lanes.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V FresnelCoatedDielectric(D d, V v_dot_h, V one_minus_vh,
+                                     const CoatedDielectric<double>& base) {
+  const auto set = [&](double number)
+                       HWY_ATTR { return hn::Set(d, static_cast<hn::TFromD<D>>(number)); };
+  const V one = set(1);
+  const V in_air = FresnelDielectric(d, v_dot_h, one_minus_vh, set(base.eta));
+  if (!(base.coat > 0)) return in_air;
+  const V inverse2 = set(base.inverse_coat_eta * base.inverse_coat_eta);
+  const V sin2 = hn::Mul(hn::MulAdd(one_minus_vh, v_dot_h, one_minus_vh), inverse2);
+  const V cos = hn::Sqrt(hn::Max(hn::Sub(one, sin2), hn::Zero(d)));
+  const V refracted =
+      FresnelDielectric(d, cos, hn::Div(sin2, hn::Add(one, cos)), set(base.eta_in_coat));
+  const V in_coat = hn::IfThenElseZero(hn::Lt(sin2, one), refracted);
+  return hn::MulAdd(set(base.coat), hn::Sub(in_coat, in_air), in_air);
 }
 
 // Fresnel's equations of a conductor, eta + i k, from vacuum.

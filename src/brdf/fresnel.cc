@@ -22,6 +22,16 @@ double AverageDielectric(double eta) {
                      });
 }
 
+double AverageDielectric(const CoatedDielectric<double>& base) {
+  const double in_air = AverageDielectric(base.eta);
+  if (!(base.coat > 0)) return in_air;
+  CoatedDielectric<double> covered = base;
+  covered.coat = 1;
+  const double in_coat = IntegrateTowardsZero(
+      [&](double c) { return 2 * c * FresnelCoatedDielectric(c, 1 - c, covered); });
+  return in_air + base.coat * (in_coat - in_air);
+}
+
 double AverageConductor(double eta, double k) {
   return IntegrateTowardsZero([&](double c) { return 2 * c * FresnelConductor(c, 1 - c, eta, k); });
 }

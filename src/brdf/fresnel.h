@@ -79,6 +79,30 @@ Real FresnelDielectric(Real v_dot_h, Real one_minus_vh, Real eta) {
   return contrast * contrast * (s * s + p * p) / 2;
 }
 
+// Fresnel's curve of a dielectric base of which a coat covers the fraction `coat`: the reflectance
+// in air, of the relative index `eta`, and below the coat, of the relative index `eta_in_coat`, to
+// which light comes refracted by the coat, whose index is 1 / inverse_coat_eta [Coat / Total
+// internal reflection].
+template <typename Real>
+struct CoatedDielectric {
+  Real eta = 1;
+  Real coat = 0;  // in [0, 1]
+  Real eta_in_coat = 1, inverse_coat_eta = 1;
+};
+
+template <typename Real>
+Real FresnelCoatedDielectric(Real v_dot_h, Real one_minus_vh, const CoatedDielectric<Real>& base) {
+  const Real in_air = FresnelDielectric(v_dot_h, one_minus_vh, base.eta);
+  if (!(base.coat > 0)) return in_air;
+  const Real sin2 = one_minus_vh * (1 + v_dot_h) * base.inverse_coat_eta * base.inverse_coat_eta;
+  Real in_coat = 0;  // where a coat that is thinner than air reflects all light itself
+  if (sin2 < 1) {
+    const Real cos = std::sqrt(1 - sin2);
+    in_coat = FresnelDielectric(cos, sin2 / (1 + cos), base.eta_in_coat);
+  }
+  return in_air + base.coat * (in_coat - in_air);
+}
+
 // Fresnel's equations, unpolarised, for a conductor of index eta + i k seen from vacuum, with
 // (a + i b)^2 = (eta + i k)^2 - sin^2 (Born and Wolf, 14.2). The smaller of a^2 and b^2 follows
 // from a b = eta k, and the numerators are sums of squares: nothing cancels.
@@ -142,6 +166,7 @@ Real AverageF82(Real f0, Real slope) {
 
 // Computed by quadrature, to 1e-12.
 double AverageDielectric(double eta);
+double AverageDielectric(const CoatedDielectric<double>& base);
 double AverageConductor(double eta, double k);
 
 }  // namespace nacre

@@ -21,6 +21,7 @@ void AddReportCommand(CLI::App* app, int* exit_code);
 void AddExplainCommand(CLI::App* app, int* exit_code);
 void AddPlotCommand(CLI::App* app, int* exit_code);
 void AddStudyCommand(CLI::App* app, int* exit_code);
+void AddTableCommand(CLI::App* app, int* exit_code);
 void AddViewCommand(CLI::App* app, int* exit_code);  // unless NACRE_VIEW is off
 void AddDocsCommand(CLI::App* app, int* exit_code);
 

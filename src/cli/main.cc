@@ -93,6 +93,7 @@ constexpr auto kCommands = std::to_array<Command>({
     {"report", nacre::AddReportCommand},
     {"explain", nacre::AddExplainCommand},
     {"plot", nacre::AddPlotCommand},
+    {"table", nacre::AddTableCommand},
     {"study", nacre::AddStudyCommand},
 });
 

@@ -8,6 +8,7 @@
 #include <pybind11/stl.h>
 
 #include "python/module.h"
+#include "python/table.h"
 
 namespace nacre_python {
 namespace {
@@ -158,6 +159,21 @@ void BindBrdfs(py::module_* module) {
                }
              }
              return ArrayOf(result);
+           })
+      .def("tabulate",
+           [](const nacre::Brdf& brdf, const std::vector<std::string>& columns,
+              const TableRows& values, bool albedo) {
+             const nacre::Table directions = TableOf("", columns, values);
+             return ToPython(Unlocked([&] { return brdf.Tabulate(directions, albedo); }));
+           })
+      .def("check_table",
+           [](const nacre::Brdf& brdf, const std::string& header,
+              const std::vector<std::string>& columns, const TableRows& values, double tolerance,
+              const std::string& name) {
+             const nacre::Table theirs = TableOf(header, columns, values);
+             const nacre::TableCheck found =
+                 Unlocked([&] { return brdf.CheckTable(theirs, tolerance, name); });
+             return py::make_tuple(found.ok, TextOf(found.page), TextOf(found.json));
            })
       .def("terms", [](const nacre::Brdf& brdf, const Planes& n, const Planes& v, const Planes& l) {
         const nacre::Directions directions = DirectionsOf(n, v, l);

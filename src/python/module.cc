@@ -55,4 +55,5 @@ PYBIND11_MODULE(_nacre, module) {
   BindImages(&module);
   BindScenes(&module);
   BindBrdfs(&module);
+  BindTables(&module);
 }

@@ -19,6 +19,7 @@ namespace nacre_python {
 void BindImages(py::module_* module);
 void BindScenes(py::module_* module);
 void BindBrdfs(py::module_* module);
+void BindTables(py::module_* module);
 
 // A scene and the calls that work on it.
 struct Scene {

@@ -58,6 +58,9 @@ LayerValues ValuesShown(const Layer& layer, const ShadingMaterial& constants,
       return {.constant = RoundToFloat(constants.albedo)};
     case LayerKind::kLight:
       return {.values = &s.radiance.per_light[layer.number]};
+    case LayerKind::kTangent:
+      if (!constants.by_hit.tangent) return {};
+      return {.values = &s.surfaces.surface.tangent};
     default:
       return {.values = &s.surfaces.surface.normal};
   }

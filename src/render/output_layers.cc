@@ -15,12 +15,19 @@ namespace {
 // Every layer that the scene has, in the order of files; the lights' layers are the last.
 std::vector<Layer> AllLayers(const Scene& scene) {
   std::vector<Layer> layers = {
-      {LayerKind::kBeauty, "beauty"},      {LayerKind::kAlpha, "alpha"},
-      {LayerKind::kDiffuse, "diffuse"},    {LayerKind::kSpecular, "specular"},
-      {LayerKind::kAmbient, "ambient"},    {LayerKind::kEmission, "emission"},
-      {LayerKind::kAlbedo, "albedo"},      {LayerKind::kNormal, "N"},
-      {LayerKind::kPosition, "P"},         {LayerKind::kDepth, "Z"},
-      {LayerKind::kObjectId, "id.object"}, {LayerKind::kMaterialId, "id.material"},
+      {LayerKind::kBeauty, "beauty"},
+      {LayerKind::kAlpha, "alpha"},
+      {LayerKind::kDiffuse, "diffuse"},
+      {LayerKind::kSpecular, "specular"},
+      {LayerKind::kAmbient, "ambient"},
+      {LayerKind::kEmission, "emission"},
+      {LayerKind::kAlbedo, "albedo"},
+      {LayerKind::kNormal, "N"},
+      {LayerKind::kTangent, "T"},
+      {LayerKind::kPosition, "P"},
+      {LayerKind::kDepth, "Z"},
+      {LayerKind::kObjectId, "id.object"},
+      {LayerKind::kMaterialId, "id.material"},
   };
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
@@ -67,7 +74,7 @@ int LightLayer(const std::vector<Layer>& layers, size_t light) {
   return found == layers.end() ? -1 : static_cast<int>(found->number);
 }
 
-bool IsAveraged(LayerKind kind) { return kind <= LayerKind::kNormal; }
+bool IsAveraged(LayerKind kind) { return kind <= LayerKind::kTangent; }
 
 int FloatChannels(LayerKind kind) {
   switch (kind) {
@@ -88,10 +95,11 @@ std::vector<ChannelSpec> LayerChannels(const Layer& layer, PixelType color_type)
   if (FloatChannels(kind) == 0) return {{layer.name, PixelType::kUint}};
   const bool nameless = kind == kBeauty || kind == kAlpha || kind == kDepth;
   const std::string prefix = nameless ? "" : layer.name + ".";
-  const std::string_view letters = kind == kAlpha                         ? "A"
-                                   : kind == kDepth                       ? "Z"
-                                   : kind == kNormal || kind == kPosition ? "XYZ"
-                                                                          : "RGB";
+  const std::string_view letters = kind == kAlpha   ? "A"
+                                   : kind == kDepth ? "Z"
+                                   : kind == kNormal || kind == kTangent || kind == kPosition
+                                       ? "XYZ"
+                                       : "RGB";
   std::vector<ChannelSpec> channels;
   for (const char letter : letters) {
     channels.push_back({prefix + letter, IsAveraged(kind) ? color_type : PixelType::kFloat});

@@ -21,6 +21,7 @@ enum class LayerKind : uint8_t {
   kAlbedo,    // diffuse reflectance or base colour
   kLight,     // light.<name>: diffuse and specular reflection of one light
   kNormal,    // N: world-space shading normal, averaged
+  kTangent,   // T: the same of anisotropic lobes; 0 of others
   // The rest cannot be averaged: they show the hit nearest to the pixel's centre.
   kPosition,    // P: world space
   kDepth,       // Z: distance along the viewing direction; 0 where nothing is hit

@@ -36,11 +36,9 @@ std::string NameMaterials(const NotedMaterials& of, MaterialTrait trait, const T
 double LobeRoughness(const Material& material) {
   return std::visit(
       [](const auto& model) {
-        if constexpr (requires { model.shadowing; }) {
-          return model.roughness;
-        } else {
-          return 0.0;
-        }
+        if constexpr (requires { model.shadowing; }) return model.roughness;
+        if constexpr (requires { model.specular_roughness; }) return model.specular_roughness;
+        return 0.0;
       },
       material.model);
 }
@@ -49,11 +47,14 @@ double LobeRoughness(const Material& material) {
 // what has an extent. `trait` is kMirror or kCoatMirror.
 void NoteMirrors(const NotedMaterials& of, MaterialTrait trait, std::vector<std::string>* notes) {
   double greatest = 0;
-  std::string_view parameter = "roughness";  // of the greatest
+  std::string_view parameter = "roughness";  // of the last one, or of the coat with the greatest
   int count = 0;
   const std::string names = NameMaterials(of, trait, [&](size_t i) {
     const Material& material = of.scene.materials[i];
-    if (trait == MaterialTrait::kMirror) greatest = std::max(greatest, LobeRoughness(material));
+    if (trait == MaterialTrait::kMirror) {
+      greatest = std::max(greatest, LobeRoughness(material));
+      if (std::holds_alternative<OpenPbrMaterial>(material.model)) parameter = "specular_roughness";
+    }
     for (const Coat& coat : CoatsOf(material)) {
       const double roughness = LobeRoughness(coat.material);
       if (trait == MaterialTrait::kMirror || roughness >= kDeltaRoughness) continue;

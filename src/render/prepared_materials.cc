@@ -81,14 +81,15 @@ void PrepareMaterials(const Scene& scene, bool in_ambient, std::span<const uint3
 }
 
 MaterialTraits ShadowingTrait(const Material& material) {
+  const auto trait = [](Shadowing shadowing) {
+    return static_cast<MaterialTraits>(MaterialTrait::kFirstShadowing)
+           << static_cast<int>(shadowing);
+  };
   return std::visit(
-      [](const auto& model) {
-        if constexpr (requires { model.shadowing; }) {
-          return static_cast<MaterialTraits>(MaterialTrait::kFirstShadowing)
-                 << static_cast<int>(model.shadowing);
-        } else {
-          return MaterialTraits{0};
-        }
+      [&](const auto& model) {
+        if constexpr (requires { model.shadowing; }) return trait(model.shadowing);
+        if constexpr (requires { model.options.smith; }) return trait(model.options.smith);
+        return MaterialTraits{0};
       },
       material.model);
 }

@@ -94,8 +94,9 @@ constexpr SettingKey kSettings[] = {
     {
         .name = "layers",
         .field = &RenderSettings::layers,
-        .meaning = "Layers besides R G B A: diffuse, specular, ambient, emission, albedo, N, P, Z, "
-                   "id.object, id.material, light.NAME, or all",
+        .meaning =
+            "Layers besides R G B A: diffuse, specular, ambient, emission, albedo, N, T, P, Z, "
+            "id.object, id.material, light.NAME, or all",
         .group = SettingGroup::kExrFiles,
         .common = true,
         .library = LibraryUse::kMember,

@@ -243,7 +243,8 @@ void PlanTextures(const Scene& scene, const RenderSettings& settings, const std:
       {"textures", true,
        scene.images.empty()
            ? fmt::format("no shape's material has a map, but of {} materials with coats or layers "
-                         "ambient light and emission are found hit by hit",
+                         "or anisotropic lobes ambient light, emission and tangents are found hit "
+                         "by hit",
                          count)
            : fmt::format("maps on {} materials, those with coats or layers in ambient light "
                          "included: {} images, {:.1f} MiB before their mip levels; a sample's "
@@ -309,18 +310,26 @@ namespace {
 // Attenuates the emission and the reflected ambient light of a hit below a coat, which the radiance
 // of lights does not include, by the coat's transmittance, and adds the ambient light that the coat
 // reflects: its albedo times the radiance.
-void CoverByCoat(const Rgb& ambient, const CoatHits& coat, size_t number, const MaterialRun& run,
-                 HitParameters* below) {
-  const ShadingMaterial& material = *run.shading->coats[number];
-  for (int c = 0; c < 3; ++c) {
-    const AlignedArray<float>& left = ChannelOf(coat.surface.transmittance, c);
-    AlignedArray<float>& reflected = ChannelOf(below->ambient, c);
-    AlignedArray<float>& emission = ChannelOf(below->emission, c);
-    for (size_t i = run.begin; i < run.end; ++i) {
-      const double albedo = 1 - double{left[i]},
-                   transmittance = left[i] * TintAt(material, coat.textures.get(), i)[c];
-      reflected[i] = static_cast<float>(transmittance * reflected[i] + albedo * ambient[c]);
-      emission[i] = static_cast<float>(transmittance * emission[i]);
+void AttenuateByCoat(const Rgb& ambient, const MaterialHits& at, size_t k, HitParameters* below) {
+  const CoatHits& coat = at.coats[k];
+  for (size_t i = at.begin; i < at.end; ++i) {
+    const Rgb albedo = Rgb(1) - Rgb(VectorAt(coat.surface.transmittance, i));
+    const Rgb left = TransmittedAt(at, k, i, NDotV(coat.surface, i));
+    SetVector(left * Rgb(VectorAt(below->ambient, i)) + albedo * ambient, i, &below->ambient);
+    SetVector(left * Rgb(VectorAt(below->emission, i)), i, &below->emission);
+  }
+}
+
+// The same of the layers over all coats. Emission comes from below them.
+void AttenuateByLayers(const Rgb& ambient, const MaterialHits& at, HitParameters* below) {
+  for (const LayerModel& layer : at.material.layers) {
+    if (!LiesOverCoats(layer)) continue;
+    for (size_t i = at.begin; i < at.end; ++i) {
+      const LayerReflection albedo =
+          LayerAlbedo(LayerAtHit(layer, at.Maps(), i), NDotV(at.surface, i));
+      SetVector(Rgb(VectorAt(below->ambient, i)) * albedo.below + albedo.lobe * ambient, i,
+                &below->ambient);
+      SetVector(Rgb(VectorAt(below->emission, i)) * albedo.below, i, &below->emission);
     }
   }
 }
@@ -337,9 +346,12 @@ void PrepareSurfaces(const SurfacePlan& plan, Surfaces* surfaces) {
   for (const MaterialRun& run : LitRuns(s)) {
     PrepareBsdf(*run.shading, run.begin, run.end, s.textures.get(), &s.surface, s.coats);
     if (!run.shading->by_hit.parameters) continue;
+    const MaterialHits at{*run.shading, s.hits,           s.surface, run.begin,
+                          run.end,      s.textures.get(), s.coats};
     for (size_t k = 0; k < run.shading->coats.size(); ++k) {
-      CoverByCoat(plan.textures.ambient, s.coats[k], k, run, s.textures.get());
+      AttenuateByCoat(plan.textures.ambient, at, k, s.textures.get());
     }
+    AttenuateByLayers(plan.textures.ambient, at, s.textures.get());
   }
 }
 

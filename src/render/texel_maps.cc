@@ -13,6 +13,11 @@
 namespace nacre {
 namespace {
 
+// Whether the number is the roughness, or exponent, of a lobe.
+bool IsWidth(MappedNumber number) {
+  return number == MappedNumber::kWidth || number == MappedNumber::kUncoatedWidth;
+}
+
 // Adds the measures by which the texels of a map that multiplies a parameter are compared. Radiance
 // is a linear function of most parameters, so that texels that change the mean by less than half
 // the wanted error do not matter. Dielectric texels among metal may be bright, too, and so may
@@ -27,7 +32,7 @@ void AddMeasures(const MapTarget& target, const Material& material, bool tints, 
     const auto add = [&](TexelMeasure::Kind kind, double number) {
       measures->push_back({kind, channel, number, max_error / 2});
     };
-    const bool is_width = target.number == MappedNumber::kWidth;
+    const bool is_width = IsWidth(target.number);
     const bool is_exponent = is_width && std::holds_alternative<PhongMaterial>(material.model);
     // The height of a microfacet lobe's peak is proportional to its roughness to the power of -4.
     add(kPower, is_width && !is_exponent ? -4 : 1);
@@ -77,7 +82,7 @@ double MeanOfMap(const Scene& scene, TextureId texture, int channel) {
 double LobeWidth(const Scene& scene, const Material& material) {
   for (const MaterialMap& map : ModelOf(material)->maps) {
     for (const MapTarget& target : TargetsOf(map)) {
-      if (target.number != MappedNumber::kWidth) continue;
+      if (!IsWidth(target.number)) continue;
       const TextureId texture = map.get(material);
       const double mapped = texture.valid() ? MeanOfMap(scene, texture, target.channel) : 1;
       const double width = target.factor(material).x * mapped;
@@ -142,7 +147,7 @@ std::shared_ptr<const TexelMaps> FindTexelMaps(const Scene& scene, const LightsP
     AddLooks(scene, material, false, max_error, &looks);
     AddNormals(scene, material, &normals);
     for (const Coat& coat : CoatsOf(material)) {
-      AddLooks(scene, coat.material, coat.tint != Rgb(1), max_error, &looks);
+      AddLooks(scene, coat.material, coat.color != Rgb(1), max_error, &looks);
       AddNormals(scene, coat.material, &normals);
     }
     AddOpacity(scene, material, &opacities);

@@ -42,6 +42,9 @@ inline constexpr Range kUnit{0, 1};
 inline constexpr Range kIor{1, 10};
 inline constexpr Range kEta{0.001, 100};
 inline constexpr Range kExtinction{0, 100};
+// Of OpenPBR, which has no upper limits.
+inline constexpr Range kOpenPbrIor{0.015625, 100};
+inline constexpr Range kOpenPbrWeight{0, 1e6};
 
 inline constexpr Range kFovYDeg{0, 180, true, true};
 inline constexpr Range kImageSide{1, 65536};

@@ -13,9 +13,11 @@ enum class MappedNumber : uint8_t {
   kSpecularColor,  // ks; dielectric_f0
   kSpecular,       // MetallicRoughnessMaterial::specular
   kWidth,          // roughness of lobes; shininess
+  kUncoatedWidth,  // OpenPbrMaterial::specular_roughness, from which kWidth follows
+  kAnisotropy,     // anisotropy; specular_roughness_anisotropy
   kMetallic,
-  kSheenColor,
-  kSheenRoughness,
+  kSheenColor,      // fuzz_color
+  kSheenRoughness,  // fuzz_roughness
   kEmission,
   kCount,
 };

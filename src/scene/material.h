@@ -13,6 +13,7 @@
 #include "brdf/ggx.h"
 #include "scene/handle.h"
 #include "scene/model_options.h"
+#include "scene/open_pbr.h"
 #include "scene/texture.h"
 
 namespace nacre {
@@ -67,12 +68,19 @@ struct MetallicRoughnessMaterial {
   // dip of real metals just before grazing incidence. 1: Schlick's curve itself.
   Rgb f82_tint{1, 1, 1};  // each in [0, 1]
   double roughness = 0.5;
+  // As KHR_materials_anisotropy: the lobe is wider along the tangent, which is turned about the
+  // normal towards the bitangent.
+  double anisotropy = 0;  // in [0, 1]
+  double anisotropy_rotation_deg = 0;
   Shadowing shadowing = Shadowing::kHeightCorrelated;
   Compensation compensation = Compensation::kTurquin;
   DiffuseCoupling diffuse_coupling = DiffuseCoupling::kAlbedoScaled;
   DiffuseForm diffuse = DiffuseForm::kLambert;
   std::optional<double> diffuse_roughness{};  // of the base, in [0, 1]; nullopt: `roughness`
   TextureId base_color_map{};
+  // Blue multiplies anisotropy; red and green, of which 0.5 stands for 0, are the direction, in the
+  // frame of the tangent, before it is turned.
+  TextureId anisotropy_map{};
   TextureId metallic_roughness_map{};  // as in glTF: green multiplies roughness, blue metallic
   TextureId specular_map{};            // multiplies specular
   TextureId specular_color_map{};      // multiplies dielectric_f0
@@ -145,7 +153,8 @@ struct Material {
   // their corners run counter-clockwise.
   bool emits_in_front_only = false;
   std::variant<LambertMaterial, PhongMaterial, MetallicRoughnessMaterial, ConductorMaterial,
-               DielectricMaterial, SplitMaterial, OrenNayarMaterial, BurleyMaterial>
+               DielectricMaterial, SplitMaterial, OrenNayarMaterial, BurleyMaterial,
+               OpenPbrMaterial>
       model{};
   // Meshes only: triangles have only fronts. Rays of the camera and of lights pass through them
   // from behind.

@@ -110,6 +110,13 @@ constexpr MaterialParameter BaseRoughness() {
 constexpr std::string_view kRoughnessMeaning =
     "Perceptual roughness: alpha is its square. Below 2^-20 (9.5e-7) the surface is a perfect "
     "mirror.";
+constexpr std::string_view kOpenPbrAnisotropyMeaning =
+    "How much narrower the lobe is across the tangent than along it: 1 minus the ratio of both "
+    "alphas, the mean of whose squares is roughness^4.";
+constexpr std::string_view kTangentMeaning =
+    "Turns the tangent about the normal, counter-clockwise in degrees. It is that of the normal "
+    "map's coordinates, else of the mesh's own, else the direction around the y axis, as on a "
+    "turned part.";
 constexpr std::string_view kShadowingMeaning =
     "Shadowing and masking of microfacets. height_correlated: Smith's, height-correlated (Heitz "
     "2014). separable: Smith's, as the product of two terms. schlick_direct: Schlick's "
@@ -180,6 +187,12 @@ constexpr auto kMetallicRoughnessParameters = WithCommon(
         "metallic", limits::kUnit,
         "0: dielectric, 1: metal. In between, what the two reflect is blended, as in glTF 2.0."),
     Number<&MetallicRoughnessMaterial::roughness>("roughness", limits::kUnit, kRoughnessMeaning),
+    Number<&MetallicRoughnessMaterial::anisotropy>(
+        "anisotropy", limits::kUnit,
+        "How much wider the lobe is along the tangent than across it (KHR_materials_anisotropy): "
+        "alpha along it is roughness^2 + (1 - roughness^2) anisotropy^2."),
+    Number<&MetallicRoughnessMaterial::anisotropy_rotation_deg>("anisotropy_rotation_deg",
+                                                                limits::kAngleDeg, kTangentMeaning),
     Color<&MetallicRoughnessMaterial::dielectric_f0>(
         "dielectric_f0", limits::kUnit,
         "Reflectance of the dielectric at normal incidence; for an index of refraction it is "
@@ -228,6 +241,61 @@ constexpr auto kDielectricParameters = WithCommon(
     Number<&DielectricMaterial::ior>("ior", limits::kIor, "Index of refraction."),
     Number<&DielectricMaterial::roughness>("roughness", limits::kUnit, kRoughnessMeaning),
     BaseRoughness<DielectricMaterial>());
+
+constexpr auto kOpenPbrParameters = WithCommon(
+    Number<&OpenPbrMaterial::base_weight>("base_weight", limits::kUnit, "Multiplies base_color."),
+    Color<&OpenPbrMaterial::base_color>(
+        "base_color", limits::kUnit,
+        "Diffuse colour of the dielectric; reflectance of the metal at normal incidence."),
+    Number<&OpenPbrMaterial::base_metalness>("base_metalness", limits::kUnit,
+                                             "0: dielectric, 1: metal; in between a mix of both."),
+    Number<&OpenPbrMaterial::base_diffuse_roughness>(
+        "base_diffuse_roughness", limits::kUnit,
+        "Roughness of the diffuse base (EON, Portsmouth et al. 2025). 0: Lambert."),
+    Number<&OpenPbrMaterial::specular_weight>(
+        "specular_weight", limits::kOpenPbrWeight,
+        "Scales the dielectric's reflectance at normal incidence, by changing its index "
+        "(specular_weight_rule), and all that a metal reflects, at most once."),
+    Color<&OpenPbrMaterial::specular_color>(
+        "specular_color", limits::kUnit,
+        "Multiplies the dielectric's reflection. Of a metal, the factor on its reflectance at 81.8 "
+        "degrees (F82-tint, Kutz et al. 2021)."),
+    Number<&OpenPbrMaterial::specular_roughness>("specular_roughness", limits::kUnit,
+                                                 kRoughnessMeaning),
+    Number<&OpenPbrMaterial::specular_roughness_anisotropy>(
+        "specular_roughness_anisotropy", limits::kUnit, kOpenPbrAnisotropyMeaning),
+    Number<&OpenPbrMaterial::specular_ior>("specular_ior", limits::kOpenPbrIor,
+                                           "Index of refraction of the dielectric base."),
+    Number<&OpenPbrMaterial::coat_weight>("coat_weight", limits::kUnit,
+                                          "The fraction of the base that a dielectric coat covers.",
+                                          "coat"),
+    Color<&OpenPbrMaterial::coat_color>(
+        "coat_color", limits::kUnit,
+        "Transmittance of the coat's medium, there and back at normal incidence."),
+    Number<&OpenPbrMaterial::coat_roughness>("coat_roughness", limits::kUnit, kRoughnessMeaning),
+    Number<&OpenPbrMaterial::coat_roughness_anisotropy>("coat_roughness_anisotropy", limits::kUnit,
+                                                        kOpenPbrAnisotropyMeaning),
+    Number<&OpenPbrMaterial::coat_ior>("coat_ior", limits::kOpenPbrIor,
+                                       "Index of refraction of the coat."),
+    Number<&OpenPbrMaterial::coat_darkening>(
+        "coat_darkening", limits::kUnit,
+        "How much light that is reflected inside the coat darkens the base. 1: as physics has it; "
+        "0: not at all."),
+    Number<&OpenPbrMaterial::fuzz_weight>(
+        "fuzz_weight", limits::kUnit,
+        "The fraction of all of this that fuzz covers, fibres that stand upright (Zeltner et al. "
+        "2022).",
+        "fuzz"),
+    Color<&OpenPbrMaterial::fuzz_color>("fuzz_color", limits::kUnit,
+                                        "Colour of what the fuzz reflects. What lies below gets "
+                                        "the rest of the light in grey."),
+    Number<&OpenPbrMaterial::fuzz_roughness>(
+        "fuzz_roughness", limits::kUnit,
+        "0: thin fibres, whose sheen shows at grazing angles; 1: dust."),
+    Number<&OpenPbrMaterial::geometry_tangent_deg>("geometry_tangent_deg", limits::kAngleDeg,
+                                                   kTangentMeaning),
+    Number<&OpenPbrMaterial::geometry_coat_tangent_deg>(
+        "geometry_coat_tangent_deg", limits::kAngleDeg, "The same for the coat."));
 
 constexpr std::array<std::string_view, 2> kConventions = {"classic", "radiometric"};
 constexpr std::array<std::string_view, 4> kShadowings = {"height_correlated", "separable",
@@ -310,6 +378,84 @@ constexpr std::array kDielectricChoices = {
                                          "through their value at normal incidence."),
     kSides};
 
+// Sets all options of OpenPBR (scene/open_pbr.h).
+constexpr std::array<std::string_view, 4> kRules = {"spec_1_1", "spec_1_2", "materialx", "adobe"};
+constexpr MaterialChoice kRulesChoice = {
+    "rules", kRules, nullptr,
+    [](Material& material, size_t option) {
+      std::get<OpenPbrMaterial>(material.model).options =
+          OptionsOf(static_cast<OpenPbrRules>(option));
+    },
+    "Sets all options below as one implementation has them: the specification, the branch of its "
+    "next version, MaterialX's graph, or Adobe's library."};
+
+template <auto kMember>
+constexpr MaterialChoice Option(std::string_view name, std::span<const std::string_view> options,
+                                std::string_view meaning) {
+  return {name, options,
+          [](const Material& material) {
+            return static_cast<size_t>(std::get<OpenPbrMaterial>(material.model).options.*kMember);
+          },
+          [](Material& material, size_t option) {
+            auto& field = std::get<OpenPbrMaterial>(material.model).options.*kMember;
+            field = static_cast<std::remove_reference_t<decltype(field)>>(option);
+          },
+          meaning};
+}
+
+constexpr std::array<std::string_view, 3> kWeightRules = {"index", "index_reflect_only", "factor"};
+constexpr std::array<std::string_view, 4> kCoatFresnels = {"refract_cosine", "invert_ratio",
+                                                           "index_lerp", "none"};
+constexpr std::array<std::string_view, 4> kRoughenings = {"spec", "adobe", "fit261", "none"};
+constexpr std::array<std::string_view, 4> kDarkenings = {"spec", "spec12", "materialx", "adobe"};
+constexpr std::array<std::string_view, 2> kAbsorptions = {"path", "normal"};
+constexpr std::array<std::string_view, 4> kPartials = {"exponent_then_lerp", "lerp_then_exponent",
+                                                       "per_crossing", "whole_product"};
+constexpr std::array<std::string_view, 2> kLayerings = {"view", "reciprocal"};
+constexpr std::array<std::string_view, 3> kTintsBelow = {"untinted", "complementary",
+                                                         "max_channel"};
+constexpr std::array<std::string_view, 2> kAlphaLimits = {"none", "one"};
+constexpr std::array<std::string_view, 2> kYesNo = {"no", "yes"};
+constexpr std::array kOpenPbrChoices = {
+    kRulesChoice,
+    Option<&OpenPbrOptions::specular_weight_rule>(
+        "specular_weight_rule", kWeightRules,
+        "How specular_weight acts on the dielectric. index: by changing the index. "
+        "index_reflect_only: in reflection alone. factor: multiplies the reflection."),
+    Option<&OpenPbrOptions::coat_fresnel>(
+        "coat_fresnel", kCoatFresnels,
+        "Fresnel's curve of the dielectric below the coat. refract_cosine: of base over coat, for "
+        "light that the coat refracts. invert_ratio: of a mix of both ratios of indices, inverted "
+        "where the coat is denser. index_lerp: of base over a mix of the indices of air and coat. "
+        "none: as in air."),
+    Option<&OpenPbrOptions::coat_roughening>(
+        "coat_roughening", kRoughenings,
+        "How a rough coat widens highlights below it. spec: (r^4 + 2 c^4)^(1/4). adobe: "
+        "(r^4 + (1 - 1 / n) c^4)^(1/4). fit261: the fit of issue 261 of the specification."),
+    Option<&OpenPbrOptions::coat_darkening_rule>(
+        "coat_darkening_rule", kDarkenings,
+        "How light that is reflected inside the coat darkens the base."),
+    Option<&OpenPbrOptions::coat_absorption>(
+        "coat_absorption", kAbsorptions,
+        "path: along the refracted paths. normal: as at normal incidence, at every angle."),
+    Option<&OpenPbrOptions::coat_partial>(
+        "coat_partial", kPartials, "What a coat that covers a fraction of the base leaves to it."),
+    Option<&OpenPbrOptions::layering>(
+        "layering", kLayerings,
+        "What the dielectric leaves to its diffuse base. view: 1 - E of the viewer. reciprocal: "
+        "the same of light and viewer, over the mean; with kulla_conty alone."),
+    Option<&OpenPbrOptions::smith>("smith", kShadowings, kShadowingMeaning),
+    Option<&OpenPbrOptions::compensation>("compensation", kCompensations, kCompensationMeaning),
+    Option<&OpenPbrOptions::alpha_max>("alpha_max", kAlphaLimits,
+                                       "The largest alpha that anisotropy may make."),
+    Option<&OpenPbrOptions::specular_tint_below>(
+        "specular_tint_below", kTintsBelow,
+        "The reflectance by which the base gets less light where specular_color tints it."),
+    Option<&OpenPbrOptions::base_weight_in_rho>(
+        "base_weight_in_rho", kYesNo,
+        "Whether base_weight multiplies the colour before light bounces between rough facets."),
+    kSides};
+
 constexpr MaterialMap kEmissionMap = Map<&Material::emission_map>(
     "emission_map", MapUse::kColor, "Multiplies emission.",
     Target<&Material::emission>(MappedNumber::kEmission, 0, limits::kRadiance.max));
@@ -351,6 +497,11 @@ constexpr std::array kMetallicRoughnessMaps = {
         "Green multiplies roughness, blue metallic, as in glTF.",
         Target<&MetallicRoughnessMaterial::roughness>(MappedNumber::kWidth, 1),
         Target<&MetallicRoughnessMaterial::metallic>(MappedNumber::kMetallic, 2)),
+    Map<&MetallicRoughnessMaterial::anisotropy_map>(
+        "anisotropy_map", MapUse::kTwoData,
+        "Blue multiplies anisotropy; red and green are the direction in which the lobe is wider, "
+        "as in glTF.",
+        Target<&MetallicRoughnessMaterial::anisotropy>(MappedNumber::kAnisotropy, 2)),
     Map<&MetallicRoughnessMaterial::specular_map>(
         "specular_map", MapUse::kData,
         "Its first channel multiplies specular; in glTF it is alpha (a texture's encoding).",
@@ -377,6 +528,26 @@ constexpr std::array kConductorMaps = {RoughnessMap<ConductorMaterial>(), kEmiss
 constexpr std::array kDielectricMaps = {BaseColorMap<DielectricMaterial>(),
                                         RoughnessMap<DielectricMaterial>(), kEmissionMap,
                                         kOpacityMap};
+
+constexpr std::array kOpenPbrMaps = {
+    BaseColorMap<OpenPbrMaterial>(),
+    Map<&OpenPbrMaterial::base_metalness_map>(
+        "base_metalness_map", MapUse::kData, "Multiplies base_metalness.",
+        Target<&OpenPbrMaterial::base_metalness>(MappedNumber::kMetallic)),
+    Map<&OpenPbrMaterial::specular_color_map>(
+        "specular_color_map", MapUse::kColor, "Multiplies specular_color.",
+        Target<&OpenPbrMaterial::specular_color>(MappedNumber::kSpecularColor)),
+    Map<&OpenPbrMaterial::specular_roughness_map>(
+        "specular_roughness_map", MapUse::kData, "Multiplies specular_roughness.",
+        Target<&OpenPbrMaterial::specular_roughness>(MappedNumber::kUncoatedWidth)),
+    Map<&OpenPbrMaterial::fuzz_color_map>(
+        "fuzz_color_map", MapUse::kColor, "Multiplies fuzz_color.",
+        Target<&OpenPbrMaterial::fuzz_color>(MappedNumber::kSheenColor)),
+    Map<&OpenPbrMaterial::fuzz_roughness_map>(
+        "fuzz_roughness_map", MapUse::kData, "Multiplies fuzz_roughness.",
+        Target<&OpenPbrMaterial::fuzz_roughness>(MappedNumber::kSheenRoughness)),
+    kEmissionMap,
+    kOpacityMap};
 
 constexpr std::array kNormalMaps = {MaterialNormalMap{
     "normal_map", [](Material& material) -> NormalMap& { return material.normal_map; }, ""}};
@@ -417,7 +588,7 @@ constexpr std::string_view kRoughnessAxis = "roughness=0.1:0.9:5";
 constexpr std::string_view kMatteAxis = "roughness=0:1:5";
 constexpr std::string_view kAlbedoAxis = "albedo=0.1:0.9:5";
 
-constexpr std::array<MaterialModel, 9> kModels = {{
+constexpr std::array<MaterialModel, 10> kModels = {{
     {"phong", "Phong: highlight (r.v)^n where the light is above the surface",
      MakePhong<PhongModel::kPhong>, HoldsPhong<PhongModel::kPhong>, kPhongParameters, kPhongChoices,
      kPhongMaps, kNormalMaps, kExponentAxis, kKsAxis},
@@ -453,6 +624,11 @@ constexpr std::array<MaterialModel, 9> kModels = {{
      "shows the reflection of glass alone",
      Make<DielectricMaterial>, Holds<DielectricMaterial>, kDielectricParameters, kDielectricChoices,
      kDielectricMaps, kNormalMaps, kRoughnessAxis, "ior=1.1,1.33,1.5,1.8,2.4"},
+    {"open_pbr",
+     "OpenPBR Surface 1.1.1: a coat over a mix of metal and glossy-diffuse dielectric; choices of "
+     "implementations by name (rules)",
+     Make<OpenPbrMaterial>, Holds<OpenPbrMaterial>, kOpenPbrParameters, kOpenPbrChoices,
+     kOpenPbrMaps, kNormalMaps, "specular_roughness=0.1:0.9:5", "base_metalness=0:1:5"},
 }};
 
 // The row of this name, or nullptr.

@@ -117,6 +117,31 @@ bool IsLayerName(const std::string& name) {
   });
 }
 
+namespace {
+
+// Schlick's forms of shadowing have one width.
+void CheckAnisotropy(const Scene& scene, size_t index, FaultList* faults) {
+  const auto check = [&](double anisotropy, Shadowing shadowing, std::string_view key) {
+    const bool is_schlick =
+        shadowing == Shadowing::kSchlickDirect || shadowing == Shadowing::kSchlickIbl;
+    if (!(anisotropy > 0) || !is_schlick) return;
+    faults->Add(fmt::format("{}/{}", MaterialPlace(scene, index), key),
+                "Schlick's forms of shadowing do not know anisotropy",
+                "choose height_correlated or separable");
+  };
+  const Material& material = scene.materials[index];
+  if (const auto* model = std::get_if<MetallicRoughnessMaterial>(&material.model)) {
+    check(model->anisotropy, model->shadowing, "shadowing");
+  } else if (const auto* open_pbr = std::get_if<OpenPbrMaterial>(&material.model)) {
+    check(open_pbr->specular_roughness_anisotropy, open_pbr->options.smith, "smith");
+    if (open_pbr->coat_weight > 0) {
+      check(open_pbr->coat_roughness_anisotropy, open_pbr->options.smith, "smith");
+    }
+  }
+}
+
+}  // namespace
+
 void ValidateMaterial(const Scene& scene, size_t index, FaultList* faults) {
   const Material& material = scene.materials[index];
   ValidateMaps(scene, material, MaterialPlace(scene, index), faults);
@@ -131,6 +156,17 @@ void ValidateMaterial(const Scene& scene, size_t index, FaultList* faults) {
       CheckColor(value, range, where, faults);
     } else {
       CheckNumber(value.x, range, where, faults);
+    }
+  }
+  CheckAnisotropy(scene, index, faults);
+  if (const auto* open_pbr = std::get_if<OpenPbrMaterial>(&material.model)) {
+    const OpenPbrOptions& options = open_pbr->options;
+    if (options.layering == Layering::kReciprocal &&
+        options.compensation == Compensation::kTurquin) {
+      faults->Add(MaterialPlace(scene, index) + "/layering",
+                  "reciprocal layering needs an albedo of light and view alike, which compensation "
+                  "turquin does not have",
+                  "choose layering view, or compensation kulla_conty");
     }
   }
 }

@@ -81,6 +81,7 @@ class MaterialMaker {
         Map(pbr.metallicRoughnessTexture, "/pbrMetallicRoughness/metallicRoughnessTexture",
             TextureEncoding::kLinear);
     ApplyReflectance(&model);
+    ApplyAnisotropy(&model);
     ApplyCoat(&model);
     ApplySheen(&model);
     MaskByBaseColor(&result);
@@ -159,6 +160,18 @@ class MaterialMaker {
     if (f0 != result->dielectric_f0 && result->specular_color_map.valid()) {
       document_.Warn("specular colours that reflect more than all are cut before their images");
     }
+  }
+
+  // KHR_materials_anisotropy.
+  void ApplyAnisotropy(MetallicRoughnessMaterial* result) {
+    const auto anisotropy = Find("KHR_materials_anisotropy");
+    if (!anisotropy) return;
+    result->anisotropy = anisotropy->Unit("anisotropyStrength", 0);
+    const double turn = anisotropy->Number("anisotropyRotation", 0) * (180 / M_PI);
+    document_.Check(anisotropy->PlaceOf("anisotropyRotation"), turn, limits::kAngleDeg);
+    if (result->anisotropy == 0) return;
+    result->anisotropy_rotation_deg = turn;
+    result->anisotropy_map = Map(*anisotropy, "anisotropyTexture", TextureEncoding::kLinear);
   }
 
   // KHR_materials_clearcoat.

@@ -192,6 +192,7 @@ struct ExtensionTexture {
   const char* member;
 };
 inline constexpr std::array kExtensionTextures = {
+    ExtensionTexture{"KHR_materials_anisotropy", "anisotropyTexture"},
     ExtensionTexture{"KHR_materials_clearcoat", "clearcoatTexture"},
     ExtensionTexture{"KHR_materials_clearcoat", "clearcoatRoughnessTexture"},
     ExtensionTexture{"KHR_materials_clearcoat", "clearcoatNormalTexture"},

@@ -90,12 +90,12 @@ class NpyHeader {
   const std::string& file_;
 };
 
-// The text of the header, for versions 1 (two bytes for its length) to 3 (four bytes). Sets *offset
-// to where the data begins.
-std::string_view HeaderText(std::string_view bytes, const std::string& file, size_t* offset) {
-  const auto refuse = [&](const char* what) {
-    throw Error(ExitCode::kBadInput, file, what, kNpyHint);
-  };
+}  // namespace
+
+// Version 1 has two bytes for the header's length, the others four.
+std::string_view NpyHeaderText(std::string_view bytes, const std::string& file, const char* hint,
+                               size_t* offset) {
+  const auto refuse = [&](const char* what) { throw Error(ExitCode::kBadInput, file, what, hint); };
   constexpr size_t kVersion = 6, kLength = 8;
   if (!bytes.starts_with(kMagic) || bytes.size() < kLength) refuse("is not a NumPy file");
   const auto byte = [&](size_t i) { return static_cast<unsigned char>(bytes[i]); };
@@ -105,8 +105,7 @@ std::string_view HeaderText(std::string_view bytes, const std::string& file, siz
   if (bytes.size() < *offset) refuse("ends in its header");
   size_t length = 0;
   for (size_t i = 0; i < length_bytes; ++i) length |= size_t{byte(kLength + i)} << (8 * i);
-  constexpr size_t kMaxHeader = size_t{1} << 16;  // the header of a matrix has about a hundred
-                                                  // bytes
+  constexpr size_t kMaxHeader = size_t{1} << 16;  // that of a matrix has about a hundred bytes
   if (length > kMaxHeader) refuse("has too long a header");
   if (bytes.size() - *offset < length) refuse("ends in its header");
   const std::string_view text = bytes.substr(*offset, length);
@@ -114,11 +113,9 @@ std::string_view HeaderText(std::string_view bytes, const std::string& file, siz
   return text;
 }
 
-}  // namespace
-
 NpyMatrix::NpyMatrix(const std::string& bytes, const std::string& file) {
   size_t offset = 0;
-  const NpyHeader header(HeaderText(bytes, file, &offset), file);
+  const NpyHeader header(NpyHeaderText(bytes, file, kNpyHint, &offset), file);
   const std::string_view type = header.Text("'descr'");
   const bool is_double = type.ends_with("f8");
   if (type.size() != 3 || (!is_double && !type.ends_with("f4")) ||

@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/npy_file.h: a matrix of floats in NumPy's format (.npy).
+// scene_io/npy_file.h: a matrix of floats in NumPy's format (.npy), and the header of such files.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "scene_io/stored_number.h"
 
 namespace nacre {
+
+// The text of the header, a Python dictionary, of versions 1 to 3 of the format. Sets *offset to
+// where the data begins. Throws Error (kBadInput), located in `file` and with this hint, if this is
+// not an .npy file.
+std::string_view NpyHeaderText(std::string_view bytes, const std::string& file, const char* hint,
+                               size_t* offset);
 
 class NpyMatrix {
  public:

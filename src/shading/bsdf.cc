@@ -8,9 +8,13 @@
 #include "base/overloaded.h"
 #include "brdf/angles.h"
 #include "brdf/lobe_sampling.h"
+#include "scene/coat.h"
+#include "shading/kernels.h"
 #include "shading/lobe_chances.h"
 #include "shading/lobe_sample.h"
 #include "shading/models_at_hit.h"
+#include "shading/open_pbr.h"
+#include "shading/scalar_bsdf.h"
 #include "shading/shade.h"
 
 namespace nacre {
@@ -84,17 +88,44 @@ void SampleModelLobe(const MaterialHits& level, const float* u, const float* v, 
 
 // --- Stacks.
 
-// light * share, but 0 for a share of 0 even if the light has overflowed to infinity.
-float Attenuated(float light, float share) { return share > 0 ? light * share : 0; }
+// What the coat of hit i lets through, where maps give the coat or the base numbers of their own.
+CoatTransmission TransmissionAt(const MaterialHits& at, size_t k, size_t i) {
+  const ShadingMaterial& coat = *at.material.coats[k];
+  CoatTransmission transmission = coat.transmission;
+  if (coat.by_hit.model) {
+    const HitParameters& maps = *at.coats[k].textures;
+    transmission.weight *=
+        NumbersOf(maps, MappedNumber::kSpecular)[i] / StrengthOf(*coat.scene_material);
+  }
+  if (transmission.darkening > 0 && at.Maps() != nullptr) {
+    auto below = std::get<OpenPbrMaterial>(at.material.scene_material->model);
+    const HitParameters& maps = *at.Maps();
+    below.base_color = ColorOfHit(maps, MappedNumber::kColor, i);
+    below.base_metalness = NumbersOf(maps, MappedNumber::kMetallic)[i];
+    below.specular_color = ColorOfHit(maps, MappedNumber::kSpecularColor, i);
+    below.specular_roughness = NumbersOf(maps, MappedNumber::kUncoatedWidth)[i];
+    EstimateBelowCoat(below, &transmission);
+  }
+  return transmission;
+}
 
-// below = below * the transmittance of the coat + over.
-void Cover(const MaterialHits& coat, const Soa3<float>& over, Soa3<float>* below) {
-  const Soa3<float>& left = coat.surface.transmittance;
-  for (size_t i = coat.begin; i < coat.end; ++i) {
-    const Vec3f tint(TintAt(coat.material, coat.textures, i));
-    below->x[i] = Attenuated(below->x[i], left.x[i] * tint.x) + over.x[i];
-    below->y[i] = Attenuated(below->y[i], left.y[i] * tint.y) + over.y[i];
-    below->z[i] = Attenuated(below->z[i], left.z[i] * tint.z) + over.z[i];
+// Computes the factors of the coats at hits [begin, end), seen from the viewer.
+void FindCoatFactors(const MaterialHits& at, size_t k, CoatHits* coat) {
+  const bool absorbs = AbsorbsAlongLight(at.material.coats[k]->transmission);
+  for (size_t i = at.begin; i < at.end; ++i) {
+    const CoatTransmission transmission = TransmissionAt(at, k, i);
+    const Rgb albedo = Rgb(1) - Rgb(VectorAt(coat->surface.transmittance, i));
+    const CoatFactors factors = FactorsOf(transmission, albedo, NDotV(coat->surface, i));
+    if (!absorbs) {
+      const Rgb whole = factors.constant + factors.along_light * CrossingOfLight(transmission, 1);
+      SetVector(whole, i, &coat->constant);
+      continue;
+    }
+    const Rgb medium = MediumOf(transmission);
+    SetVector(factors.constant, i, &coat->constant);
+    SetVector(factors.along_light, i, &coat->along_light);
+    SetVector(MakeRgb([&](int c) { return std::log2(std::max(medium[c], 1e-300)) / 2; }), i,
+              &coat->log2_medium);
   }
 }
 
@@ -257,8 +288,8 @@ std::array<CoatInView, kMostCoats> CoatsInView(const MaterialHits& at, size_t i)
   std::array<CoatInView, kMostCoats> coats;
   for (size_t k = 0; k < at.material.coats.size(); ++k) {
     const MaterialHits coat = LevelOf(at, 1 + k);
-    const Rgb left(VectorAt(coat.surface.transmittance, i));
-    coats[k] = {Rgb(1) - left, left * TintAt(coat.material, coat.textures, i), IsMirror(coat, i)};
+    coats[k] = {Rgb(1) - Rgb(VectorAt(coat.surface.transmittance, i)),
+                TransmittedAt(at, k, i, NDotV(coat.surface, i)), IsMirror(coat, i)};
   }
   return coats;
 }
@@ -270,18 +301,28 @@ void SetToNormals(const Surface& surface, size_t begin, size_t end, Soa3<float>*
 
 // --- Mirrors.
 
-// The factor by which the layers over hit i attenuate a mirror's reflection.
-double TransmittedByLayers(const MaterialHits& at, size_t i) {
+// The factor by which the layers at hit i attenuate a mirror's reflection: all of them, or those
+// over the coats.
+double TransmittedByLayers(const MaterialHits& at, size_t i, bool all) {
   const HitParameters* const maps = at.Maps();
   const double n_dot_v = NDotV(at.surface, i);
   double left = 1;
   for (const LayerModel& layer : at.material.layers) {
+    if (!all && !LiesOverCoats(layer)) continue;
     left *= LayerAlbedo(LayerAtHit(layer, maps, i), n_dot_v).below;
   }
   return left;
 }
 
 }  // namespace
+
+Rgb TransmittedAt(const MaterialHits& at, size_t k, size_t i, double n_dot_l) {
+  const CoatHits& coat = at.coats[k];
+  const Rgb constant(VectorAt(coat.constant, i));
+  if (!AbsorbsAlongLight(at.material.coats[k]->transmission)) return constant;
+  return constant +
+         Rgb(VectorAt(coat.along_light, i)) * CrossingOfLight(TransmissionAt(at, k, i), n_dot_l);
+}
 
 void CopyToCoat(const HitBatch& hits, const Surface& surface, CoatHits* coat) {
   const size_t padded = RoundUp(hits.count, kBatchPadding);
@@ -297,16 +338,17 @@ void CopyToCoat(const HitBatch& hits, const Surface& surface, CoatHits* coat) {
   CopySoa(surface.to_view, padded, &coat->surface.to_view);
 }
 
-void PrepareBsdf(const ShadingMaterial& material, size_t begin, size_t end,
-                 const HitParameters* textures, Surface* surface, std::span<CoatHits> coats) {
+void PrepareBsdf(const ShadingMaterial& material, size_t begin, size_t end, HitParameters* textures,
+                 Surface* surface, std::span<CoatHits> coats) {
   PrepareRun(material, begin, end, surface, textures);
   const size_t count = material.coats.size();
   if (count == 0) return;
+  const MaterialHits at{material, coats[0].hits, *surface, begin, end, textures, coats};
   for (size_t k = 0; k < count; ++k) {
     PrepareRun(*material.coats[k], begin, end, &coats[k].surface, coats[k].textures.get());
+    FindCoatFactors(at, k, &coats[k]);
   }
-  const MaterialHits at{material, coats[0].hits, *surface, begin, end, nullptr, coats};
-  const HitParameters* const maps = material.by_hit.model ? textures : nullptr;
+  const HitParameters* const maps = at.Maps();
   std::array<double, kMostCoats> chances;
   for (size_t i = begin; i < end; ++i) {
     const double n_dot_v = NDotV(*surface, i);
@@ -324,10 +366,10 @@ void EvaluateBsdf(const LitHits& lit, BsdfRoom* room, const LobePdfs& pdfs) {
     ShadeRun(level, &room->shade);
     if (level.material.by_hit.normal) AddMirroredLobe(level, room);
     if (k == 0) continue;
-    Cover(level, own->sum, &lit.radiance->sum);
-    if (!lit.components) continue;
-    Cover(level, own->diffuse, &lit.radiance->diffuse);
-    Cover(level, own->specular, &lit.radiance->specular);
+    CoverByCoat(level, lit.coats[k - 1], lit.radiance);
+  }
+  for (const LayerModel& layer : lit.material.layers) {
+    if (LiesOverCoats(layer)) CoverByLayer(layer, lit);
   }
   if (pdfs.diffuse != nullptr) FindDiffusePdf(lit, *lit.on_hits, pdfs.diffuse);
   if (pdfs.glossy != nullptr) FindGlossyPdf(lit, *lit.on_hits, room, pdfs.glossy);
@@ -377,10 +419,11 @@ bool SampleMirror(const MaterialHits& at, size_t level, Soa3<float>* to_light,
   for (size_t i = at.begin; i < at.end; ++i) {
     Vec3d reflected(0, 0, 0);
     if (IsMirror(of, i)) {
-      reflected = VectorAt(*weight, i);
-      if (level == 0) reflected *= TransmittedByLayers(at, i);
+      reflected = VectorAt(*weight, i) * TransmittedByLayers(at, i, level == 0);
+      const Vec3d mirrored = VectorAt(*to_light, i);
       for (size_t k = level; k < at.material.coats.size(); ++k) {
-        reflected *= CoatsInView(at, i)[k].transmittance;
+        const double n_dot_l = VectorAt(at.coats[k].surface.normal, i).dot(mirrored);
+        reflected *= TransmittedAt(at, k, i, std::clamp(n_dot_l, 0.0, 1.0));
       }
     }
     SetVector(reflected, i, weight);
@@ -479,11 +522,27 @@ bool DiffuseIsFlat(const ShadingMaterial& material) {
           model->compensation != Compensation::kKullaConty);
 }
 
+namespace {
+
+void SetDefaultTangents(const ShadingMaterial& material, const HitBatch& hits, Surface* surface) {
+  if (!material.by_hit.tangent) return;
+  for (size_t i = 0; i < hits.count; ++i) {
+    SetVector(DefaultTangent(material, VectorAt(hits.normal, i)), i, &surface->tangent);
+  }
+}
+
+}  // namespace
+
 void EvaluateBatch(const ShadingMaterial& material, const HitBatch& hits, const ShadingLight& light,
                    const LightBatch& on_hits, Surface* surface, std::vector<CoatHits>* coats,
                    BsdfRoom* room, ReflectedRadiance* radiance) {
   if (coats->size() < material.coats.size()) coats->resize(material.coats.size());
-  for (size_t k = 0; k < material.coats.size(); ++k) CopyToCoat(hits, *surface, &(*coats)[k]);
+  SetDefaultTangents(material, hits, surface);
+  for (size_t k = 0; k < material.coats.size(); ++k) {
+    CoatHits& coat = (*coats)[k];
+    CopyToCoat(hits, *surface, &coat);
+    SetDefaultTangents(*material.coats[k], hits, &coat.surface);
+  }
   PrepareBsdf(material, 0, hits.count, nullptr, surface, *coats);
   const MaterialHits all{material, hits, *surface, 0, hits.count, nullptr, *coats};
   EvaluateBsdf({all, light, &on_hits, radiance}, room);

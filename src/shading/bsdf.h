@@ -63,8 +63,12 @@ void CopyToCoat(const HitBatch& hits, const Surface& surface, CoatHits* coat);
 
 // Computes the terms of hits [begin, end) that do not depend on the light. The maps of the material
 // and of its coats must have been looked up (textures.h).
-void PrepareBsdf(const ShadingMaterial& material, size_t begin, size_t end,
-                 const HitParameters* textures, Surface* surface, std::span<CoatHits> coats);
+void PrepareBsdf(const ShadingMaterial& material, size_t begin, size_t end, HitParameters* textures,
+                 Surface* surface, std::span<CoatHits> coats);
+
+// The factor of coat k of the material on light that is reflected below it, at hit i, from a
+// direction whose cosine with the coat's normal is n_dot_l. PrepareBsdf must have run.
+Rgb TransmittedAt(const MaterialHits& at, size_t k, size_t i, double n_dot_l);
 
 // Sets the light's irradiance to 0 at hits of a normal-mapped batch (Surface::normal_mapped) where
 // no lobe faces the light (normal_map_kernel.cc).

@@ -32,6 +32,8 @@ struct MicrofacetConstants {
   // kKullaConty: the scale of the second lobe, its colour, and its colour for the dielectric alone.
   Number multiple, f_multiple[3], dielectric_f_multiple[3];
   MatteConstants<Number> base;  // for bases that are not Lambertian
+  // kOpenPbr: the products of share and scale of dielectric and metal, and MicrofacetModel::cover.
+  Number dielectric[3], metal, cover[3];
 };
 
 // MatteLight, PhongLight and MicrofacetLight are products of a model's constants and one light.

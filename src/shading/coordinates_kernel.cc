@@ -102,6 +102,14 @@ void PlaceMeshPoints(const TexturedRun& run, const PreparedTexture& texture) {
   }
 }
 
+// Whether the coordinates at hit i are those of a mesh. Only ShapeCoordinates, which have no image,
+// may be asked for on meshes without any.
+bool HasMeshCoordinates(const TexturedRun& run, const PreparedTexture& texture, size_t i) {
+  const uint32_t primitive = run.hits.primitive[i];
+  if (i >= run.end || IsSphere(run.scene.primitives, primitive)) return false;
+  return texture.image != nullptr || !TriangleOf(run.scene.primitives, primitive).mesh->uvs.empty();
+}
+
 void MapRun(const TexturedRun& run, const PreparedTexture& texture) {
   const D d;
   HitParameters* const t = &run.textures;
@@ -158,19 +166,18 @@ void MakeCoordinatesT(const TexturedRun& run, const PreparedTexture& texture) {
   const RayFootprints& rays = run.footprints;
   rays.camera != nullptr ? FindCameraSteps(run, *rays.camera)
                          : FindConeSteps(run, rays.cone_diameter);
-  if (t->any_mesh && !own) PlaceMeshPoints(run, texture);
+  if (t->any_mesh && (!own || texture.image == nullptr)) PlaceMeshPoints(run, texture);
   MapRun(run, texture);  // at hits on meshes with their own (u, v), the result is not used
   if (t->any_mesh && own) FindMeshCoordinates(run, texture);
-  const auto sphere_count = static_cast<uint32_t>(run.scene.scene->spheres.size());
   const bool down = IsUpsideDown(texture.mapping);
   for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
     auto upside_down = hn::FirstN(d, down ? hn::Lanes(d) : 0);
     if (t->any_mesh && own) {
-      alignas(64) double is_sphere[8] = {};
+      alignas(64) double maps_points[8] = {};
       for (size_t k = 0; k < hn::Lanes(d); ++k) {
-        is_sphere[k] = run.hits.primitive[i + k] < sphere_count ? 1 : 0;
+        maps_points[k] = HasMeshCoordinates(run, texture, i + k) ? 0 : 1;
       }
-      upside_down = hn::Gt(hn::Load(d, is_sphere), hn::Zero(d));
+      upside_down = hn::Gt(hn::Load(d, maps_points), hn::Zero(d));
     }
     TransformHit(texture, upside_down, i, t);
   }

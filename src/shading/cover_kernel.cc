@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/cover_kernel.cc: adds a layer over what hits reflect of a light. Computed in double,
-// because layers have lobes near the horizon, where products with n.l leave the range of float.
-// Scalar twin: layer.cc.
+// shading/cover_kernel.cc: adds a layer or a coat over what hits reflect of a light. Layers are
+// computed in double, because layers have lobes near the horizon, where products with n.l leave the
+// range of float. Scalar twins: layer.cc, coat_transmission.cc.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/cover_kernel.cc"
 #include "hwy/foreach_target.h"
 
 #include "hwy/highway.h"
 
+#include "base/math-inl.h"
 #include "base/vec3-inl.h"
+#include "brdf/fuzz-inl.h"
 #include "brdf/sheen-inl.h"
 #include "shading/kernels.h"
 #include "shading/models_at_hit.h"
@@ -76,6 +78,28 @@ class LayerOnHits<SheenModel> {
   const HitParameters* maps_;
 };
 
+template <>
+class LayerOnHits<FuzzModel> {
+ public:
+  LayerOnHits(const FuzzModel& fuzz, const HitParameters* maps) : fuzz_(fuzz), maps_(maps) {}
+
+  HWY_INLINE LayerReflectionV At(size_t i, const AnglesV<V>& a) const {
+    const D d;
+    const Fuzz<V> fuzz =
+        maps_ == nullptr ? BroadcastFuzz(d, fuzz_.fuzz)
+                         : MakeFuzz(d, NumberOfHits(0, maps_, MappedNumber::kSheenRoughness, i));
+    const FuzzView<V> view = FuzzFromView(d, fuzz, a.n_dot_v);
+    const V weight = hn::Set(d, fuzz_.weight);
+    const V lobe = hn::Mul(hn::Mul(FuzzLobe(d, view, a), a.n_dot_l), weight);
+    return {Scale(ColorOfHits(fuzz_.color, maps_, MappedNumber::kSheenColor, i), lobe),
+            hn::NegMulAdd(weight, view.albedo, hn::Set(d, 1.0))};
+  }
+
+ private:
+  const FuzzModel& fuzz_;
+  const HitParameters* maps_;
+};
+
 // --- Code that all kinds of layers share.
 
 // Normalises directions that were rounded to float.
@@ -133,6 +157,70 @@ void Cover(const Model& model, const LitHits& lit) {
   }
 }
 
+// --- Coats, in float: their factors do not leave its range.
+
+using DF = hn::ScalableTag<float>;
+using F = hn::Vec<DF>;
+
+// The cosine, in the coat, of the light at hits i...
+HWY_INLINE F RefractedCosines(const LitHits& lit, float inverse_eta2, size_t i) {
+  const DF d;
+  const F one = hn::Set(d, 1.0f);
+  const Vec3V<F> l = LoadSoa(d, lit.on_hits->light_vector, i);
+  F n_dot_l = FusedDot(LoadSoa(d, lit.surface.normal, i), l);
+  if (lit.light.form != LightForm::kGiven) {
+    n_dot_l = hn::Mul(n_dot_l, hn::LoadU(d, lit.on_hits->inverse_length.data() + i));
+  }
+  const F cosine = hn::Min(hn::Max(n_dot_l, hn::Zero(d)), one);
+  const F sin2 = hn::Mul(hn::Sub(one, cosine), hn::Add(one, cosine));
+  const F left = hn::NegMulAdd(sin2, hn::Set(d, inverse_eta2), one);
+  // A path without end absorbs all light: here the light is 0 after 2^20 crossings.
+  return hn::Sqrt(hn::Max(left, hn::Set(d, 0x1p-40f)));
+}
+
+// The factors of the coat on what lies below hits i...
+HWY_INLINE Vec3V<F> CoatFactorsAt(const LitHits& lit, const CoatHits& coat, size_t i) {
+  const DF d;
+  const Vec3V<F> constant = LoadSoa(d, coat.constant, i);
+  const CoatTransmission& transmission = lit.material.transmission;
+  if (!AbsorbsAlongLight(transmission)) return constant;
+  const auto inverse_eta2 = static_cast<float>(transmission.inverse_eta * transmission.inverse_eta);
+  const F paths = hn::Div(hn::Set(d, 1.0f), RefractedCosines(lit, inverse_eta2, i));
+  const Vec3V<F> log2 = Scale(LoadSoa(d, coat.log2_medium, i), paths);
+  const F least = hn::Set(d, -126.0f);  // of numbers that are not denormal
+  const auto crossing = [&](F of) HWY_ATTR {
+    return hn::IfThenElseZero(hn::Ge(of, least), Exp2(d, hn::Max(of, least)));
+  };
+  return Add(constant, Mul3(LoadSoa(d, coat.along_light, i),
+                            {crossing(log2.x), crossing(log2.y), crossing(log2.z)}));
+}
+
+// below = below factor + own, but without light that is attenuated to nothing: infinity times 0 is
+// NaN.
+HWY_INLINE void CoverOne(const Vec3V<F>& factor, const Soa3<float>& own, size_t i, size_t end,
+                         Soa3<float>* below) {
+  const DF d;
+  const auto one = [&](F light, F share, F added) HWY_ATTR {
+    const auto any = hn::Gt(share, hn::Zero(d));
+    return hn::Add(hn::IfThenElseZero(any, hn::Mul(light, share)), added);
+  };
+  const Vec3V<F> b = LoadSoa(d, *below, i), o = LoadSoa(d, own, i);
+  BlendedStoreSoa(
+      d, Vec3V<F>{one(b.x, factor.x, o.x), one(b.y, factor.y, o.y), one(b.z, factor.z, o.z)},
+      hn::FirstN(d, end - i), i, below);
+}
+
+void CoverByCoatT(const LitHits& lit, const CoatHits& coat, ReflectedRadiance* radiance) {
+  const ReflectedRadiance& own = *lit.radiance;
+  for (size_t i = lit.begin; i < lit.end; i += hn::Lanes(DF())) {
+    const Vec3V<F> factor = CoatFactorsAt(lit, coat, i);
+    CoverOne(factor, own.sum, i, lit.end, &radiance->sum);
+    if (!lit.components) continue;
+    CoverOne(factor, own.diffuse, i, lit.end, &radiance->diffuse);
+    CoverOne(factor, own.specular, i, lit.end, &radiance->specular);
+  }
+}
+
 void CoverByLayerT(const LayerModel& layer, const LitHits& lit) {
   std::visit([&](const auto& model) { Cover(model, lit); }, layer);
 }
@@ -145,9 +233,14 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace nacre {
 HWY_EXPORT(CoverByLayerT);
+HWY_EXPORT(CoverByCoatT);
 
 void CoverByLayer(const LayerModel& layer, const LitHits& lit) {
   HWY_DYNAMIC_DISPATCH(CoverByLayerT)(layer, lit);
+}
+
+void CoverByCoat(const LitHits& lit, const CoatHits& coat, ReflectedRadiance* radiance) {
+  HWY_DYNAMIC_DISPATCH(CoverByCoatT)(lit, coat, radiance);
 }
 }  // namespace nacre
 #endif

@@ -16,6 +16,7 @@
 #include "brdf/ggx.h"
 #include "brdf/multi_scatter.h"
 #include "brdf/phong.h"
+#include "scene/open_pbr.h"
 #include "shading/constants.h"
 #include "shading/models.h"
 
@@ -71,6 +72,16 @@ NACRE_DERIVE LobeWidth DeriveWidth(Shadowing shadowing, double roughness) {
           .sharp_alpha = IsSharp(roughness, alpha) ? alpha : -1};
 }
 
+NACRE_DERIVE LobeWidth DeriveWidth(const GgxAlphas<double>& alpha) {
+  const bool delta = IsDeltaLobe(alpha);
+  const double narrow = std::min(alpha.x, alpha.y);
+  return {.alpha = narrow,
+          .delta = delta,
+          .shown_alpha = delta ? 1 : std::sqrt(alpha.x * alpha.y),
+          .schlick_k = 0,
+          .sharp_alpha = narrow};
+}
+
 // One channel of the colours of a microfacet material: the base's colour and BRDF, and the Fresnel
 // curves of dielectric and metal.
 struct MicrofacetColors {
@@ -79,6 +90,8 @@ struct MicrofacetColors {
   double metallic;
   double dielectric_f0, dielectric_f90;
   double metal_f0, f82_slope;
+  // OpenPBR: as in MicrofacetModel.
+  double dielectric_scale = 1, metal_scale = 1, cover = 1;
 };
 
 NACRE_DERIVE MicrofacetColors DeriveMetallicRoughness(double base_color, double metallic,
@@ -114,6 +127,34 @@ NACRE_DERIVE MicrofacetColors DeriveDielectric(double base_color, double f0) {
           .f82_slope = 0};
 }
 
+// One channel of an OpenPBR material, with what may vary by hit. `f0` is the value at normal
+// incidence of the dielectric's curve.
+struct OpenPbrChannel {
+  double base_color, metalness;
+  double specular_color, largest_specular_color;  // of this channel, and of all
+};
+NACRE_DERIVE MicrofacetColors DeriveOpenPbr(const OpenPbrMaterial& material,
+                                            const OpenPbrChannel& at, double f0) {
+  const OpenPbrOptions& options = material.options;
+  const double base_color = material.base_weight * at.base_color;
+  const double weight = std::min(material.specular_weight, 1.0);
+  const double factor = options.specular_weight_rule == SpecularWeightRule::kFactor ? weight : 1;
+  const double tint_below =
+      options.specular_tint_below == SpecularTintBelow::kComplementary ? at.specular_color
+      : options.specular_tint_below == SpecularTintBelow::kMaxChannel  ? at.largest_specular_color
+                                                                       : 1;
+  return {.base_color = base_color,
+          .diffuse = base_color * ((1 - at.metalness) * M_1_PI),
+          .metallic = at.metalness,
+          .dielectric_f0 = f0,
+          .dielectric_f90 = 1,
+          .metal_f0 = base_color,
+          .f82_slope = F82SlopeFromTint(base_color, at.specular_color),
+          .dielectric_scale = at.specular_color * factor,
+          .metal_scale = weight,
+          .cover = tint_below * factor};
+}
+
 // F90 of the mix, in a form that is exactly 1 for the default dielectric_f90 of 1.
 NACRE_DERIVE double MixedF90(double dielectric_f90, double metallic) {
   return 1 - (1 - dielectric_f90) * (1 - metallic);
@@ -126,7 +167,8 @@ struct MixedCurve {
   double f0, turquin_f0, turquin_f90;
 };
 NACRE_DERIVE MixedCurve MixCurves(const MicrofacetColors& at) {
-  const double m = at.metallic, not_metal = 1 - m;
+  const double m = at.metallic * at.metal_scale,
+               not_metal = (1 - at.metallic) * at.dielectric_scale;
   const double dielectric = at.dielectric_f0, metal = at.metal_f0;
   return {.f0 = not_metal * dielectric + m * metal,
           .turquin_f0 = not_metal * dielectric * dielectric + m * metal * metal,
@@ -141,11 +183,14 @@ inline MicrofacetColors ColorsOf(const MicrofacetModel& model, int c) {
           .dielectric_f0 = model.dielectric_f0[c],
           .dielectric_f90 = model.dielectric_f90,
           .metal_f0 = model.metal_f0[c],
-          .f82_slope = model.f82_slope[c]};
+          .f82_slope = model.f82_slope[c],
+          .dielectric_scale = model.dielectric_scale[c],
+          .metal_scale = model.metal_scale,
+          .cover = model.cover[c]};
 }
 
 // Means over the hemisphere of a lobe's directional albedos: for F = 1, for Schlick's weight, and,
-// if kDielectric, for the exact Fresnel curve.
+// if HasExactCurve, for the exact Fresnel curve of the dielectric.
 struct AlbedoAverages {
   double one = 1, schlick = 0, dielectric = 0;
 };
@@ -161,8 +206,8 @@ NACRE_DERIVE CurveAverages DeriveAverages(const MicrofacetColors& at) {
 }
 
 // One channel of the compensation of Kulla and Conty 2017: the colour F_ms of the second lobe for
-// the dielectric and for the mix; and the base's `diffuse`, which kAlbedoScaled divides by the mean
-// of 1 - the albedo of the dielectric above the base.
+// the dielectric and for the mix; and the base's `diffuse`, which where it is reciprocal is divided
+// by the mean of 1 - the albedo of the dielectric above the base.
 struct KullaContyChannel {
   double dielectric_f_multiple, f_multiple;
   double diffuse;
@@ -174,14 +219,18 @@ NACRE_DERIVE KullaContyChannel DeriveKullaConty(const MicrofacetForm& form,
   const double of_dielectric = KullaContyFresnel(curves.dielectric, albedo.one);
   const double of_metal = KullaContyFresnel(curves.metal, albedo.one);
   const double single =
-      form.fresnel == FresnelForm::kDielectric
+      HasExactCurve(form.fresnel)
           ? albedo.dielectric
           : at.dielectric_f0 * (albedo.one - albedo.schlick) + at.dielectric_f90 * albedo.schlick;
-  const double left = 1 - single - of_dielectric * (1 - albedo.one);
-  const double scaled = left > 0 ? at.diffuse / (left > 0 ? left : 1) : 0;
+  const double left = 1 - at.cover * single - at.cover * of_dielectric * (1 - albedo.one);
+  // Where less is left than the rounding of an albedo in float, the base gets nothing: the quotient
+  // would leave float's range before the small shares at hits bring it back.
+  const bool any = left > 0x1p-23;
+  const double scaled = any ? at.diffuse / (any ? left : 1) : 0;
   return {.dielectric_f_multiple = of_dielectric,
-          .f_multiple = (1 - at.metallic) * of_dielectric + at.metallic * of_metal,
-          .diffuse = form.coupling == DiffuseCoupling::kAlbedoScaled ? scaled : at.diffuse};
+          .f_multiple = (1 - at.metallic) * at.dielectric_scale * of_dielectric +
+                        at.metallic * at.metal_scale * of_metal,
+          .diffuse = form.reciprocal ? scaled : at.diffuse};
 }
 
 // --- The albedo and ambient layers of output images. ---
@@ -237,6 +286,14 @@ NACRE_DERIVE void PutF82(const MicrofacetColors& at, int c, const Put& put, Cons
   put(at.metal_f0, to->metal_f0[c]);
   put(at.f82_slope, to->f82_slope[c]);
   if (c == 0) put(at.metallic, to->metallic);
+}
+
+template <class Put, class Constants>
+NACRE_DERIVE void PutOpenPbr(const MicrofacetColors& at, int c, const Put& put, Constants* to) {
+  PutF82(at, c, put, to);
+  put((1 - at.metallic) * at.dielectric_scale, to->dielectric[c]);
+  put(at.cover, to->cover[c]);
+  if (c == 0) put(at.metallic * at.metal_scale, to->metal);
 }
 
 template <class Put, class Constants>

@@ -6,11 +6,13 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <vector>
 
 #include "brdf/albedo.h"
 #include "hit/batch.h"
 #include "scene/mapped_number.h"
 #include "shading/constants.h"
+#include "shading/models.h"
 
 namespace nacre {
 
@@ -49,7 +51,9 @@ struct HitParameters {
   AlignedArray<double> one_average{kBatchCapacity}, schlick_average{kBatchCapacity};
   AlignedArray<double> dielectric_average{kBatchCapacity}, phong_scale{kBatchCapacity};
   AlignedArray<double> sharp_alpha{kBatchCapacity};  // LobeWidth::sharp_alpha
-  Soa3<float> albedo, ambient, emission;             // for the output layers of these names
+  // Of anisotropic hits with alphas each; made for the first of them, as it is large.
+  std::vector<AnisotropicLobe> lobes;
+  Soa3<float> albedo, ambient, emission;  // for the output layers of these names
 
   // Pools of columns, with one entry per hit: column k of hit i is at [k * kStride + i].
   static constexpr size_t kStride = kBatchCapacity + 3 * kBatchPadding;  // not a power of two

@@ -34,29 +34,41 @@ struct PhongUniforms {
   const SharpLobeTerms* sharp;  // null if no lobe of the range is sharp
 };
 
+// The anisotropic lobes of a model, or of hits with parameters of their own.
+inline AnisotropicLobes LobesOf(const MicrofacetModel& model) { return {model.anisotropic.get()}; }
+inline AnisotropicLobes LobesOf(const ShadingMaterial& material, const MicrofacetModel& model,
+                                const HitParameters* maps) {
+  if (!model.anisotropic || maps == nullptr || !material.by_hit.width) return LobesOf(model);
+  return {maps->lobes.data(), 1};
+}
+
 // The constants of a GGX lobe over a base, of the material or of each hit.
 template <class Number>
 struct MicrofacetNumbers : MicrofacetConstants<Number> {
   const MicrofacetModel& model;
   // HitParameters::fit if hits have a roughness each, or null if all have the model's fit.
   const float* fit = nullptr;
+  AnisotropicLobes lobes;
 };
 inline MicrofacetNumbers<float> NumbersOfModel(const MicrofacetModel& model) {
-  return {model.constants, model};
+  return {model.constants, model, nullptr, LobesOf(model)};
 }
 inline MicrofacetNumbers<float*> NumbersOfHits(const ShadingMaterial& material,
                                                const HitParameters& textures) {
-  return {ColumnsIn<MicrofacetConstants<float*>>(textures.constants),
-          std::get<MicrofacetModel>(material.model),
-          material.by_hit.width ? textures.fit.data() : nullptr};
+  const auto& model = std::get<MicrofacetModel>(material.model);
+  return {ColumnsIn<MicrofacetConstants<float*>>(textures.constants), model,
+          material.by_hit.width ? textures.fit.data() : nullptr,
+          LobesOf(material, model, &textures)};
 }
 
 template <class Number>
 struct MicrofacetUniforms : MicrofacetNumbers<Number> {
   MicrofacetLight<Number> light;
   float eta[3] = {}, k[3] = {};
-  // SharpLobeTerms::distribution, or null if no lobe of the range is sharp.
+  // Arrays of SharpLobeTerms: the first is null if no lobe of the range is sharp, the others are if
+  // the lobes are isotropic.
   const float* sharp_distribution = nullptr;
+  const float *light_root = nullptr, *view_root = nullptr, *t_dot_l = nullptr, *b_dot_l = nullptr;
   // The factors of a rough base, or null if the base is Lambertian.
   const BaseSpread* spread = nullptr;
 };
@@ -72,6 +84,7 @@ void PrepareMicrofacet(const MicrofacetNumbers<float*>& numbers, size_t begin, s
 // or if its exponent is not above kDoubleTermsShininess.
 void FormSharpGgx(double alpha, const LitHits& lit, SharpLobeTerms* terms);
 void FormSharpGgx(const double* alphas, const LitHits& lit, SharpLobeTerms* terms);
+void FormAnisotropicGgx(const AnisotropicLobes& lobes, const LitHits& lit, SharpLobeTerms* terms);
 void FormSharpPhong(PhongModel model, double exponent, const LitHits& lit, SharpLobeTerms* terms);
 void FormSharpPhong(PhongModel model, const double* exponents, const LitHits& lit,
                     SharpLobeTerms* terms);
@@ -95,6 +108,10 @@ void SpreadBase(DiffuseForm form, const float* roughness, const LitHits& lit, Ba
 // Adds a layer over the model and the layers below it: lit.radiance holds what those reflect, and
 // becomes what all reflect (cover_kernel.cc).
 void CoverByLayer(const LayerModel& layer, const LitHits& lit);
+
+// Adds a coat over what lies below it, which `radiance` holds: lit.radiance is what the coat's own
+// lobe reflects (cover_kernel.cc).
+void CoverByCoat(const LitHits& lit, const CoatHits& coat, ReflectedRadiance* radiance);
 
 // Each kernel has an overload for constants that all hits share, and one for constants of each hit.
 void ShadeMatte(const MatteUniforms<float>& uniforms, const LitHits& lit);

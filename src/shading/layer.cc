@@ -39,6 +39,42 @@ SheenModel ModelAtHit(const SheenModel& sheen, const HitParameters& textures, si
           MakeCharlie(NumbersOf(textures, MappedNumber::kSheenRoughness)[i]), sheen.scaling};
 }
 
+LayerReflection TermsOf(const FuzzModel& fuzz, const Angles<double>& a) {
+  const FuzzView<double> view = FuzzFromView(fuzz.fuzz, a.n_dot_v);
+  return {fuzz.color * (fuzz.weight * FuzzLobe(view, a) * a.n_dot_l),
+          1 - fuzz.weight * view.albedo};
+}
+
+LayerReflection AlbedoOf(const FuzzModel& fuzz, double n_dot_v) {
+  const double albedo = fuzz.weight * FuzzAlbedo(fuzz.fuzz, n_dot_v);
+  return {fuzz.color * albedo, 1 - albedo};
+}
+
+Vec3d SampleOf(const FuzzModel& fuzz, const Vec3d& normal, const Vec3d& to_view, double u0,
+               double u1) {
+  return SampleFuzz(normal, to_view, FuzzFromView(fuzz.fuzz, normal ^ to_view), u0, u1);
+}
+
+double PdfOf(const FuzzModel& fuzz, const Angles<double>& a) {
+  return FuzzPdf(FuzzFromView(fuzz.fuzz, a.n_dot_v), a);
+}
+
+FuzzModel ModelAtHit(const FuzzModel& fuzz, const HitParameters& textures, size_t i) {
+  return {fuzz.weight, ColorOfHit(textures, MappedNumber::kSheenColor, i),
+          MakeFuzz(NumbersOf(textures, MappedNumber::kSheenRoughness)[i])};
+}
+
+std::vector<std::pair<std::string_view, double>> NamedTermsOf(const FuzzModel& fuzz,
+                                                              const Angles<double>& a) {
+  const FuzzView<double> view = FuzzFromView(fuzz.fuzz, a.n_dot_v);
+  return {{"roughness", fuzz.fuzz.roughness},
+          {"R", view.albedo},
+          {"D", FuzzPdf(view, a)},
+          {"weight", fuzz.weight}};
+}
+
+double WidthOf(const FuzzModel&) { return std::numeric_limits<double>::infinity(); }
+
 std::vector<std::pair<std::string_view, double>> NamedTermsOf(const SheenModel& sheen,
                                                               const Angles<double>& a) {
   const Charlie<double>& charlie = sheen.charlie;
@@ -62,20 +98,25 @@ bool ShowsSheen(const MetallicRoughnessMaterial& material) {
 std::vector<LayerModel> MakeLayers(const Material& material) {
   std::vector<LayerModel> layers;
   const auto* const model = std::get_if<MetallicRoughnessMaterial>(&material.model);
-  if (model == nullptr) return layers;
-  if (ShowsSheen(*model)) {
+  if (model != nullptr && ShowsSheen(*model)) {
     layers.emplace_back(
         SheenModel{model->sheen_color, MakeCharlie(model->sheen_roughness), model->sheen_scaling});
+  }
+  const auto* const open_pbr = std::get_if<OpenPbrMaterial>(&material.model);
+  if (open_pbr != nullptr && open_pbr->fuzz_weight > 0) {
+    layers.emplace_back(
+        FuzzModel{open_pbr->fuzz_weight, open_pbr->fuzz_color, MakeFuzz(open_pbr->fuzz_roughness)});
   }
   return layers;
 }
 
 std::vector<std::string_view> RemoveLayers(Material* material) {
   std::vector<std::string_view> names;
-  auto* const model = std::get_if<MetallicRoughnessMaterial>(&material->model);
-  if (model == nullptr) return names;
-  if (ShowsSheen(*model)) names.push_back(SheenModel::kName);
-  model->sheen_color = Rgb(0, 0, 0);
+  for (const LayerModel& layer : MakeLayers(*material)) names.push_back(NameOf(layer));
+  if (auto* model = std::get_if<MetallicRoughnessMaterial>(&material->model)) {
+    model->sheen_color = Rgb(0, 0, 0);
+  }
+  if (auto* model = std::get_if<OpenPbrMaterial>(&material->model)) model->fuzz_weight = 0;
   return names;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // shading/layer.h: layers over a model, such as the fuzz of cloth. A layer reflects some of the
 // light itself, and scales down what the model and the layers below it reflect. SIMD twin:
-// cover_kernel.cc. A clear coat lies over the layers and has a shading normal of its own (bsdf.h).
+// cover_kernel.cc. A clear coat lies over such layers, or below them (LiesOverCoats), and has a
+// shading normal of its own (bsdf.h).
 #pragma once
 
 #include <string_view>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "brdf/angles.h"
+#include "brdf/fuzz.h"
 #include "brdf/sheen.h"
 #include "scene/model_options.h"
 #include "shading/reflection.h"
@@ -28,7 +30,16 @@ struct SheenModel {
   SheenScaling scaling = SheenScaling::kReciprocal;
 };
 
-using LayerModel = std::variant<SheenModel>;
+// The fuzz of OpenPBR (brdf/fuzz.h), which lies over coats. Its lobe is as wide as that of sheen.
+struct FuzzModel {
+  static constexpr std::string_view kName = "fuzz";
+  static constexpr LobeKind kKind = LobeKind::kDiffuse;
+  double weight = 1;  // the fraction of what is below that it covers
+  Rgb color{1, 1, 1};
+  Fuzz<double> fuzz;
+};
+
+using LayerModel = std::variant<SheenModel, FuzzModel>;
 
 // A material has at most this many layers.
 inline constexpr size_t kMostLayers = 4;
@@ -43,6 +54,11 @@ inline LobeKind KindOf(const LayerModel& layer) {
 // The layers of a material, with the factors of its maps as parameters, bottom to top. Layers that
 // reflect nothing, whatever the maps, are left out.
 std::vector<LayerModel> MakeLayers(const Material& material);
+
+// Whether the layer lies over a material's coats, not below them. Such layers are the last.
+inline bool LiesOverCoats(const LayerModel& layer) {
+  return std::holds_alternative<FuzzModel>(layer);
+}
 
 struct HitParameters;
 

@@ -33,66 +33,79 @@ bool HasSecondLobe(const MicrofacetModel& model) {
   return model.compensation == Compensation::kKullaConty;
 }
 
-ModelAlbedos AlbedosOfModel(const std::monostate&, double) { return {}; }
+ModelAlbedos AlbedosOfModel(const std::monostate&, const LobeCosines&) { return {}; }
 
-ModelAlbedos AlbedosOfModel(const MatteModel& matte, double) {
+ModelAlbedos AlbedosOfModel(const MatteModel& matte, const LobeCosines&) {
   return {.diffuse = LargestChannel(matte.diffuse) * M_PI};
 }
 
-ModelAlbedos AlbedosOfModel(const PhongFamilyModel& phong, double) {
+ModelAlbedos AlbedosOfModel(const PhongFamilyModel& phong, const LobeCosines&) {
   return {.diffuse = LargestChannel(phong.diffuse) * M_PI,
           .glossy = LargestChannel(phong.specular) * 2 * M_PI / (phong.shininess + 2)};
 }
 
 // Nothing is known of a user model: it has one lobe.
-ModelAlbedos AlbedosOfModel(const UserModel& user, double) {
+ModelAlbedos AlbedosOfModel(const UserModel& user, const LobeCosines&) {
   return user.brdf->sample ? ModelAlbedos{.glossy = 1} : ModelAlbedos{.diffuse = 1};
 }
 
-ModelAlbedos AlbedosOfModel(const MicrofacetModel& model, double n_dot_v) {
+ModelAlbedos AlbedosOfModel(const MicrofacetModel& model, const LobeCosines& v) {
   const bool second = HasSecondLobe(model) && model.multiple > 0;
-  return AlbedosOfGgx({LargestChannel(model.diffuse) * M_PI, LargestChannel(model.f0), model.f90,
-                       model.delta, second ? LargestChannel(model.f_multiple) : 0,
-                       second ? AlbedoLoss(model.albedo.lobe, n_dot_v) : 0},
-                      n_dot_v);
+  return AlbedosOfGgx(
+      {LargestChannel(model.diffuse) * M_PI, LargestChannel(model.f0), model.f90, model.delta,
+       second ? LargestChannel(model.f_multiple) : 0, second ? LossOf(model, v) : 0},
+      v.n);
+}
+
+double NumberOfHit(float number, size_t) { return double{number}; }
+double NumberOfHit(const float* numbers, size_t i) { return double{numbers[i]}; }
+
+template <class Number>
+ModelAlbedos AlbedosAtHit(const MicrofacetModel& model,
+                          const MicrofacetConstants<Number>& constants, const Rgb& diffuse,
+                          const Surface& surface, size_t i, double n_dot_v) {
+  const auto largest = [i](const Number(&rgb)[3]) {
+    return std::max({NumberOfHit(rgb[0], i), NumberOfHit(rgb[1], i), NumberOfHit(rgb[2], i)});
+  };
+  GgxNumbers numbers{LargestChannel(diffuse) * M_PI,
+                     largest(constants.f0),
+                     NumberOfHit(constants.f90, i),
+                     NumberOfHit(constants.not_delta, i) == 0,
+                     0,
+                     0};
+  const double multiple = NumberOfHit(constants.multiple, i);
+  if (HasSecondLobe(model) && multiple > 0) {
+    numbers.f_multiple = largest(constants.f_multiple);
+    numbers.loss = std::min(double{surface.multiple[i]} / multiple, 1.0);
+  }
+  return AlbedosOfGgx(numbers, n_dot_v);
 }
 
 }  // namespace
 
-ModelAlbedos AlbedosOf(const ShadingMaterial& material, double n_dot_v) {
-  return std::visit([&](const auto& model) { return AlbedosOfModel(model, n_dot_v); },
-                    material.model);
+ModelAlbedos AlbedosOf(const ShadingMaterial& material, const LobeCosines& v) {
+  return std::visit([&](const auto& model) { return AlbedosOfModel(model, v); }, material.model);
 }
 
 ModelAlbedos AlbedosAt(const ShadingMaterial& material, const HitParameters* maps,
                        const Surface& surface, size_t i, double n_dot_v) {
   const auto* model = std::get_if<MicrofacetModel>(&material.model);
-  if (maps == nullptr) return AlbedosOf(material, n_dot_v);
   if (model == nullptr) {
     ModelAlbedos albedos = AlbedosOf(material, n_dot_v);
-    albedos.diffuse = LargestChannel(Rgb(VectorAt(maps->albedo, i)));
+    if (maps != nullptr) albedos.diffuse = LargestChannel(Rgb(VectorAt(maps->albedo, i)));
     return albedos;
   }
-  const auto constants = ColumnsIn<MicrofacetConstants<float*>>(maps->constants);
-  const auto largest = [i](float* const(&rgb)[3]) {
-    return std::max({rgb[0][i], rgb[1][i], rgb[2][i]});
-  };
+  // By the numbers of kernels in both cases: a constant map then gives the bits of the constant.
+  if (maps == nullptr) {
+    return AlbedosAtHit(*model, model->constants, model->diffuse, surface, i, n_dot_v);
+  }
   Rgb diffuse;
   for (int c = 0; c < 3; ++c) {
     VisitChannel(material, *maps, c,
                  [&](const auto& channel) { diffuse[c] = channel.Colors(i).diffuse; });
   }
-  GgxNumbers numbers{LargestChannel(diffuse) * M_PI,
-                     largest(constants.f0),
-                     constants.f90[i],
-                     constants.not_delta[i] == 0,
-                     0,
-                     0};
-  if (HasSecondLobe(*model) && constants.multiple[i] > 0) {
-    numbers.f_multiple = largest(constants.f_multiple);
-    numbers.loss = std::min(surface.multiple[i] / constants.multiple[i], 1.0f);
-  }
-  return AlbedosOfGgx(numbers, n_dot_v);
+  return AlbedosAtHit(*model, ColumnsIn<MicrofacetConstants<float*>>(maps->constants), diffuse,
+                      surface, i, n_dot_v);
 }
 
 double BaseAlbedo(const ShadingMaterial& material, const HitParameters* maps, size_t i) {
@@ -124,6 +137,16 @@ KindChances ChancesOfKinds(const std::vector<LayerModel>& layers, double n_dot_v
   // From the top down: `left` is what the levels so far let through.
   double left = 1;
   KindChances chances{.diffuse = 0};
+  const auto take_layers = [&](bool over_coats) {
+    for (size_t k = layers.size(); k-- > 0;) {
+      if (LiesOverCoats(layers[k]) != over_coats) continue;
+      const LayerReflection albedo = LayerAlbedo(layers[k], n_dot_v);
+      (KindOf(layers[k]) == LobeKind::kDiffuse ? chances.diffuse : chances.glossy) +=
+          left * LargestChannel(albedo.lobe);
+      left *= albedo.below;
+    }
+  };
+  take_layers(true);
   for (size_t k = coats.size(); k-- > 0;) {
     const double reflected = left * LargestChannel(coats[k].albedo);
     if (!coats[k].is_mirror) {
@@ -133,12 +156,7 @@ KindChances ChancesOfKinds(const std::vector<LayerModel>& layers, double n_dot_v
     }
     left *= LargestChannel(coats[k].transmittance);
   }
-  for (size_t k = layers.size(); k-- > 0;) {
-    const LayerReflection albedo = LayerAlbedo(layers[k], n_dot_v);
-    (KindOf(layers[k]) == LobeKind::kDiffuse ? chances.diffuse : chances.glossy) +=
-        left * LargestChannel(albedo.lobe);
-    left *= albedo.below;
-  }
+  take_layers(false);
   chances.diffuse += left * albedos.diffuse;
   chances.glossy += left * albedos.glossy;
   if (mirrors) chances.mirror[0] = left * albedos.mirror;

@@ -41,7 +41,7 @@ class Chooser {
 struct ModelAlbedos {
   double diffuse = 0, glossy = 0, mirror = 0;
 };
-ModelAlbedos AlbedosOf(const ShadingMaterial& material, double n_dot_v);
+ModelAlbedos AlbedosOf(const ShadingMaterial& material, const LobeCosines& v);
 // The same estimates for hit i of a batch, for which PrepareRun has run; `maps` is null unless the
 // hit has parameters of its own.
 ModelAlbedos AlbedosAt(const ShadingMaterial& material, const HitParameters* maps,

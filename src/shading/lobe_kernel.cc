@@ -15,6 +15,7 @@
 
 #include "hwy/highway.h"
 
+#include "brdf/ggx_anisotropic-inl.h"
 #include "brdf/lobe_sampling-inl.h"
 #include "shading/kernels.h"
 #include "shading/soa-inl.h"
@@ -120,6 +121,29 @@ class KullaContyShares {
   float spread_;
 };
 
+// The alphas of hits i...
+HWY_INLINE GgxAlphasV<V> AlphasAt(const AnisotropicLobes& lobes, size_t i) {
+  const D d;
+  HWY_ALIGN float x[hn::MaxLanes(d)], y[hn::MaxLanes(d)];
+  for (size_t k = 0; k < hn::Lanes(d); ++k) {
+    x[k] = static_cast<float>(lobes.At(i + k).alpha.x);
+    y[k] = static_cast<float>(lobes.At(i + k).alpha.y);
+  }
+  return MakeGgxAlphas(d, hn::Load(d, x), hn::Load(d, y));
+}
+
+template <class Number>
+HWY_INLINE Vec3V<V> SampleVisible(const MicrofacetNumbers<Number>& lobe, const Surface& surface,
+                                  size_t i, V u0, V u1) {
+  const D d;
+  const Vec3V<V> normal = LoadSoa(d, surface.normal, i), to_view = LoadSoa(d, surface.to_view, i);
+  if (lobe.lobes.first == nullptr) {
+    return SampleGgxVisible(d, normal, to_view, NumberAt(lobe.alpha, i), u0, u1);
+  }
+  const BasisV<V> frame = LobeFrame(d, normal, LoadSoa(d, surface.tangent, i));
+  return SampleGgxVisible(d, frame, to_view, AlphasAt(lobe.lobes, i), u0, u1);
+}
+
 template <class Number>
 void SampleGgxOf(const MicrofacetNumbers<Number>& lobe, const MaterialHits& at, const float* u,
                  const float* v, Soa3<float>* to_light) {
@@ -127,9 +151,7 @@ void SampleGgxOf(const MicrofacetNumbers<Number>& lobe, const MaterialHits& at, 
   const V one = hn::Set(d, 1.0f), zero = hn::Zero(d);
   if (lobe.model.compensation != Compensation::kKullaConty) {
     ForEachPacket(at, to_light, [&](size_t i) HWY_ATTR {
-      return SampleGgxVisible(d, LoadSoa(D(), at.surface.normal, i),
-                              LoadSoa(D(), at.surface.to_view, i), NumberAt(lobe.alpha, i),
-                              hn::LoadU(d, u + i), hn::LoadU(d, v + i));
+      return SampleVisible(lobe, at.surface, i, hn::LoadU(d, u + i), hn::LoadU(d, v + i));
     });
     return;
   }
@@ -146,8 +168,7 @@ void SampleGgxOf(const MicrofacetNumbers<Number>& lobe, const MaterialHits& at, 
     const V again =
         hn::Min(hn::Div(hn::Sub(u0, offset), hn::IfThenElse(hn::Gt(divisor, zero), divisor, one)),
                 below_one);
-    const Vec3V<V> single = SampleGgxVisible(d, normal, LoadSoa(D(), at.surface.to_view, i),
-                                             NumberAt(lobe.alpha, i), again, u1);
+    const Vec3V<V> single = SampleVisible(lobe, at.surface, i, again, u1);
     if (hn::AllFalse(d, multiple)) return single;
     return Select(multiple, SampleKullaConty(d, normal, shares.Spread(i), again, u1), single);
   });
@@ -173,7 +194,7 @@ void SamplePhongT(PhongModel model, const PhongExponent& exponent, const Materia
 
 template <class Number>
 void GgxPdfOf(const MicrofacetNumbers<Number>& lobe, const MaterialHits& at,
-              const LightBatch& light, const float* sharp_distribution, float* pdf) {
+              const LightBatch& light, const SharpLobeTerms* sharp, float* pdf) {
   const D d;
   const bool kulla_conty = lobe.model.compensation == Compensation::kKullaConty;
   const KullaContyShares<Number> shares(lobe, at.surface);
@@ -183,11 +204,16 @@ void GgxPdfOf(const MicrofacetNumbers<Number>& lobe, const MaterialHits& at,
         ComputeAngles(d, LoadSoa(D(), at.surface.normal, i), LoadSoa(D(), light.light_vector, i),
                       LoadSoa(D(), at.surface.to_view, i));
     V distribution = GgxDistribution(d, angles, alpha);
-    if (sharp_distribution != nullptr) {
-      const V exact = hn::LoadU(d, sharp_distribution + i);
+    if (sharp != nullptr) {
+      const V exact = hn::LoadU(d, sharp->distribution.data() + i);
       distribution = hn::IfThenElse(hn::Ge(exact, hn::Zero(d)), exact, distribution);
     }
     V value = GgxVisiblePdf(d, distribution, angles.n_dot_v, alpha);
+    if (sharp != nullptr && lobe.lobes.first != nullptr) {
+      const V root = hn::LoadU(d, sharp->view_root.data() + i);
+      const V sum = hn::Add(hn::Max(angles.n_dot_v, hn::Zero(d)), root);
+      value = hn::Div(distribution, hn::Add(sum, sum));
+    }
     if (kulla_conty) {
       const V share = shares.Share(i);
       const V single = hn::Mul(hn::Sub(hn::Set(d, 1.0f), share), value);
@@ -335,18 +361,17 @@ void LobePdf(const MaterialHits& at, const LightBatch& light, ShadeScratch* scra
   }
   const auto& model = std::get<MicrofacetModel>(at.material.model);
   const SharpLobeTerms* const sharp = FormSharpTerms(model, lit, &scratch->sharp);
-  const float* const distribution = sharp != nullptr ? sharp->distribution.data() : nullptr;
   if (maps != nullptr) {
-    return HWY_DYNAMIC_DISPATCH(GgxPdfMapsT)(NumbersOfHits(at.material, *maps), at, light,
-                                             distribution, pdf);
+    return HWY_DYNAMIC_DISPATCH(GgxPdfMapsT)(NumbersOfHits(at.material, *maps), at, light, sharp,
+                                             pdf);
   }
-  HWY_DYNAMIC_DISPATCH(GgxPdfT)(NumbersOfModel(model), at, light, distribution, pdf);
+  HWY_DYNAMIC_DISPATCH(GgxPdfT)(NumbersOfModel(model), at, light, sharp, pdf);
 }
 
 bool IsMirror(const MaterialHits& at, size_t hit) {
   const auto* model = std::get_if<MicrofacetModel>(&at.material.model);
   if (model == nullptr || !at.material.by_hit.model) return HasDeltaLobe(at.material);
-  return IsDeltaLobe(AlphaFromRoughness(NumbersOf(*at.textures, MappedNumber::kWidth)[hit]));
+  return ColumnsIn<MicrofacetConstants<float*>>(at.textures->constants).not_delta[hit] == 0;
 }
 
 bool AnyMirror(const MaterialHits& at) {

@@ -9,6 +9,7 @@
 #include "brdf/quadrature.h"
 #include "scene/limits.h"
 #include "shading/golden.h"
+#include "shading/open_pbr.h"
 
 namespace nacre {
 namespace {
@@ -169,6 +170,7 @@ double LobeAlpha(const Material& material) {
                  [](const MetallicRoughnessMaterial& m) { return AlphaFromRoughness(m.roughness); },
                  [](const ConductorMaterial& m) { return AlphaFromRoughness(m.roughness); },
                  [](const DielectricMaterial& m) { return AlphaFromRoughness(m.roughness); },
+                 [](const OpenPbrMaterial& m) { return AlphaFromRoughness(RoughnessBelowCoat(m)); },
                  [](const auto&) { return 1.0; }},
       material.model);
 }

@@ -9,6 +9,7 @@
 #include "scene/material_parameters.h"
 #include "shading/kernels.h"
 #include "shading/models_at_hit.h"
+#include "shading/open_pbr.h"
 #include "shading/texture_kernels.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -106,21 +107,25 @@ void PutShown(const TexturedRun& run) {
       hits.Fill(ChannelOf(run.textures.ambient, c).data(), [&](size_t) { return ambient; });
     }
   } else {
-    PutShown(run, [&](int c, size_t i) { return DeriveShown(color[c][i]); });
+    const auto* const open_pbr = std::get_if<OpenPbrMaterial>(&material.model);
+    const double weight = open_pbr != nullptr ? open_pbr->base_weight : 1;
+    PutShown(run, [&](int c, size_t i) { return DeriveShown(weight * color[c][i]); });
   }
 }
 
-// Stores the constants of a rough diffuse surface; roughness(i) is that of hit i.
+// Stores the constants of a rough diffuse surface; roughness(i) is that of hit i. `weight` is a
+// factor on its colour.
 template <class Roughness>
 void PutMatte(const TexturedRun& run, DiffuseForm form, const Roughness& roughness,
-              const MatteConstants<float*>& to) {
+              const MatteConstants<float*>& to, double weight = 1) {
   if (form == DiffuseForm::kLambert) return;
   const Hits hits{run.begin, run.end};
   hits.Fill(to.roughness, roughness);
   if (form != DiffuseForm::kOrenNayar) return;
   for (int c = 0; c < 3; ++c) {
     const double* const color = NumbersOf(run.textures, MappedNumber::kColor, c);
-    hits.Fill(to.ratio[c], [&](size_t i) { return EonMultipleRatio(color[i], roughness(i)); });
+    hits.Fill(to.ratio[c],
+              [&](size_t i) { return EonMultipleRatio(color[i] * weight, roughness(i)); });
   }
 }
 
@@ -160,29 +165,54 @@ void PutFit(const AlbedoFit& fit, const AlbedoPolynomial& second, size_t i, HitP
   for (const float coefficient : second) put(coefficient);
 }
 
+// Whether the model's constants depend on means of its albedos.
+bool NeedsAverages(const MicrofacetModel& model) {
+  return model.compensation == Compensation::kKullaConty || model.reciprocal;
+}
+
+// Makes the lobes of anisotropic hits with alphas each. Hits with the same alphas as the hit before
+// copy its lobe.
+void PutLobes(const TexturedRun& run, const MicrofacetModel& model) {
+  const Material& material = *run.material.scene_material;
+  const double* const roughness = NumbersOf(run.textures, MappedNumber::kWidth);
+  const double* const anisotropy = NumbersOf(run.textures, MappedNumber::kAnisotropy);
+  std::vector<AnisotropicLobe>& lobes = run.textures.lobes;
+  if (lobes.empty()) lobes.resize(kBatchCapacity + kBatchPadding);
+  for (size_t i = run.begin; i < run.end; ++i) {
+    const GgxAlphas<double> alpha = AlphasOf(material, roughness[i], anisotropy[i]);
+    const bool same =
+        i > run.begin && lobes[i - 1].alpha.x == alpha.x && lobes[i - 1].alpha.y == alpha.y;
+    lobes[i] = same ? lobes[i - 1] : MakeAnisotropicLobe(model, alpha, roughness[i]);
+  }
+}
+
 // Stores the albedos of the hits' lobes: the fits of hits with a roughness each, whose second curve
-// is Schlick's or that of a dielectric's index; and, for Kulla and Conty's compensation, the
-// averages. Hits with the same roughness as the hit before reuse its fit.
+// is Schlick's or that of a dielectric's index; and the averages, if they are needed. Hits with the
+// same roughness as the hit before reuse its fit.
 void PutAlbedos(const TexturedRun& run, const MicrofacetModel& model) {
-  const bool kulla_conty = model.compensation == Compensation::kKullaConty;
-  if (!run.material.by_hit.width && !kulla_conty) return;
+  const bool averages = NeedsAverages(model);
+  if (!run.material.by_hit.width && !averages) return;
   const double* const roughness = NumbersOf(run.textures, MappedNumber::kWidth);
   AlbedoFit fit = model.albedo.lobe;
   DielectricCurve curve{model.albedo.fresnel, model.albedo.average};
+  const AnisotropicLobes lobes = LobesOf(run.material, model, &run.textures);
   double last = -1;
   for (size_t i = run.begin; i < run.end; ++i) {
     if (run.material.by_hit.width && roughness[i] != last) {
       last = roughness[i];
-      fit = kulla_conty ? MakeAlbedoFit(model.shadowing, last)
-                        : BlendAlbedoCurves(model.shadowing, last);
+      fit = averages ? MakeAlbedoFit(model.shadowing, last)
+                     : BlendAlbedoCurves(model.shadowing, last);
       if (model.curves) curve = BlendDielectricCurves(*model.curves, last);
     }
     if (run.material.by_hit.width) {
       PutFit(fit, model.curves ? curve.fresnel : fit.schlick, i, &run.textures);
     }
-    run.textures.one_average[i] = fit.e_average;
-    run.textures.schlick_average[i] = fit.schlick_average;
-    run.textures.dielectric_average[i] = curve.average;
+    const AlbedoAverages averages_here =
+        lobes.first != nullptr ? AveragesOf(lobes.At(i))
+                               : AlbedoAverages{fit.e_average, fit.schlick_average, curve.average};
+    run.textures.one_average[i] = averages_here.one;
+    run.textures.schlick_average[i] = averages_here.schlick;
+    run.textures.dielectric_average[i] = averages_here.dielectric;
   }
 }
 
@@ -205,11 +235,18 @@ struct KullaContyAt {
   const double *one, *schlick, *dielectric;
 };
 
-void PutWidths(const TexturedRun& run, Shadowing shadowing, const MicrofacetConstants<float*>& to) {
+void PutWidths(const TexturedRun& run, const MicrofacetModel& model,
+               const MicrofacetConstants<float*>& to) {
   const double* const roughness = NumbersOf(run.textures, MappedNumber::kWidth);
   double* const sharp = run.textures.sharp_alpha.data();
-  Hits{run.begin, run.end}.Each([&](size_t i) {
-    const LobeWidth width = DeriveWidth(shadowing, roughness[i]);
+  const Hits hits{run.begin, run.end};
+  if (const AnisotropicLobes lobes = LobesOf(run.material, model, &run.textures);
+      lobes.first != nullptr) {
+    hits.Each([&](size_t i) { PutWidth(DeriveWidth(lobes.At(i).alpha), AtHit{i}, &to); });
+    return;
+  }
+  hits.Each([&](size_t i) {
+    const LobeWidth width = DeriveWidth(model.shadowing, roughness[i]);
     PutWidth(width, AtHit{i}, &to);
     sharp[i] = width.sharp_alpha;
   });
@@ -226,9 +263,14 @@ void PutBase(const TexturedRun& run, const MicrofacetModel& model,
     own = dielectric->diffuse_roughness;
   }
   const double* const roughness = NumbersOf(run.textures, MappedNumber::kWidth);
+  double weight = 1;
+  if (const auto* open_pbr = std::get_if<OpenPbrMaterial>(&material.model)) {
+    own = open_pbr->base_diffuse_roughness;
+    if (open_pbr->options.base_weight_in_rho) weight = open_pbr->base_weight;
+  }
   if (own) {
     PutMatte(
-        run, model.base_form, [&](size_t) { return *own; }, to.base);
+        run, model.base_form, [&](size_t) { return *own; }, to.base, weight);
   } else {
     PutMatte(
         run, model.base_form, [&](size_t i) { return roughness[i]; }, to.base);
@@ -239,15 +281,23 @@ void Finish(const TexturedRun& run, const MicrofacetModel& model) {
   const Hits hits{run.begin, run.end};
   const auto to = ColumnsIn<MicrofacetConstants<float*>>(run.textures.constants);
   const bool kulla_conty = model.compensation == Compensation::kKullaConty;
-  PutWidths(run, model.shadowing, to);
+  if (const auto* open_pbr = std::get_if<OpenPbrMaterial>(&run.material.scene_material->model)) {
+    double* const width = run.textures.numbers[static_cast<size_t>(MappedNumber::kWidth)].x.data();
+    const double* const uncoated = NumbersOf(run.textures, MappedNumber::kUncoatedWidth);
+    hits.Fill(width, [&](size_t i) { return RoughnessBelowCoat(*open_pbr, uncoated[i]); });
+  }
+  if (model.anisotropic && run.material.by_hit.width) PutLobes(run, model);
+  PutWidths(run, model, to);
   if (model.prepared) PutAlbedos(run, model);
   for (int c = 0; c < 3; ++c) {
     VisitChannel(run.material, run.textures, c, [&](const auto& channel) {
       hits.Each([&](size_t i) { PutCurve(channel.Colors(i), c, AtHit{i}, &to); });
       if (model.fresnel == FresnelForm::kF82) {
         hits.Each([&](size_t i) { PutF82(channel.Colors(i), c, AtHit{i}, &to); });
+      } else if (model.fresnel == FresnelForm::kOpenPbr) {
+        hits.Each([&](size_t i) { PutOpenPbr(channel.Colors(i), c, AtHit{i}, &to); });
       }
-      if (kulla_conty) {
+      if (NeedsAverages(model)) {
         const KullaContyAt kulla_conty_at(model, channel, run.textures);
         hits.Each([&](size_t i) { PutKullaConty(kulla_conty_at(i), c, AtHit{i}, &to); });
       }
@@ -320,11 +370,12 @@ void Multiply(const LitHits& lit, const MicrofacetModel& model, int c, const Cha
 
 void Multiply(const LitHits& lit, const MicrofacetModel& model, int c) {
   VisitChannel(lit.material, *lit.textures, c, [&](const auto& channel) {
-    if (model.compensation != Compensation::kKullaConty) {
+    if (!NeedsAverages(model)) {
       return Multiply(lit, model, c, channel, [&](size_t i) { return channel.Colors(i).diffuse; });
     }
     const KullaContyAt at(model, channel, *lit.textures);
     Multiply(lit, model, c, channel, [&](size_t i) { return at(i).diffuse; });
+    if (model.compensation != Compensation::kKullaConty) return;
     const double light = lit.light.color[c];
     const auto to = ColumnsIn<MicrofacetLight<float*>>(lit.textures->products);
     Hits{lit.begin, lit.end}.Fill(to.multiple[c],

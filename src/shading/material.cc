@@ -16,6 +16,7 @@
 #include "scene/coat.h"
 #include "scene/material_parameters.h"
 #include "shading/derive.h"
+#include "shading/open_pbr.h"
 
 namespace nacre {
 namespace {
@@ -87,12 +88,42 @@ void PrepareBase(const Microfacet& material, MicrofacetModel* model) {
   if (model->base_roughness == 0) model->base_form = DiffuseForm::kLambert;
 }
 
+AlbedoAverages AveragesOf(const MicrofacetModel& model) {
+  if (model.anisotropic) return AveragesOf(*model.anisotropic);
+  const AlbedoFit& lobe = model.albedo.lobe;
+  return {lobe.e_average, lobe.schlick_average, model.albedo.average};
+}
+
+// Makes the lobe anisotropic if the material is. The Fresnel curve must already be set.
+template <class Microfacet>
+void MakeAnisotropic(const Microfacet& material, double roughness, bool by_hit,
+                     MicrofacetModel* model) {
+  // Schlick's forms of shadowing are refused with anisotropy (scene/validate.cc).
+  const bool is_smith =
+      model->shadowing == Shadowing::kHeightCorrelated || model->shadowing == Shadowing::kSeparable;
+  if (!IsAnisotropic(material) || !is_smith) return;
+  const GgxAlphas<double> alpha = AlphasOf(material, roughness, AnisotropyOf(material));
+  const LobeWidth width = DeriveWidth(alpha);
+  PutWidth(width, Rounded(), &model->constants);
+  model->alpha = width.alpha;
+  model->delta = width.delta;
+  model->double_terms = true;
+  if (by_hit && HasExactCurve(model->fresnel)) {
+    const double anisotropy = AnisotropyOf(material);
+    model->anisotropic_curves =
+        std::make_shared<const AnisotropicFresnelCurves>(MakeAnisotropicFresnelCurves(
+            model->shadowing, [&](double r) { return AlphasOf(material, r, anisotropy); },
+            model->albedo.curve));
+  }
+  model->anisotropic =
+      std::make_shared<const AnisotropicLobe>(MakeAnisotropicLobe(*model, alpha, roughness));
+}
+
 // Sets the model's colours; of_channel(c) are those of a channel. The averages of both Fresnel
 // curves, which Kulla and Conty's compensation needs, must already be set in the model.
 template <class OfChannel>
 void TakeColors(const OfChannel& of_channel, MicrofacetModel* model) {
-  const AlbedoFit& lobe = model->albedo.lobe;
-  const AlbedoAverages albedo{lobe.e_average, lobe.schlick_average, model->albedo.average};
+  const AlbedoAverages albedo = AveragesOf(*model);
   const bool kulla_conty = model->compensation == Compensation::kKullaConty;
   MicrofacetConstants<float>* const constants = &model->constants;
   if (kulla_conty) model->multiple = KullaContyScale(albedo.one);
@@ -102,7 +133,7 @@ void TakeColors(const OfChannel& of_channel, MicrofacetModel* model) {
     const MicrofacetColors at = of_channel(c);
     const MixedCurve mix = MixCurves(at);
     PutCurve(at, c, Rounded(), constants);
-    PutF82(at, c, Rounded(), constants);
+    PutOpenPbr(at, c, Rounded(), constants);
     Rounded()(model->base_ratio[c], constants->base.ratio[c]);
     model->metallic = at.metallic;
     model->diffuse[c] = at.diffuse;
@@ -110,9 +141,12 @@ void TakeColors(const OfChannel& of_channel, MicrofacetModel* model) {
     model->dielectric_f90 = at.dielectric_f90;
     model->metal_f0[c] = at.metal_f0;
     model->f82_slope[c] = at.f82_slope;
+    model->dielectric_scale[c] = at.dielectric_scale;
+    model->metal_scale = at.metal_scale;
+    model->cover[c] = at.cover;
     model->f0[c] = mix.f0;
     model->f90 = MixedF90(at.dielectric_f90, at.metallic);
-    if (!kulla_conty) continue;
+    if (!kulla_conty && !model->reciprocal) continue;
     const KullaContyChannel multiple = DeriveKullaConty(
         *model, at, {model->dielectric_f_average[c], model->metal_f_average[c]}, albedo);
     PutKullaConty(multiple, c, Rounded(), constants);
@@ -122,14 +156,25 @@ void TakeColors(const OfChannel& of_channel, MicrofacetModel* model) {
   }
 }
 
+// Sets the coupling to the base, which is reciprocal where the lobe is.
+template <class Microfacet>
+void CoupleBase(const Microfacet& material, MicrofacetModel* model) {
+  model->coupling = material.diffuse_coupling;
+  model->reciprocal = model->coupling == DiffuseCoupling::kAlbedoScaled &&
+                      model->compensation == Compensation::kKullaConty;
+  PrepareBase(material, model);
+}
+
 MicrofacetModel MakeModel(const MetallicRoughnessMaterial& material) {
   MicrofacetModel model = MakeLobe(material);
-  model.coupling = material.diffuse_coupling;
-  PrepareBase(material, &model);
+  CoupleBase(material, &model);
   // The tint has no effect on a material that is not metallic.
   const bool tinted = material.metallic > 0 && material.f82_tint != Rgb(1);
   const Rgb tint = tinted ? material.f82_tint : Rgb(1);
   model.fresnel = tinted ? FresnelForm::kF82 : FresnelForm::kSchlick;
+  MakeAnisotropic(material, material.roughness,
+                  material.metallic_roughness_map.valid() || material.anisotropy_map.valid(),
+                  &model);
   const auto of_channel = [&](int c) {
     return DeriveMetallicRoughness(material.base_color[c], material.metallic,
                                    material.dielectric_f0[c], material.specular, tint[c]);
@@ -174,22 +219,63 @@ MicrofacetModel MakeModel(const ConductorMaterial& material) {
 MicrofacetModel MakeModel(const DielectricMaterial& material) {
   MicrofacetModel model = MakeLobe(material);
   const bool exact = material.fresnel == DielectricFresnel::kExact;
-  model.coupling = material.diffuse_coupling;
-  PrepareBase(material, &model);
+  CoupleBase(material, &model);
   model.eta = Rgb(material.ior);
   const double f0 = FresnelF0(material.ior, 0.0);
   model.fresnel = exact ? FresnelForm::kDielectric : FresnelForm::kSchlick;
   if (exact) {
-    model.albedo = MakeDielectricAlbedoFit(material.shadowing, material.roughness, material.ior);
+    model.albedo = MakeDielectricAlbedoFit(material.shadowing, material.roughness, {material.ior});
     if (material.roughness_map.valid()) {
       model.curves = std::make_shared<const DielectricCurves>(
-          MakeDielectricCurves(material.shadowing, material.ior));
+          MakeDielectricCurves(material.shadowing, {material.ior}));
     }
   }
   if (model.compensation == Compensation::kKullaConty) {
     model.dielectric_f_average = Rgb(exact ? AverageDielectric(material.ior) : AverageSchlick(f0));
   }
   TakeColors([&](int c) { return DeriveDielectric(material.base_color[c], f0); }, &model);
+  return model;
+}
+
+MicrofacetModel MakeModel(const OpenPbrMaterial& material) {
+  const OpenPbrOptions& options = material.options;
+  struct Lobe {
+    Shadowing shadowing;
+    Compensation compensation;
+    double roughness;
+  };
+  const Lobe lobe{options.smith, options.compensation, RoughnessBelowCoat(material)};
+  MicrofacetModel model = MakeLobe(lobe);
+  model.fresnel = FresnelForm::kOpenPbr;
+  model.coupling = DiffuseCoupling::kAlbedoScaled;
+  model.reciprocal =
+      options.layering == Layering::kReciprocal && options.compensation != Compensation::kTurquin;
+  model.base_roughness = material.base_diffuse_roughness;
+  if (model.base_roughness > 0) {
+    model.base_form = DiffuseForm::kOrenNayar;
+    const double in_rho = options.base_weight_in_rho ? material.base_weight : 1;
+    model.base_ratio = EonRatio(material.base_color * in_rho, model.base_roughness);
+  }
+  model.is_dielectric = material.base_metalness == 0 || material.specular_weight == 0;
+  model.dielectric = DielectricOf(material);
+  model.albedo = MakeDielectricAlbedoFit(lobe.shadowing, lobe.roughness, model.dielectric);
+  if (material.specular_roughness_map.valid()) {
+    model.curves = std::make_shared<const DielectricCurves>(
+        MakeDielectricCurves(lobe.shadowing, model.dielectric));
+  }
+  MakeAnisotropic(material, lobe.roughness, material.specular_roughness_map.valid(), &model);
+  const double f0 = FresnelCoatedDielectric(1.0, 0.0, model.dielectric);
+  const Rgb& tint = material.specular_color;
+  const auto of_channel = [&](int c) {
+    return DeriveOpenPbr(
+        material, {material.base_color[c], material.base_metalness, tint[c], LargestChannel(tint)},
+        f0);
+  };
+  if (model.compensation == Compensation::kKullaConty) {
+    model.dielectric_f_average = Rgb(AverageDielectric(model.dielectric));
+    model.metal_f_average = MakeRgb([&](int c) { return DeriveAverages(of_channel(c)).metal; });
+  }
+  TakeColors(of_channel, &model);
   return model;
 }
 
@@ -202,13 +288,21 @@ void FindMaps(const Material& material, ShadingMaterial* prepared) {
       for (const MapTarget& target : TargetsOf(map)) {
         prepared->by_hit.parameters = true;
         if (target.number != MappedNumber::kEmission) prepared->by_hit.model = true;
-        if (target.number == MappedNumber::kWidth) prepared->by_hit.width = true;
+        if (target.number == MappedNumber::kWidth ||
+            target.number == MappedNumber::kUncoatedWidth ||
+            target.number == MappedNumber::kAnisotropy) {
+          prepared->by_hit.width = true;
+        }
       }
     }
   }
   prepared->by_hit.normal =
       material.normal_map.texture.valid() || material.bump_map.texture.valid();
-  if (prepared->by_hit.parameters || prepared->by_hit.normal) prepared->scene_material = &material;
+  prepared->by_hit.tangent = IsAnisotropic(material);
+  if (prepared->by_hit.tangent) prepared->tangent_turn = TangentTurnOf(material).rotation;
+  if (prepared->by_hit.parameters || prepared->by_hit.normal || prepared->by_hit.tangent) {
+    prepared->scene_material = &material;
+  }
 }
 
 // A black base, such as a metal's, reflects nothing, so how it is coupled to the lobe does not
@@ -267,6 +361,11 @@ ShadingMaterial PrepareUncoated(const Material& material) {
             take_shown(
                 [&](int c) { return DeriveDielectricShown(dielectric.base_color[c], gloss); });
           },
+          [&](const OpenPbrMaterial& open_pbr) {
+            prepared.model = MakeModel(open_pbr);
+            take_shown(
+                [&](int c) { return DeriveShown(open_pbr.base_weight * open_pbr.base_color[c]); });
+          },
           [](const SplitMaterial&) {}},
       material.model);
   if (material.user) prepared.model = UserModel{material.user};
@@ -285,13 +384,24 @@ void FinishModel(ShadingMaterial* prepared) {
 
 }  // namespace
 
-std::shared_ptr<const ShadingMaterial> MakeShadingCoat(const Coat& coat) {
+namespace {
+
+CoatTransmission TransmissionOf(const Coat& coat, const Material& below) {
+  if (const auto* open_pbr = std::get_if<OpenPbrMaterial>(&below.model)) {
+    return TransmissionOf(*open_pbr);
+  }
+  return {.weight = StrengthOf(coat.material), .color = coat.color};
+}
+
+}  // namespace
+
+std::shared_ptr<const ShadingMaterial> MakeShadingCoat(const Coat& coat, const Material& below) {
   const auto own = std::make_shared<const Material>(coat.material);
   // SkipBlackBase is not called: the coat's base is black, but 1 - the coat's albedo is needed as
   // the coat's transmittance.
   ShadingMaterial prepared = PrepareUncoated(*own);
   prepared.own = own;
-  prepared.tint = coat.tint;
+  prepared.transmission = TransmissionOf(coat, below);
   FinishModel(&prepared);
   return std::make_shared<const ShadingMaterial>(std::move(prepared));
 }
@@ -301,7 +411,8 @@ ShadingMaterial PrepareMaterial(const Material& material, bool in_ambient) {
   prepared.in_ambient = in_ambient;
   SkipBlackBase(&prepared);
   FinishModel(&prepared);
-  for (const Coat& coat : CoatsOf(material)) prepared.coats.push_back(MakeShadingCoat(coat));
+  for (const Coat& coat : CoatsOf(material))
+    prepared.coats.push_back(MakeShadingCoat(coat, material));
   // The stack's buffers have room for no more (bsdf.cc).
   if (prepared.coats.size() > kMostCoats || prepared.layers.size() > kMostLayers) {
     throw Error(ExitCode::kInternal, "material \"" + material.name + "\"",
@@ -310,8 +421,10 @@ ShadingMaterial PrepareMaterial(const Material& material, bool in_ambient) {
   // The ambient light that coats and layers reflect, and the emission that coats transmit, depend
   // on the view direction of the hit.
   const bool coated = !prepared.coats.empty();
+  const bool hides_emission =
+      coated || std::any_of(prepared.layers.begin(), prepared.layers.end(), LiesOverCoats);
   if (((coated || !prepared.layers.empty()) && in_ambient) ||
-      (coated && !IsBlack(prepared.emission))) {
+      (hides_emission && !IsBlack(prepared.emission))) {
     prepared.by_hit.parameters = true;
     prepared.scene_material = &material;
   }
@@ -328,32 +441,46 @@ void DropMaps(ShadingMaterial* material) {
   }
 }
 
-Rgb CoatAlbedo(const ShadingMaterial& coat, double n_dot_v) {
+Rgb CoatAlbedo(const ShadingMaterial& coat, const LobeCosines& v) {
   const auto& model = std::get<MicrofacetModel>(coat.model);
-  return MakeRgb([&](int c) { return std::min(CoverAlbedo(model, n_dot_v, c), 1.0); });
+  return MakeRgb([&](int c) { return std::min(CoverAlbedo(model, v, c), 1.0); });
 }
 
-Rgb TransmittedByCoat(const ShadingMaterial& coat, double n_dot_v) {
-  return coat.tint * (Rgb(1) - CoatAlbedo(coat, n_dot_v));
+Rgb TransmittedByCoat(const ShadingMaterial& coat, const LobeCosines& v, double n_dot_l) {
+  return TransmittedByCoat(coat.transmission, CoatAlbedo(coat, v), v.n, n_dot_l);
 }
 
-double CoverAlbedo(const MicrofacetModel& model, double n_dot_v, int channel) {
+namespace {
+
+LobeAlbedos AlbedosOfLobe(const MicrofacetModel& model, const LobeCosines& x) {
+  if (model.anisotropic) return AlbedosOfLobe(model, *model.anisotropic, x);
+  return {.one = AlbedoOne(model.albedo.lobe, x.n),
+          .loss = AlbedoLoss(model.albedo.lobe, x.n),
+          .curve = HasExactCurve(model.fresnel) ? AlbedoFresnel(model.albedo, x.n)
+                                                : AlbedoSchlick(model.albedo.lobe, x.n)};
+}
+
+}  // namespace
+
+double LossOf(const MicrofacetModel& model, const LobeCosines& x) {
+  return model.anisotropic ? AlbedosOfLobe(model, *model.anisotropic, x).loss
+                           : AlbedoLoss(model.albedo.lobe, x.n);
+}
+
+double CoverAlbedo(const MicrofacetModel& model, const LobeCosines& v, int channel) {
   const double f0 = model.dielectric_f0[channel];
-  const double one = AlbedoOne(model.albedo.lobe, n_dot_v);
-  const double loss = AlbedoLoss(model.albedo.lobe, n_dot_v);
-  const double schlick = AlbedoSchlick(model.albedo.lobe, n_dot_v);
-  const double single = model.fresnel == FresnelForm::kDielectric
-                            ? AlbedoFresnel(model.albedo, n_dot_v)
-                            : f0 * (one - schlick) + model.dielectric_f90 * schlick;
+  const auto [one, loss, curve] = AlbedosOfLobe(model, v);
+  const double single =
+      HasExactCurve(model.fresnel) ? curve : f0 * (one - curve) + model.dielectric_f90 * curve;
   switch (model.compensation) {
     case Compensation::kTurquin:
-      return single * (1 + f0 * loss / one);
+      return model.cover[channel] * single * (1 + f0 * loss / one);
     case Compensation::kKullaConty:
-      return single + model.dielectric_f_multiple[channel] * loss;
+      return model.cover[channel] * (single + model.dielectric_f_multiple[channel] * loss);
     case Compensation::kNone:
       break;
   }
-  return single;
+  return model.cover[channel] * single;
 }
 
 bool HasDoubleTerms(const ShadingMaterial& material) {
@@ -374,6 +501,13 @@ bool HasMirror(const ShadingMaterial& material) {
   return HasDeltaLobe(material) ||
          std::any_of(material.coats.begin(), material.coats.end(),
                      [](const auto& coat) { return HasDeltaLobe(*coat); });
+}
+
+bool HasAnisotropicLobe(const ShadingMaterial& material) {
+  const auto* microfacet = std::get_if<MicrofacetModel>(&material.model);
+  return (microfacet != nullptr && microfacet->anisotropic) ||
+         std::any_of(material.coats.begin(), material.coats.end(),
+                     [](const auto& coat) { return HasAnisotropicLobe(*coat); });
 }
 
 }  // namespace nacre

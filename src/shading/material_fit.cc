@@ -302,6 +302,20 @@ Material WithoutLayers(Material material, std::vector<std::string>* notes) {
   return material;
 }
 
+// The original, with a lobe that is as wide in all directions.
+Material WithoutAnisotropy(Material material, std::vector<std::string>* notes) {
+  const auto flatten = [&](double* anisotropy) {
+    if (*anisotropy == 0) return;
+    *anisotropy = 0;
+    notes->emplace_back("anisotropy: fitted as if there were none");
+  };
+  if (auto* m = std::get_if<MetallicRoughnessMaterial>(&material.model)) flatten(&m->anisotropy);
+  if (auto* m = std::get_if<OpenPbrMaterial>(&material.model)) {
+    flatten(&m->specular_roughness_anisotropy);
+  }
+  return material;
+}
+
 // The original, with a lobe that is wide enough to be fitted.
 Material WithLobe(Material material, std::vector<std::string>* notes) {
   const auto raise = [&](double* roughness) {
@@ -313,6 +327,7 @@ Material WithLobe(Material material, std::vector<std::string>* notes) {
   if (auto* m = std::get_if<MetallicRoughnessMaterial>(&material.model)) raise(&m->roughness);
   if (auto* m = std::get_if<ConductorMaterial>(&material.model)) raise(&m->roughness);
   if (auto* m = std::get_if<DielectricMaterial>(&material.model)) raise(&m->roughness);
+  if (auto* m = std::get_if<OpenPbrMaterial>(&material.model)) raise(&m->specular_roughness);
   return material;
 }
 
@@ -326,9 +341,12 @@ MaterialFit FitMaterial(const Material& original, std::string_view target) {
                 "convert those that it is made of");
   }
   MaterialFit fit;
-  const bool has_layers = target == "metallic_roughness";
-  const Material material =
-      WithLobe(has_layers ? original : WithoutLayers(original, &fit.notes), &fit.notes);
+  const bool keeps_layers = target == "metallic_roughness" &&
+                            std::holds_alternative<MetallicRoughnessMaterial>(original.model);
+  const auto bare = [&] {
+    return WithoutAnisotropy(WithoutLayers(original, &fit.notes), &fit.notes);
+  };
+  const Material material = WithLobe(keeps_layers ? original : bare(), &fit.notes);
   fit.guess = fit.fitted = WithoutModel(original);
   const bool to_phong = target.ends_with("phong");
   if (to_phong) {

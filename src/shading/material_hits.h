@@ -20,19 +20,15 @@ namespace nacre {
 // shading normals, parameters and constants. Entries of hits without this coat are not used.
 struct CoatHits {
   HitBatch hits;
-  Surface surface;  // Surface::transmittance is what the coat does not reflect, before its tint
+  Surface surface;  // Surface::transmittance is what the coat's lobe does not reflect
+  // The factor on what lies below (CoatFactors). `along_light` is written only if the coat absorbs
+  // along the light's path (AbsorbsAlongLight); what else would be in it is in `constant`.
+  Soa3<float> constant, along_light;
+  Soa3<float> log2_medium;                  // half the logarithm of the medium's colour; likewise
   std::unique_ptr<HitParameters> textures;  // made for the first coat with maps
   // The probability of sampling the coat's lobe rather than a glossy lobe below it; 0 for mirrors.
   AlignedArray<float> chance{kBatchCapacity};
 };
-
-// The tint of a coat at hit i. `maps` are the parameters of the coat's hits, or null if none has
-// its own: a map of the strength of a coat weighs its tint, too.
-inline Rgb TintAt(const ShadingMaterial& coat, const HitParameters* maps, size_t i) {
-  if (maps == nullptr || !coat.by_hit.model || coat.tint == Rgb(1)) return coat.tint;
-  const double whole = std::get<MetallicRoughnessMaterial>(coat.own->model).specular;
-  return Rgb(1) - (Rgb(1) - coat.tint) * (NumbersOf(*maps, MappedNumber::kSpecular)[i] / whole);
-}
 
 // Hits [begin, end) of a batch, all of one material.
 struct MaterialHits {

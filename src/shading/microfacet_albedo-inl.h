@@ -9,7 +9,7 @@
 #define NACRE_SHADING_MICROFACET_ALBEDO_INL_H_
 #endif
 
-#include "brdf/albedo-inl.h"
+#include "brdf/anisotropic_albedo-inl.h"
 #include "shading/range-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -31,9 +31,8 @@ HWY_INLINE FloatV DielectricAlbedo(FloatTag d, const MicrofacetModel& model, con
 HWY_INLINE FloatV DielectricAlbedo(FloatTag d, const MicrofacetModel& model,
                                    const AlbedoFitLanes& fit, FloatV one,
                                    const AlbedoVariablesV<FloatV>& x) {
-  const FloatV eta = hn::Set(d, static_cast<float>(model.eta.x));
   const FloatV one_minus_mu = hn::Sub(hn::Set(d, 1.0f), x.n_dot_v);
-  const FloatV mirror = FresnelDielectric(d, x.n_dot_v, one_minus_mu, eta);
+  const FloatV mirror = FresnelCoatedDielectric(d, x.n_dot_v, one_minus_mu, model.albedo.curve);
   return AlbedoNearMirror(d, fit, fit.schlick, mirror, one, x);
 }
 
@@ -43,7 +42,7 @@ HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model, cons
   const FloatV one = AlbedoOne(d, fit, x);
   // The branch selects vectors, not structs, because GCC would pass a struct through memory.
   FloatV scale, bias;
-  if (model.fresnel == FresnelForm::kDielectric) {
+  if (HasExactCurve(model.fresnel)) {
     scale = hn::Zero(d);
     bias = DielectricAlbedo(d, model, fit, one, x);
   } else {
@@ -52,6 +51,48 @@ HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model, cons
     bias = hn::Mul(f90, schlick);
   }
   return {one, AlbedoLoss(d, fit, x), scale, bias};
+}
+
+// LobeCosines of a packet of hits.
+struct LobeCosinesV {
+  FloatV n, t, b;
+};
+
+HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model,
+                                  const AnisotropicLobe& lobe, FloatV f90, const LobeCosinesV& at) {
+  const auto x = ComputeAlbedoVariables(d, lobe.albedo.shape, at.n, at.t, at.b);
+  const FloatV loss = AlbedoLoss(d, lobe.albedo, x);
+  const FloatV one = hn::Sub(hn::Set(d, 1.0f), loss);
+  if (HasExactCurve(model.fresnel)) {
+    const FloatV below_one = hn::Sub(hn::Set(d, 1.0f), x.n_dot_x);
+    const FloatV mirror = FresnelCoatedDielectric(d, x.n_dot_x, below_one, model.albedo.curve);
+    return {one, loss, hn::Zero(d), AlbedoFresnel(d, lobe.fresnel, one, mirror, x)};
+  }
+  const FloatV schlick = AlbedoSchlick(d, lobe.albedo, one, x);
+  return {one, loss, hn::Sub(one, schlick), hn::Mul(f90, schlick)};
+}
+
+// The same of hits i..., which share a lobe or have one each: the latter have a table each, whose
+// lanes are evaluated one by one.
+HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model,
+                                  const AnisotropicLobes& lobes, size_t i, FloatV f90,
+                                  const LobeCosinesV& at) {
+  if (lobes.stride == 0) return EvaluateAlbedo(d, model, *lobes.first, f90, at);
+  constexpr size_t kMost = hn::MaxLanes(FloatTag());
+  HWY_ALIGN float n[kMost], t[kMost], b[kMost], loss[kMost], curve[kMost];
+  hn::Store(at.n, d, n);
+  hn::Store(at.t, d, t);
+  hn::Store(at.b, d, b);
+  for (size_t k = 0; k < hn::Lanes(d); ++k) {
+    const LobeCosines x(double{n[k]}, double{t[k]}, double{b[k]});
+    const LobeAlbedos albedos = AlbedosOfLobe(model, lobes.At(i + k), x);
+    loss[k] = static_cast<float>(albedos.loss);
+    curve[k] = static_cast<float>(albedos.curve);
+  }
+  const FloatV lost = hn::Load(d, loss), of_curve = hn::Load(d, curve);
+  const FloatV one = hn::Sub(hn::Set(d, 1.0f), lost);
+  if (HasExactCurve(model.fresnel)) return {one, lost, hn::Zero(d), of_curve};
+  return {one, lost, hn::Sub(one, of_curve), hn::Mul(f90, of_curve)};
 }
 
 // EvaluateAlbedo from n.v, or n.l, alone.
@@ -75,20 +116,23 @@ HWY_INLINE AlbedoFitLanes FitAt(const float* fits, size_t i, Shadowing shadowing
 
 // 1 minus the albedo of the whole lobe, including Kulla and Conty's lobe: the fraction of the light
 // from that direction that reaches the base or, equally, that gets from the base to that direction.
+// `cover` is a factor on the albedo (MicrofacetModel::cover).
 // Clamped, because rounding may make it negative where nothing is left.
-HWY_INLINE FloatV KullaContyBase(FloatTag d, const AlbedoV& albedo, FloatV f0, FloatV f_multiple) {
+HWY_INLINE FloatV KullaContyBase(FloatTag d, const AlbedoV& albedo, FloatV f0, FloatV f_multiple,
+                                 FloatV cover) {
   const FloatV one = hn::Set(d, 1.0f);
   const FloatV single = hn::MulAdd(f0, albedo.scale, albedo.bias);
   const FloatV whole = hn::MulAdd(f_multiple, albedo.loss, single);
-  return hn::Max(hn::Sub(one, whole), hn::Zero(d));
+  return hn::Max(hn::NegMulAdd(cover, whole, one), hn::Zero(d));
 }
 
 // KullaContyBase, but with Turquin's scale on the lobe, where `multiple` = 1 / E - 1.
-HWY_INLINE FloatV TurquinBase(FloatTag d, const AlbedoV& albedo, FloatV f0, FloatV multiple) {
+HWY_INLINE FloatV TurquinBase(FloatTag d, const AlbedoV& albedo, FloatV f0, FloatV multiple,
+                              FloatV cover) {
   const FloatV one = hn::Set(d, 1.0f);
   const FloatV single = hn::MulAdd(f0, albedo.scale, albedo.bias);
   const FloatV whole = hn::Mul(single, hn::MulAdd(f0, multiple, one));
-  return hn::Max(hn::Sub(one, whole), hn::Zero(d));
+  return hn::Max(hn::NegMulAdd(cover, whole, one), hn::Zero(d));
 }
 
 }  // namespace HWY_NAMESPACE

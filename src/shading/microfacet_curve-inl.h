@@ -31,6 +31,16 @@ struct MixedCurveV {
 HWY_INLINE RgbV FresnelOf(const FresnelCurveV& curve) { return curve.fresnel; }
 HWY_INLINE RgbV FresnelOf(const MixedCurveV& curve) { return Add(curve.dielectric, curve.metal); }
 
+// F82's curve of a metal in each channel.
+template <class Number>
+HWY_INLINE RgbV MetalF82(FloatTag d, const HalfIncidentV& in, FloatV v_dot_h, size_t i,
+                         const MicrofacetUniforms<Number>& uniforms) {
+  const RgbV f0 = RgbAt(d, uniforms.metal_f0, i), slope = RgbAt(d, uniforms.f82_slope, i);
+  return {FresnelF82(d, v_dot_h, in.one_minus_vh, f0.x, slope.x),
+          FresnelF82(d, v_dot_h, in.one_minus_vh, f0.y, slope.y),
+          FresnelF82(d, v_dot_h, in.one_minus_vh, f0.z, slope.z)};
+}
+
 template <FresnelForm kFresnel, class Number>
 HWY_INLINE auto EvaluateCurve(FloatTag d, const HalfIncidentV& in, size_t i,
                               const MicrofacetUniforms<Number>& uniforms) {
@@ -40,17 +50,24 @@ HWY_INLINE auto EvaluateCurve(FloatTag d, const HalfIncidentV& in, size_t i,
   } else {
     const FloatV v_dot_h = VDotH(d, in.twice_u_length);
     if constexpr (kFresnel == FresnelForm::kF82) {
-      const RgbV f0 = RgbAt(d, uniforms.metal_f0, i), slope = RgbAt(d, uniforms.f82_slope, i);
       const FloatV one = hn::Set(d, 1.0f), metallic = NumberAt(d, uniforms.metallic, i);
-      const RgbV metal{FresnelF82(d, v_dot_h, one_minus_vh, f0.x, slope.x),
-                       FresnelF82(d, v_dot_h, one_minus_vh, f0.y, slope.y),
-                       FresnelF82(d, v_dot_h, one_minus_vh, f0.z, slope.z)};
+      const RgbV metal = MetalF82(d, in, v_dot_h, i, uniforms);
       const RgbV other = RgbAt(d, uniforms.dielectric_f0, i);
       const FloatV f90 = NumberAt(d, uniforms.dielectric_f90, i), weight = Power5(one_minus_vh);
       const RgbV dielectric{FresnelSchlick(d, other.x, f90, weight),
                             FresnelSchlick(d, other.y, f90, weight),
                             FresnelSchlick(d, other.z, f90, weight)};
       return MixedCurveV{Scale(dielectric, hn::Sub(one, metallic)), Scale(metal, metallic)};
+    } else if constexpr (kFresnel == FresnelForm::kOpenPbr) {
+      const FloatV grey =
+          FresnelCoatedDielectric(d, v_dot_h, one_minus_vh, uniforms.model.dielectric);
+      const RgbV dielectric = Scale(RgbAt(d, uniforms.dielectric, i), grey);
+      const FloatV zero = hn::Zero(d);
+      RgbV metal{zero, zero, zero};
+      if (!uniforms.model.is_dielectric) {
+        metal = Scale(MetalF82(d, in, v_dot_h, i, uniforms), NumberAt(d, uniforms.metal, i));
+      }
+      return MixedCurveV{dielectric, metal};
     } else if constexpr (kFresnel == FresnelForm::kDielectric) {
       const FloatV grey = FresnelDielectric(d, v_dot_h, one_minus_vh, hn::Set(d, uniforms.eta[0]));
       return FresnelCurveV{{grey, grey, grey}};

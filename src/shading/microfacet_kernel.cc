@@ -24,13 +24,15 @@ struct Microfacet {
   static constexpr bool kSame = std::is_same_v<Number, float>;  // all hits share the constants
   // Whether a dielectric and a metal are mixed, which Turquin's compensation scales each by its own
   // F0.
-  static constexpr bool kIsMix = kFresnel == FresnelForm::kSchlick || kFresnel == FresnelForm::kF82;
+  static constexpr bool kIsMix =
+      kFresnel != FresnelForm::kDielectric && kFresnel != FresnelForm::kConductor;
   MicrofacetUniforms<Number> uniforms;  // a copy, which no store can alias
   const MicrofacetModel& model;
   const Surface& surface;
 
   // The denominator of the visibility times `scale`.
   HWY_INLINE FloatV Masking(FloatTag d, const PacketV& p, const Incident& in, FloatV scale) const {
+    if (uniforms.light_root != nullptr) return AnisotropicMasking(d, p, in, scale);
     const FloatV alpha = NumberAt(d, uniforms.alpha, p.i);
     switch (model.shadowing) {
       case Shadowing::kHeightCorrelated:
@@ -43,6 +45,19 @@ struct Microfacet {
     }
     return VisibilityDenominatorSchlick(d, in.n_dot_l, in.n_dot_v,
                                         NumberAt(d, uniforms.schlick_k, p.i), scale);
+  }
+
+  // By the cosines of `in`, whose n.l the weight holds, too: those in double may have another sign.
+  HWY_INLINE FloatV AnisotropicMasking(FloatTag d, const PacketV& p, const Incident& in,
+                                       FloatV scale) const {
+    const FloatV light_root = hn::LoadU(d, uniforms.light_root + p.i);
+    const FloatV view_root = hn::LoadU(d, uniforms.view_root + p.i);
+    if (model.shadowing == Shadowing::kSeparable) {
+      const FloatV of_light = hn::Add(in.n_dot_l, light_root);
+      return hn::Mul(hn::Mul(of_light, hn::Add(in.n_dot_v, view_root)), scale);
+    }
+    const FloatV sum = hn::MulAdd(in.n_dot_l, view_root, hn::Mul(in.n_dot_v, light_root));
+    return hn::Mul(sum, hn::Add(scale, scale));
   }
 
   // The product of distribution, visibility, n.l and irradiance.
@@ -126,9 +141,15 @@ struct Microfacet {
     return MulAdd3(RgbAt(d, uniforms.base.ratio, i), multiple, {single, single, single});
   }
 
-  // The albedo of the lobe that covers the base.
-  HWY_INLINE AlbedoV AlbedoAt(FloatTag d, size_t i, FloatV cosine) const {
+  // The albedo, from the light, of the lobe that covers the base.
+  HWY_INLINE AlbedoV AlbedoFromLight(FloatTag d, size_t i, const IncidentV& in) const {
     const FloatV f90 = NumberAt(d, uniforms.dielectric_f90, i);
+    const FloatV cosine = hn::Max(in.n_dot_l, hn::Zero(d));
+    if (uniforms.light_root != nullptr) {
+      const LobeCosinesV to_light{cosine, hn::LoadU(d, uniforms.t_dot_l + i),
+                                  hn::LoadU(d, uniforms.b_dot_l + i)};
+      return EvaluateAlbedo(d, model, uniforms.lobes, i, f90, to_light);
+    }
     if constexpr (kSame) {
       return EvaluateAlbedo(d, model, model.albedo.lobe, f90, cosine);
     } else {
@@ -140,6 +161,11 @@ struct Microfacet {
     }
   }
 
+  HWY_INLINE FloatV CoverAt(FloatTag d, int c, size_t i) const {
+    if constexpr (kFresnel == FresnelForm::kOpenPbr) return NumberAt(d, uniforms.cover[c], i);
+    return hn::Set(d, 1.0f);
+  }
+
   // Adds Kulla and Conty's lobe, and, if kAlbedoScaled, scales the base by 1 - the albedo of the
   // lobe that covers it.
   HWY_INLINE void Complete(FloatTag d, size_t i, const IncidentV& in,
@@ -147,19 +173,22 @@ struct Microfacet {
                            RgbV* base) const {
     const bool scaled = model.coupling == DiffuseCoupling::kAlbedoScaled;
     if (scaled) *base = Mul3(*base, LoadSoa(d, surface.transmittance, i));
-    if (model.compensation != Compensation::kKullaConty) return;
-    const FloatV multiple = hn::LoadU(d, surface.multiple.data() + i);
-    const FloatV largest = hn::Set(d, std::numeric_limits<float>::max());
-    const AlbedoV from_light = AlbedoAt(d, i, hn::Max(in.n_dot_l, hn::Zero(d)));
-    const FloatV amount = hn::Mul(hn::Mul(multiple, from_light.loss), in.weight);
-    const RgbV more = Scale(RgbAt(d, light.multiple, i), hn::Min(amount, largest));
-    *reflected = WholePart(d, Add(RgbOf(*reflected), more));
-    if (scaled) {
+    const bool kulla_conty = model.compensation == Compensation::kKullaConty;
+    if (!kulla_conty && !model.reciprocal) return;
+    const AlbedoV from_light = AlbedoFromLight(d, i, in);
+    if (kulla_conty) {
+      const FloatV multiple = hn::LoadU(d, surface.multiple.data() + i);
+      const FloatV largest = hn::Set(d, std::numeric_limits<float>::max());
+      const FloatV amount = hn::Mul(hn::Mul(multiple, from_light.loss), in.weight);
+      const RgbV more = Scale(RgbAt(d, light.multiple, i), hn::Min(amount, largest));
+      *reflected = WholePart(d, Add(RgbOf(*reflected), more));
+    }
+    if (model.reciprocal) {
       const RgbV f0 = RgbAt(d, uniforms.dielectric_f0, i);
       const RgbV f_multiple = RgbAt(d, uniforms.dielectric_f_multiple, i);
-      *base = Mul3(*base, {KullaContyBase(d, from_light, f0.x, f_multiple.x),
-                           KullaContyBase(d, from_light, f0.y, f_multiple.y),
-                           KullaContyBase(d, from_light, f0.z, f_multiple.z)});
+      *base = Mul3(*base, {KullaContyBase(d, from_light, f0.x, f_multiple.x, CoverAt(d, 0, i)),
+                           KullaContyBase(d, from_light, f0.y, f_multiple.y, CoverAt(d, 1, i)),
+                           KullaContyBase(d, from_light, f0.z, f_multiple.z, CoverAt(d, 2, i))});
     }
   }
 };
@@ -180,6 +209,8 @@ auto CurveKernel(FresnelForm form) {
       return &ShadeByCurve<FresnelForm::kF82, Number>;
     case FresnelForm::kDielectric:
       return &ShadeByCurve<FresnelForm::kDielectric, Number>;
+    case FresnelForm::kOpenPbr:
+      return &ShadeByCurve<FresnelForm::kOpenPbr, Number>;
     case FresnelForm::kConductor:
       break;
   }

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "brdf/albedo.h"
+#include "brdf/anisotropic_albedo.h"
 #include "brdf/ggx.h"
 #include "scene/model_options.h"
 #include "scene/user_brdf.h"
@@ -46,7 +47,18 @@ struct PhongFamilyModel {
   bool double_terms;
 };
 
-enum class FresnelForm : uint8_t { kSchlick, kF82, kDielectric, kConductor };
+enum class FresnelForm : uint8_t {
+  kSchlick,
+  kF82,
+  kDielectric,
+  kConductor,
+  kOpenPbr,  // a mix of an exact dielectric, which a coat may cover, and of F82's metal
+};
+
+// Whether the dielectric's curve is Fresnel's own, whose albedo has a fit of its own.
+inline bool HasExactCurve(FresnelForm fresnel) {
+  return fresnel == FresnelForm::kDielectric || fresnel == FresnelForm::kOpenPbr;
+}
 
 // The variant of a microfacet model.
 struct MicrofacetForm {
@@ -54,7 +66,25 @@ struct MicrofacetForm {
   FresnelForm fresnel;
   Compensation compensation;
   DiffuseCoupling coupling;
+  // kAlbedoScaled: whether the base's share depends on the directions of light and view alike,
+  // which kTurquin does not allow.
+  bool reciprocal = false;
   DiffuseForm base_form = DiffuseForm::kLambert;
+};
+
+// A GGX lobe that is wider along Surface::tangent than across it.
+struct AnisotropicLobe {
+  GgxAlphas<double> alpha;
+  AnisotropicAlbedoFit albedo;
+  AnisotropicFresnelCurve fresnel;  // of the dielectric's curve, if HasExactCurve
+};
+
+// The anisotropic lobes of hits: one that they share, or one each.
+struct AnisotropicLobes {
+  const AnisotropicLobe* first = nullptr;  // null: the lobes are isotropic
+  size_t stride = 0;                       // from the lobe of a hit to that of the next
+
+  const AnisotropicLobe& At(size_t i) const { return first[i * stride]; }
 };
 
 // A GGX lobe over a diffuse base: metallic-roughness, conductor and dielectric.
@@ -64,12 +94,12 @@ struct MicrofacetForm {
 // distribution and visibility, so one lobe with the mix of their Fresnel curves is exactly the mix
 // of their lobes. Terms that are not linear in the Fresnel curve are mixed themselves:
 // compensation, and the base's share of the light, which only the dielectric above it reduces.
-// Conductors are all metal, dielectrics all dielectric.
+// Conductors are all metal, dielectrics all dielectric. OpenPBR mixes them likewise.
 struct MicrofacetModel : MicrofacetForm {
   template <class Number>
   using Light = MicrofacetLight<Number>;
-  // The base's albedo over pi, times 1 - metallic; with kAlbedoScaled and kKullaConty also over the
-  // mean of 1 - the albedo of what covers the base.
+  // The base's albedo over pi, times 1 - metallic; where it is `reciprocal` also over the mean of 1
+  // - the albedo of what covers the base.
   Rgb diffuse{0, 0, 0};
   double base_roughness = 0;  // for forms that are not Lambert's
   Rgb base_ratio{0, 0, 0};    // kOrenNayar: EonMultipleRatio of the base's colour
@@ -81,22 +111,33 @@ struct MicrofacetModel : MicrofacetForm {
   Rgb metal_f0{0, 0, 0};
   Rgb f82_slope{0, 0, 0};        // kF82: for the metal
   Rgb eta{0, 0, 0}, k{0, 0, 0};  // kDielectric (eta only) and kConductor
-  Rgb f0{0, 0, 0};               // of the mix, as is f90
+  // kOpenPbr: the dielectric's curve; factors on the reflection of dielectric and metal; and the
+  // fraction of the dielectric's albedo that the base loses.
+  CoatedDielectric<double> dielectric;
+  Rgb dielectric_scale{1, 1, 1};
+  double metal_scale = 1;
+  Rgb cover{1, 1, 1};
+  bool is_dielectric = false;  // no hit reflects anything of the metal
+  Rgb f0{0, 0, 0};             // of the mix, as is f90
   double f90 = 1;
   // kKullaConty: the means of both Fresnel curves over the hemisphere; and the colour F_ms of the
   // second lobe, for the dielectric and for the mix.
   Rgb dielectric_f_average{0, 0, 0}, metal_f_average{0, 0, 0};
   Rgb dielectric_f_multiple{0, 0, 0}, f_multiple{0, 0, 0};
   double multiple = 0;  // kKullaConty: 1 / (pi (1 - E_avg)); 0 where nothing is lost
-  double alpha;         // of the GGX lobe
+  double alpha;         // of the GGX lobe; of an anisotropic one the smaller
   double schlick_k;     // SchlickK
   bool delta;           // a perfect mirror, which punctual lights cannot show
   bool double_terms;
   bool prepared = false;    // shading needs PrepareRun
-  FresnelAlbedoFit albedo;  // the exact Fresnel curve is set if kDielectric
-  // kDielectric, if hits have a roughness each: the albedo curves of its index for all roughnesses;
+  FresnelAlbedoFit albedo;  // the exact Fresnel curve is set if kDielectric or kOpenPbr
+  // kDielectric and kOpenPbr, if hits have a roughness each: the albedo curves for all roughnesses;
   // else null.
   std::shared_ptr<const DielectricCurves> curves;
+  // Null for isotropic lobes. Where maps give hits alphas of their own, it has the maps' factors.
+  std::shared_ptr<const AnisotropicLobe> anisotropic;
+  // As `curves`, of anisotropic lobes.
+  std::shared_ptr<const AnisotropicFresnelCurves> anisotropic_curves;
   MicrofacetConstants<float> constants;  // the numbers above, as kernels read them
 };
 

@@ -12,8 +12,8 @@
 
 namespace nacre {
 
-// MetallicRoughnessHits, ConductorHits and DielectricHits give one channel of a microfacet material
-// at hit i: Colors(i), and Averages(colors) of these.
+// MetallicRoughnessHits, ConductorHits, DielectricHits and OpenPbrHits give one channel of a
+// microfacet material at hit i: Colors(i), and Averages(colors) of these.
 struct MetallicRoughnessHits {
   MetallicRoughnessHits(const MetallicRoughnessMaterial& material, const MicrofacetModel& model,
                         const HitParameters& t, int c)
@@ -60,6 +60,33 @@ struct DielectricHits {
   double f0, average;
 };
 
+struct OpenPbrHits {
+  OpenPbrHits(const OpenPbrMaterial& of, const MicrofacetModel& model, const HitParameters& t,
+              int c)
+      : material(of),
+        base_color(NumbersOf(t, MappedNumber::kColor, c)),
+        metalness(NumbersOf(t, MappedNumber::kMetallic)),
+        specular_color(NumbersOf(t, MappedNumber::kSpecularColor, c)),
+        specular_red(NumbersOf(t, MappedNumber::kSpecularColor, 0)),
+        specular_green(NumbersOf(t, MappedNumber::kSpecularColor, 1)),
+        specular_blue(NumbersOf(t, MappedNumber::kSpecularColor, 2)),
+        f0(model.dielectric_f0[c]),
+        average(model.dielectric_f_average[c]) {}
+
+  NACRE_DERIVE MicrofacetColors Colors(size_t i) const {
+    const double largest = std::max(std::max(specular_red[i], specular_green[i]), specular_blue[i]);
+    return DeriveOpenPbr(material, {base_color[i], metalness[i], specular_color[i], largest}, f0);
+  }
+  NACRE_DERIVE CurveAverages Averages(const MicrofacetColors& at) const {
+    return {average, DeriveAverages(at).metal};
+  }
+
+  const OpenPbrMaterial& material;
+  const double *base_color, *metalness, *specular_color;
+  const double *specular_red, *specular_green, *specular_blue;
+  double f0, average;
+};
+
 // Calls use(hits) with one of these for channel c of the material, which must have a
 // MicrofacetModel.
 template <class Use>
@@ -68,6 +95,8 @@ void VisitChannel(const ShadingMaterial& material, const HitParameters& t, int c
   const Material& of = *material.scene_material;
   if (const auto* metallic = std::get_if<MetallicRoughnessMaterial>(&of.model)) {
     use(MetallicRoughnessHits(*metallic, model, t, c));
+  } else if (const auto* open_pbr = std::get_if<OpenPbrMaterial>(&of.model)) {
+    use(OpenPbrHits(*open_pbr, model, t, c));
   } else if (const auto* conductor = std::get_if<ConductorMaterial>(&of.model)) {
     use(ConductorHits(*conductor, model, t, c));
   } else {

@@ -140,12 +140,24 @@ void MapNormalsBySlopesT(const TexturedRun& run, double distance) {
 // The tangents of a sphere's mapping are undefined at its poles, those of a mesh where it has none,
 // and a normal map may turn the normal into the tangent: any direction across the normal then has
 // to do.
-void StoreTangentsT(const TexturedRun& run, bool frames) {
+void StoreTangentsT(const TexturedRun& run, bool frames, bool by_map) {
   const D d;
   const F f;
+  const auto& [cos, sin] = run.material.tangent_turn;
+  const V turn_cos = hn::Set(d, cos), turn_sin = hn::Set(d, sin);
+  const V half = hn::Set(d, 0.5);
   for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
     const Vec3V<V> n = LoadSoa(d, run.hits.normal, i);
-    const Vec3V<V> along = Normalized(FrameAt(run.textures, i, n, frames).tangent);
+    const Frame frame = FrameAt(run.textures, i, n, frames);
+    V x = turn_cos, y = turn_sin;  // of the direction in that frame
+    if (by_map) {
+      const V u = hn::Sub(PromoteAt(d, run.textures.texels.x, i), half);
+      const V v = hn::Sub(PromoteAt(d, run.textures.texels.y, i), half);
+      x = hn::Sub(hn::Mul(turn_cos, u), hn::Mul(turn_sin, v));
+      y = hn::Add(hn::Mul(turn_sin, u), hn::Mul(turn_cos, v));
+    }
+    const Vec3V<V> along =
+        Normalized(Add(Scale(Normalized(frame.tangent), x), Scale(Normalized(frame.bitangent), y)));
     const Vec3V<V> across = Across(along, n);
     const auto sound = hn::Gt(FusedDot(across, across), hn::Set(d, 1e-12));
     const Vec3V<V> tangent = Select(sound, Normalized(across), BasisAbout(d, n).x);
@@ -230,8 +242,8 @@ void MapNormalsBySlopes(const TexturedRun& run, double distance) {
   HWY_DYNAMIC_DISPATCH(MapNormalsBySlopesT)(run, distance);
 }
 
-void StoreTangents(const TexturedRun& run, bool frames) {
-  HWY_DYNAMIC_DISPATCH(StoreTangentsT)(run, frames);
+void StoreTangents(const TexturedRun& run, bool frames, bool by_map) {
+  HWY_DYNAMIC_DISPATCH(StoreTangentsT)(run, frames, by_map);
 }
 
 void HideUnreflectedLight(const MaterialHits& at, LightBatch* light) {

@@ -9,6 +9,7 @@
 
 #include "hwy/highway.h"
 
+#include "brdf/ggx_anisotropic-inl.h"
 #include "shading/microfacet_albedo-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -105,6 +106,22 @@ HWY_INLINE void FillAlbedos(const MicrofacetNumbers<Number>& numbers, size_t beg
   }
 }
 
+// Both steps for anisotropic lobes, which are few.
+template <class Number>
+HWY_INLINE void FillAnisotropic(const MicrofacetNumbers<Number>& numbers, size_t begin, size_t end,
+                                const Surface& surface, AlbedoBlock* block) {
+  const FloatTag d;
+  const auto normal = PointersTo(surface.normal), to_view = PointersTo(surface.to_view);
+  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
+    const BasisV<FloatV> frame = LobeFrame(d, LoadAt(d, normal, i), LoadSoa(d, surface.tangent, i));
+    const Vec3V<FloatV> view = ToLocal(frame, LoadAt(d, to_view, i));
+    const FloatV f90 = NumberAt(d, numbers.dielectric_f90, i);
+    block->Store(d, i - begin,
+                 EvaluateAlbedo(d, numbers.model, numbers.lobes, i, f90,
+                                LobeCosinesV{view.z, view.x, view.y}));
+  }
+}
+
 // kScaled is true for DiffuseCoupling::kAlbedoScaled; other couplings do not read
 // Surface::transmittance. F0 and F_ms are those of the dielectric, which covers the base.
 template <bool kScaled, class Number>
@@ -122,10 +139,14 @@ HWY_INLINE void PrepareBlock(const MicrofacetNumbers<Number>& numbers, size_t be
     if constexpr (!kScaled) continue;
     for (int c = 0; c < 3; ++c) {
       const FloatV f0 = NumberAt(d, numbers.dielectric_f0[c], i);
+      const FloatV cover = numbers.model.fresnel == FresnelForm::kOpenPbr
+                               ? NumberAt(d, numbers.cover[c], i)
+                               : hn::Set(d, 1.0f);
       const FloatV left =
           compensation == Compensation::kKullaConty
-              ? KullaContyBase(d, albedo, f0, NumberAt(d, numbers.dielectric_f_multiple[c], i))
-              : TurquinBase(d, albedo, f0, multiple);
+              ? KullaContyBase(d, albedo, f0, NumberAt(d, numbers.dielectric_f_multiple[c], i),
+                               cover)
+              : TurquinBase(d, albedo, f0, multiple, cover);
       StoreLanes(d, end - i, left, base[c] + i);
     }
   }
@@ -138,8 +159,12 @@ void PrepareRange(const MicrofacetNumbers<Number>& numbers, size_t begin, size_t
   AlbedoBlock block;
   for (; begin < end; begin += AlbedoBlock::kHits) {
     const size_t block_end = std::min(begin + AlbedoBlock::kHits, end);
-    FillVariables(numbers, begin, block_end, *surface, &block);
-    FillAlbedos(numbers, begin, block_end, &block);
+    if (numbers.lobes.first != nullptr) {
+      FillAnisotropic(numbers, begin, block_end, *surface, &block);
+    } else {
+      FillVariables(numbers, begin, block_end, *surface, &block);
+      FillAlbedos(numbers, begin, block_end, &block);
+    }
     if (scaled) {
       PrepareBlock<true>(numbers, begin, block_end, block, surface);
     } else {

@@ -10,8 +10,10 @@
 #include "brdf/eon.h"
 #include "brdf/fresnel.h"
 #include "brdf/ggx.h"
+#include "brdf/ggx_anisotropic.h"
 #include "brdf/lobe_sampling.h"
 #include "brdf/phong.h"
+#include "shading/anisotropic_lobe.h"
 #include "shading/lobe_chances.h"
 #include "shading/lobe_sample.h"
 #include "shading/user_model.h"
@@ -33,8 +35,13 @@ double SpreadOf(DiffuseForm form, const Angles<double>& a, double roughness, dou
   return 1;
 }
 
-Reflection ReflectModel(const MatteModel& model, const Vec3d& n, const Vec3d& l, const Vec3d& v) {
-  const Angles<double> a = ComputeAngles(n, l, v);
+// The frame of a lobe: tangent, bitangent and normal. Models without anisotropic lobes read only
+// the normal.
+using Frame = Basis<double>;
+
+Reflection ReflectModel(const MatteModel& model, const Frame& frame, const Vec3d& l,
+                        const Vec3d& v) {
+  const Angles<double> a = ComputeAngles(frame.z, l, v);
   Reflection out;
   for (int c = 0; c < 3; ++c) {
     out.diffuse[c] =
@@ -43,8 +50,9 @@ Reflection ReflectModel(const MatteModel& model, const Vec3d& n, const Vec3d& l,
   return out;
 }
 
-Reflection ReflectModel(const PhongFamilyModel& model, const Vec3d& n, const Vec3d& l,
+Reflection ReflectModel(const PhongFamilyModel& model, const Frame& frame, const Vec3d& l,
                         const Vec3d& v) {
+  const Vec3d& n = frame.z;
   const double n_dot_l = n ^ l;
   const double lobe = model.model == PhongModel::kBlinnPhong
                           ? BlinnLobe(ComputeAngles(n, l, v), model.shininess)
@@ -70,17 +78,22 @@ FresnelShares SharesOf(const MicrofacetModel& model, double v_dot_h, double one_
       return {.dielectric = FresnelDielectric(v_dot_h, one_minus_vh, model.eta[c])};
     case FresnelForm::kConductor:
       return {.metal = FresnelConductor(v_dot_h, one_minus_vh, model.eta[c], model.k[c])};
+    case FresnelForm::kOpenPbr:
+      return {(1 - metallic) * model.dielectric_scale[c] *
+                  FresnelCoatedDielectric(v_dot_h, one_minus_vh, model.dielectric),
+              metallic * model.metal_scale *
+                  FresnelF82(v_dot_h, one_minus_vh, model.metal_f0[c], model.f82_slope[c])};
   }
   return {};
 }
 
 // The fraction of the light of channel c that reaches the base and leaves it again.
-double BaseShare(const MicrofacetModel& model, const Angles<double>& a, double fresnel, int c) {
+double BaseShare(const MicrofacetModel& model, const LobeCosines& l, const LobeCosines& v,
+                 double fresnel, int c) {
   switch (model.coupling) {
     case DiffuseCoupling::kAlbedoScaled: {
-      const double out = 1 - CoverAlbedo(model, a.n_dot_v, c);
-      const bool reciprocal = model.compensation == Compensation::kKullaConty;
-      return reciprocal ? out * (1 - CoverAlbedo(model, a.n_dot_l, c)) : out;
+      const double out = 1 - CoverAlbedo(model, v, c);
+      return model.reciprocal ? out * (1 - CoverAlbedo(model, l, c)) : out;
     }
     case DiffuseCoupling::kOneMinusFresnel:
       return 1 - fresnel;
@@ -90,14 +103,26 @@ double BaseShare(const MicrofacetModel& model, const Angles<double>& a, double f
   return 1;
 }
 
-Reflection ReflectModel(const MicrofacetModel& model, const Vec3d& n, const Vec3d& l,
+GgxTerms TermsOf(const MicrofacetModel& model, const FrameAngles<double>& a) {
+  if (!model.anisotropic) {
+    const Angles<double>& isotropic = a;
+    return {GgxDistribution(isotropic, model.alpha), VisibilityOf(model, a.n_dot_l, a.n_dot_v)};
+  }
+  const GgxAlphas<double>& alpha = model.anisotropic->alpha;
+  return {GgxDistribution(a, alpha), model.shadowing == Shadowing::kSeparable
+                                         ? VisibilitySeparable(a, alpha)
+                                         : VisibilityHeightCorrelated(a, alpha)};
+}
+
+Reflection ReflectModel(const MicrofacetModel& model, const Frame& frame, const Vec3d& l,
                         const Vec3d& v) {
-  const Angles<double> a = ComputeAngles(n, l, v);
+  const FrameAngles<double> a = ComputeAngles(frame, l, v);
+  const LobeCosines to_light = CosinesTo(frame, l), to_view = CosinesTo(frame, v);
   const Rgb fresnel = FresnelOf(model, VDotH(a), OneMinusVDotH(a));
   const Rgb turquin = TurquinTerm(model, VDotH(a), OneMinusVDotH(a));
-  const double lobe = GgxDistribution(a, model.alpha) * VisibilityOf(model, a.n_dot_l, a.n_dot_v);
-  const double loss_v = AlbedoLoss(model.albedo.lobe, a.n_dot_v);
-  const double loss_l = AlbedoLoss(model.albedo.lobe, a.n_dot_l);
+  const auto [distribution, visibility] = TermsOf(model, a);
+  const double lobe = distribution * visibility;
+  const double loss_v = LossOf(model, to_view), loss_l = LossOf(model, to_light);
   Reflection out;
   for (int c = 0; c < 3; ++c) {
     double specular = fresnel[c] * lobe;
@@ -108,23 +133,39 @@ Reflection ReflectModel(const MicrofacetModel& model, const Vec3d& n, const Vec3
     }
     out.specular[c] = specular * a.n_dot_l;
     const double spread = SpreadOf(model.base_form, a, model.base_roughness, model.base_ratio[c]);
-    out.diffuse[c] = BaseShare(model, a, fresnel[c], c) * model.diffuse[c] * spread * a.n_dot_l;
+    const double share = BaseShare(model, to_light, to_view, fresnel[c], c);
+    out.diffuse[c] = share * model.diffuse[c] * spread * a.n_dot_l;
   }
   return out;
 }
 
-Reflection ReflectModel(const UserModel& model, const Vec3d& n, const Vec3d& l, const Vec3d& v) {
-  return ReflectUser(model, n, l, v);
+Reflection ReflectModel(const UserModel& model, const Frame& frame, const Vec3d& l,
+                        const Vec3d& v) {
+  return ReflectUser(model, frame.z, l, v);
 }
 
-Reflection ReflectModel(const std::monostate&, const Vec3d&, const Vec3d&, const Vec3d&) {
+Reflection ReflectModel(const std::monostate&, const Frame&, const Vec3d&, const Vec3d&) {
   return {};
 }
 
-Reflection ReflectModel(const ShadingMaterial& material, const Vec3d& n, const Vec3d& l,
+Reflection ReflectModel(const ShadingMaterial& material, const Frame& frame, const Vec3d& l,
                         const Vec3d& v) {
-  return std::visit([&](const auto& model) { return ReflectModel(model, n, l, v); },
+  return std::visit([&](const auto& model) { return ReflectModel(model, frame, l, v); },
                     material.model);
+}
+
+Frame FrameOf(const ShadingMaterial& material, const Vec3d& normal,
+              const std::optional<Vec3d>& tangent) {
+  const auto* const model = std::get_if<MicrofacetModel>(&material.model);
+  if (model == nullptr || !model->anisotropic) return {{}, {}, normal};
+  return LobeFrame(normal, tangent ? *tangent : DefaultTangent(material, normal));
+}
+
+// Of a viewer whose cosine rounding, or an interpolated normal, may put below 0.
+LobeCosines ViewIn(const Frame& frame, const Vec3d& v) {
+  LobeCosines at = CosinesTo(frame, v);
+  at.n = std::clamp(at.n, 0.0, 1.0);
+  return at;
 }
 
 bool IsAbove(const Vec3d& n, const Vec3d& l, const Vec3d& v) { return (n ^ l) > 0 && (n ^ v) > 0; }
@@ -156,14 +197,16 @@ double WithMirroredPdf(const StackNormals& normals, const Vec3d& n, const Vec3d&
 }
 
 // The glossy light that a model with layers reflects from l mirrored in the horizon.
-Rgb MirroredLobe(const ShadingMaterial& material, const StackNormals& normals, const Vec3d& n,
+Rgb MirroredLobe(const ShadingMaterial& material, const StackNormals& normals, const Frame& frame,
                  const Vec3d& l, const Vec3d& v) {
   if (!normals.unmapped) return Rgb(0, 0, 0);
+  const Vec3d& n = frame.z;
   const Vec3d below = MirroredAtHorizon(*normals.unmapped, l);
   if (!IsAbove(n, below, v)) return Rgb(0, 0, 0);
-  Reflection reflected = ReflectModel(material, n, below, v);
+  Reflection reflected = ReflectModel(material, frame, below, v);
   const Angles<double> angles = ComputeAngles(n, below, v);
   for (const LayerModel& layer : material.layers) {
+    if (LiesOverCoats(layer)) continue;
     const LayerReflection terms = EvaluateLayer(layer, angles);
     reflected.specular *= terms.below;
     ComponentOf(KindOf(layer), reflected) += terms.lobe;
@@ -177,41 +220,53 @@ void ForEachLevel(const ShadingMaterial& material, const StackNormals& normals, 
                   const Vec3d& v, const Use& use) {
   if (IsBelowHorizon(normals, l)) return;
   const Vec3d& n = normals.model;
-  if (IsAbove(n, l, v)) {
-    use(StackLevel{"model", 0, ReflectModel(material, n, l, v), Rgb(0, 0, 0)});
-    const Angles<double> angles = ComputeAngles(n, l, v);
+  const auto use_layers = [&](bool over_coats) {
+    Angles<double> angles = ComputeAngles(n, l, v);
+    if (!over_coats && !IsAbove(n, l, v)) return;
+    // Coats with other normals may face the light where the model does not.
+    angles.n_dot_l = std::max(angles.n_dot_l, 0.0);
+    angles.n_dot_v = std::max(angles.n_dot_v, 0.0);
     for (size_t k = 0; k < material.layers.size(); ++k) {
       const LayerModel& layer = material.layers[k];
+      if (LiesOverCoats(layer) != over_coats) continue;
       const LayerReflection terms = EvaluateLayer(layer, angles);
       StackLevel level{NameOf(layer), k, {}, Rgb(terms.below)};
       ComponentOf(KindOf(layer), level.own) = terms.lobe;
       use(level);
     }
+  };
+  const Frame frame = FrameOfModel(material, normals);
+  if (IsAbove(n, l, v)) {
+    use(StackLevel{"model", 0, ReflectModel(material, frame, l, v), Rgb(0, 0, 0)});
   }
-  const Rgb mirrored = MirroredLobe(material, normals, n, l, v);
+  use_layers(false);
+  const Rgb mirrored = MirroredLobe(material, normals, frame, l, v);
   if (!IsBlack(mirrored)) use(StackLevel{kMirroredLevel, 0, {Rgb(0), mirrored}, Rgb(1)});
   for (size_t k = 0; k < material.coats.size(); ++k) {
     const ShadingMaterial& coat = *material.coats[k];
-    const Vec3d& m = normals.coat(k);
-    Reflection own = IsAbove(m, l, v) ? ReflectModel(coat, m, l, v) : Reflection{};
-    own.specular += MirroredLobe(coat, normals, m, l, v);
-    use(StackLevel{"coat", k, own, TransmittedByCoat(coat, CosineTo(m, v))});
+    const Frame of_coat = FrameOfCoat(material, normals, k);
+    const Vec3d& m = of_coat.z;
+    Reflection own = IsAbove(m, l, v) ? ReflectModel(coat, of_coat, l, v) : Reflection{};
+    own.specular += MirroredLobe(coat, normals, of_coat, l, v);
+    use(StackLevel{"coat", k, own, TransmittedByCoat(coat, ViewIn(of_coat, v), CosineTo(m, l))});
   }
+  use_layers(true);
 }
 
 // --- Sampling.
 
 // The lobes that GGX and Kulla and Conty's compensation sample, as lobe_kernel.cc does.
-double KullaContyChance(const MicrofacetModel& model, double n_dot_v) {
+double KullaContyChance(const MicrofacetModel& model, const LobeCosines& v) {
   if (model.compensation != Compensation::kKullaConty || !(model.multiple > 0)) return 0;
-  const double loss = AlbedoLoss(model.albedo.lobe, n_dot_v);
+  const double loss = LossOf(model, v);
   const double f0 = LargestChannel(model.f0);
   const double single = (f0 + (model.f90 - f0) / 21) * (1 - loss) * (model.delta ? 0 : 1);
   return Fraction(LargestChannel(model.f_multiple) * loss, single);
 }
 
-Vec3d SampleUnmirrored(const ShadingMaterial& material, const Vec3d& n, const Vec3d& v, double u0,
-                       double u1) {
+Vec3d SampleUnmirrored(const ShadingMaterial& material, const Frame& frame, const Vec3d& v,
+                       double u0, double u1) {
+  const Vec3d& n = frame.z;
   if (const auto* user = std::get_if<UserModel>(&material.model)) {
     return SampleUser(*user, n, v, u0, u1);
   }
@@ -222,40 +277,47 @@ Vec3d SampleUnmirrored(const ShadingMaterial& material, const Vec3d& n, const Ve
   }
   const auto& model = std::get<MicrofacetModel>(material.model);
   Chooser chooser(u0);
-  if (chooser.Takes(KullaContyChance(model, CosineTo(n, v)))) {
+  if (chooser.Takes(KullaContyChance(model, ViewIn(frame, v)))) {
     const double spread = KullaContySpread(model.albedo.lobe.shape);
     return SampleKullaConty(n, spread, chooser.rest(), u1);
+  }
+  if (model.anisotropic) {
+    return SampleGgxVisible(frame, v, model.anisotropic->alpha, chooser.rest(), u1);
   }
   return SampleGgxVisible(n, v, model.alpha, chooser.rest(), u1);
 }
 
 // Samples the model's glossy lobe.
-Vec3d SampleLobeOf(const ShadingMaterial& material, const StackNormals& normals, const Vec3d& n,
+Vec3d SampleLobeOf(const ShadingMaterial& material, const StackNormals& normals, const Frame& frame,
                    const Vec3d& v, double u0, double u1) {
-  const Vec3d l = SampleUnmirrored(material, n, v, u0, u1);
-  return RaisedAboveHorizon(normals, n, l);
+  const Vec3d l = SampleUnmirrored(material, frame, v, u0, u1);
+  return RaisedAboveHorizon(normals, frame.z, l);
 }
 
-double UnmirroredPdf(const ShadingMaterial& material, const Vec3d& n, const Vec3d& v,
+double UnmirroredPdf(const ShadingMaterial& material, const Frame& frame, const Vec3d& v,
                      const Vec3d& l) {
+  const Vec3d& n = frame.z;
   if (const auto* user = std::get_if<UserModel>(&material.model)) return UserPdf(*user, n, v, l);
   if (const auto* phong = std::get_if<PhongFamilyModel>(&material.model)) {
     return phong->model == PhongModel::kBlinnPhong ? BlinnLobePdf(n, v, l, phong->shininess)
                                                    : PhongLobePdf(n, v, l, phong->shininess);
   }
   const auto& model = std::get<MicrofacetModel>(material.model);
-  const double chance = KullaContyChance(model, CosineTo(n, v));
-  const double single = (1 - chance) * GgxVisiblePdf(n, v, l, model.alpha);
+  const double chance = KullaContyChance(model, ViewIn(frame, v));
+  const double visible = model.anisotropic
+                             ? GgxVisiblePdf(ComputeAngles(frame, l, v), model.anisotropic->alpha)
+                             : GgxVisiblePdf(n, v, l, model.alpha);
+  const double single = (1 - chance) * visible;
   if (chance == 0) return single;
   return single + chance * KullaContyPdf(n ^ l, double{KullaContySpread(model.albedo.lobe.shape)});
 }
 
 // The pdf of SampleLobeOf, whose directions below the horizon are mirrored in it.
-double LobePdfOf(const ShadingMaterial& material, const StackNormals& normals, const Vec3d& n,
+double LobePdfOf(const ShadingMaterial& material, const StackNormals& normals, const Frame& frame,
                  const Vec3d& v, const Vec3d& l) {
   if (!HasSampledLobe(material)) return 0;
-  return WithMirroredPdf(normals, n, l, [&](const Vec3d& to_light) {
-    return UnmirroredPdf(material, n, v, to_light);
+  return WithMirroredPdf(normals, frame.z, l, [&](const Vec3d& to_light) {
+    return UnmirroredPdf(material, frame, v, to_light);
   });
 }
 
@@ -272,11 +334,11 @@ StackChances ChancesOf(const ShadingMaterial& material, const StackNormals& norm
   std::vector<CoatInView> coats;
   for (size_t k = 0; k < material.coats.size(); ++k) {
     const ShadingMaterial& coat = *material.coats[k];
-    const double n_dot_v_of_coat = CosineTo(normals.coat(k), v);
-    coats.push_back({CoatAlbedo(coat, n_dot_v_of_coat), TransmittedByCoat(coat, n_dot_v_of_coat),
+    const LobeCosines of_coat = ViewIn(FrameOfCoat(material, normals, k), v);
+    coats.push_back({CoatAlbedo(coat, of_coat), TransmittedByCoat(coat, of_coat, of_coat.n),
                      HasDeltaLobe(coat)});
   }
-  const ModelAlbedos albedos = AlbedosOf(material, n_dot_v);
+  const ModelAlbedos albedos = AlbedosOf(material, ViewIn(FrameOfModel(material, normals), v));
   StackChances chances;
   chances.kind = ChancesOfKinds(material.layers, n_dot_v, albedos, coats, mirrors);
   FindCoatChances(coats, albedos.glossy, chances.coats);
@@ -296,7 +358,8 @@ Vec3d SampleKind(const ShadingMaterial& material, const StackNormals& normals,
   if (kind == LobeKind::kGlossy) {
     for (size_t k = material.coats.size(); k-- > 0;) {
       if (!chooser.Takes(chances.coats[k])) continue;
-      return SampleLobeOf(*material.coats[k], normals, normals.coat(k), v, chooser.rest(), u1);
+      return SampleLobeOf(*material.coats[k], normals, FrameOfCoat(material, normals, k), v,
+                          chooser.rest(), u1);
     }
   }
   for (size_t k = material.layers.size(); k-- > 0;) {
@@ -304,8 +367,8 @@ Vec3d SampleKind(const ShadingMaterial& material, const StackNormals& normals,
     const Vec3d l = SampleLayer(material.layers[k], n, v, chooser.rest(), u1);
     return kind == LobeKind::kGlossy ? RaisedAboveHorizon(normals, n, l) : l;
   }
-  return kind == LobeKind::kDiffuse ? SampleCosine(n, chooser.rest(), u1)
-                                    : SampleLobeOf(material, normals, n, v, chooser.rest(), u1);
+  if (kind == LobeKind::kDiffuse) return SampleCosine(n, chooser.rest(), u1);
+  return SampleLobeOf(material, normals, FrameOfModel(material, normals), v, chooser.rest(), u1);
 }
 
 double KindPdf(const ShadingMaterial& material, const StackNormals& normals,
@@ -314,7 +377,8 @@ double KindPdf(const ShadingMaterial& material, const StackNormals& normals,
   double pdf = 0, left = 1;
   for (size_t k = kind == LobeKind::kGlossy ? material.coats.size() : 0; k-- > 0;) {
     if (!(chances.coats[k] > 0)) continue;
-    pdf += left * chances.coats[k] * LobePdfOf(*material.coats[k], normals, normals.coat(k), v, l);
+    pdf += left * chances.coats[k] *
+           LobePdfOf(*material.coats[k], normals, FrameOfCoat(material, normals, k), v, l);
     left *= 1 - chances.coats[k];
   }
   for (size_t k = material.layers.size(); k-- > 0;) {
@@ -327,8 +391,10 @@ double KindPdf(const ShadingMaterial& material, const StackNormals& normals,
     left *= 1 - chances.layers[k];
   }
   if (!(left > 0)) return pdf;
-  return pdf + left * (kind == LobeKind::kDiffuse ? CosinePdf(n ^ l)
-                                                  : LobePdfOf(material, normals, n, v, l));
+  const double of_model = kind == LobeKind::kDiffuse
+                              ? CosinePdf(n ^ l)
+                              : LobePdfOf(material, normals, FrameOfModel(material, normals), v, l);
+  return pdf + left * of_model;
 }
 
 double PdfOf(const ShadingMaterial& material, const StackNormals& normals,
@@ -348,18 +414,39 @@ ReflectionSample SampleMirrorAt(size_t level, const ShadingMaterial& material,
   const ShadingMaterial& mirror = level == 0 ? material : *material.coats[level - 1];
   const double n_dot_v = CosineTo(n, v);
   Rgb reflectance = MirrorReflectance(std::get<MicrofacetModel>(mirror.model), n_dot_v);
-  if (level == 0) {
-    for (const LayerModel& layer : material.layers) {
-      reflectance *= LayerAlbedo(layer, n_dot_v).below;
-    }
+  for (const LayerModel& layer : material.layers) {
+    if (level > 0 && !LiesOverCoats(layer)) continue;
+    reflectance *= LayerAlbedo(layer, CosineTo(normals.model, v)).below;
   }
+  const Vec3d l = Mirrored(v, n);
   for (size_t k = level; k < material.coats.size(); ++k) {
-    reflectance *= TransmittedByCoat(*material.coats[k], CosineTo(normals.coat(k), v));
+    const Frame of_coat = FrameOfCoat(material, normals, k);
+    reflectance *=
+        TransmittedByCoat(*material.coats[k], ViewIn(of_coat, v), CosineTo(of_coat.z, l));
   }
-  return {Mirrored(v, n), reflectance / chance, chance, LobeKind::kDelta};
+  return {l, reflectance / chance, chance, LobeKind::kDelta};
 }
 
 }  // namespace
+
+GgxTerms GgxTermsOf(const MicrofacetModel& model, const Basis<double>& frame, const Vec3d& to_light,
+                    const Vec3d& to_view) {
+  return TermsOf(model, ComputeAngles(frame, to_light, to_view));
+}
+
+Basis<double> FrameOfModel(const ShadingMaterial& material, const StackNormals& normals) {
+  return FrameOf(material, normals.model, normals.tangent);
+}
+
+Basis<double> FrameOfCoat(const ShadingMaterial& material, const StackNormals& normals, size_t k) {
+  std::optional<Vec3d> tangent;
+  if (!normals.coat_tangents.empty()) tangent = normals.coat_tangents[k];
+  return FrameOf(*material.coats[k], normals.coat(k), tangent);
+}
+
+Vec3d DefaultTangent(const ShadingMaterial& material, const Vec3d& normal) {
+  return RotatedTangent(normal, LobeFrame(normal, Vec3d(1, 0, 0)).x, material.tangent_turn);
+}
 
 Reflection Reflect(const ShadingMaterial& material, const StackNormals& normals,
                    const Vec3d& to_light, const Vec3d& to_view) {

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/basis.h"
 #include "shading/material.h"
 #include "shading/reflection.h"
 
@@ -17,10 +18,14 @@ namespace nacre {
 // All directions are unit vectors, and point away from the surface.
 
 // The shading normals of a stack of lobes: of the model and its layers, and of each coat. Without
-// `coats`, all share one. Does not own the coats' normals.
+// `coats`, all share one. Does not own what is of the coats.
 struct StackNormals {
   Vec3d model;
   std::span<const Vec3d> coats;
+  // Surface::tangent of the model and of each coat. Without them, anisotropic lobes have the
+  // tangent of DefaultTangent.
+  std::optional<Vec3d> tangent;
+  std::span<const Vec3d> coat_tangents;
   // Of the surface without normal maps, if it has any: no light comes from below its plane, and
   // glossy lobes that reach below it are mirrored in it, as in bsdf.cc.
   std::optional<Vec3d> unmapped;
@@ -31,10 +36,26 @@ struct StackNormals {
   const Vec3d& coat(size_t k) const { return coats.empty() ? model : coats[k]; }
 };
 
+// The tangent of a surface of which only the normal is known: x across the normal, turned as the
+// material has it.
+Vec3d DefaultTangent(const ShadingMaterial& material, const Vec3d& normal);
+
 // f |n.l| by component; black where light or viewer is not above the surface. Mirrors' lobes,
 // emission, ambient light and maps are left out.
 Reflection Reflect(const ShadingMaterial& material, const StackNormals& normals,
                    const Vec3d& to_light, const Vec3d& to_view);
+
+// Distribution and visibility of a GGX lobe, of which `frame` is tangent, bitangent and normal,
+// with light above the surface. Isotropic lobes read only the normal.
+struct GgxTerms {
+  double distribution, visibility;
+};
+GgxTerms GgxTermsOf(const MicrofacetModel& model, const Basis<double>& frame, const Vec3d& to_light,
+                    const Vec3d& to_view);
+
+// The frames of the model's lobe and of that of coat k.
+Basis<double> FrameOfModel(const ShadingMaterial& material, const StackNormals& normals);
+Basis<double> FrameOfCoat(const ShadingMaterial& material, const StackNormals& normals, size_t k);
 
 // The level of glossy light that the model reflects by way of the horizon (StackNormals::unmapped).
 inline constexpr std::string_view kMirroredLevel = "mirrored at the horizon";

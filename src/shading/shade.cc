@@ -95,6 +95,12 @@ void Shade(const MicrofacetModel& model, const MicrofacetNumbers<Number>& number
   Assign(model.k, uniforms.k);
   const SharpLobeTerms* const sharp = FormSharpTerms(model, lit, &scratch->sharp);
   if (sharp != nullptr) uniforms.sharp_distribution = sharp->distribution.data();
+  if (sharp != nullptr && model.anisotropic) {
+    uniforms.light_root = sharp->light_root.data();
+    uniforms.view_root = sharp->view_root.data();
+    uniforms.t_dot_l = sharp->t_dot_l.data();
+    uniforms.b_dot_l = sharp->b_dot_l.data();
+  }
   if (model.base_form != DiffuseForm::kLambert) {
     SpreadBase(model.base_form, numbers.base.roughness, lit, &scratch->base);
     uniforms.spread = &scratch->base;
@@ -122,6 +128,10 @@ const SharpLobeTerms* FormSharpTerms(const PhongFamilyModel& model, const LitHit
 const SharpLobeTerms* FormSharpTerms(const MicrofacetModel& model, const LitHits& lit,
                                      SharpLobeTerms* terms) {
   const HitParameters* const maps = lit.Maps();
+  if (model.anisotropic) {
+    FormAnisotropicGgx(LobesOf(lit.material, model, maps), lit, terms);
+    return terms;
+  }
   if (maps == nullptr) {
     if (!model.double_terms) return nullptr;
     FormSharpGgx(model.alpha, lit, terms);
@@ -156,7 +166,9 @@ void ShadeRun(const LitHits& lit, ShadeScratch* scratch) {
   std::visit(Overloaded{[](std::monostate) {},
                         [&](const UserModel& model) { ShadeUser(model, lit, scratch); }, shade},
              lit.material.model);
-  for (const LayerModel& layer : lit.material.layers) CoverByLayer(layer, lit);
+  for (const LayerModel& layer : lit.material.layers) {
+    if (!LiesOverCoats(layer)) CoverByLayer(layer, lit);
+  }
 }
 
 }  // namespace nacre

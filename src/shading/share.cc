@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shading/share.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/overloaded.h"
@@ -8,6 +9,7 @@
 #include "brdf/multi_scatter.h"
 #include "brdf/phong.h"
 #include "brdf/quadrature.h"
+#include "sampling/sobol.h"
 #include "shading/scalar_bsdf.h"
 
 namespace nacre {
@@ -139,7 +141,7 @@ double BaseShareOf(const MicrofacetModel& model, ShareOf what, double cosine, in
   switch (model.coupling) {
     case DiffuseCoupling::kAlbedoScaled: {
       const double here = 1 - CoverAlbedo(model, cosine, c);
-      if (model.compensation == Compensation::kKullaConty) return here * MeanBaseShare(model, c);
+      if (model.reciprocal) return here * MeanBaseShare(model, c);
       return what == ShareOf::kFurnace ? here : MeanBaseShare(model, c);
     }
     case DiffuseCoupling::kOneMinusFresnel:
@@ -155,7 +157,8 @@ Rgb ShareOfModel(const MicrofacetModel& model, ShareOf what, double cosine) {
   for (int c = 0; c < 3; ++c) {
     const auto same = [&](const Rgb& value) { return c > 0 && value[c] == value[c - 1]; };
     if (same(model.dielectric_f0) && same(model.metal_f0) && same(model.diffuse) &&
-        same(model.eta) && same(model.k) && same(model.f82_slope) && same(model.base_ratio)) {
+        same(model.eta) && same(model.k) && same(model.f82_slope) && same(model.base_ratio) &&
+        same(model.dielectric_scale) && same(model.cover)) {
       share[c] = share[c - 1];
       continue;
     }
@@ -190,39 +193,43 @@ Rgb ShareOfModel(const UserModel& model, ShareOf what, double cosine) {
   return share;
 }
 
-// ReflectedShare with layers over a model whose own is `share`. The integral is computed again,
-// because the layers scale each pair of directions differently.
-Rgb ShareWithLayers(const ShadingMaterial& material, const Rgb& share, ShareOf what,
-                    double cosine) {
-  ShadingMaterial below = material, whole = material;
-  below.layers.clear();
-  below.coats.clear();
-  whole.coats.clear();
+// ReflectedShare of a material whose layers over the coats, or all of whose layers, `below` lacks,
+// whose own is `share`. The integral is computed again, because the layers scale each pair of
+// directions differently.
+Rgb ShareWithLayers(const ShadingMaterial& whole, const ShadingMaterial& below, const Rgb& share,
+                    ShareOf what, double cosine) {
   const auto integrate = [&](int c, const ShadingMaterial& of) {
     return IntegrateReflected(of, what, cosine,
                               [&](const Reflection& r, double) { return r.Sum()[c]; });
   };
   double left = 1;  // the factor for a mirror below the layers
-  for (const LayerModel& layer : material.layers) left *= LayerAlbedo(layer, cosine).below;
+  for (const LayerModel& layer : whole.layers) {
+    if (LiesOverCoats(layer) || below.layers.empty()) left *= LayerAlbedo(layer, cosine).below;
+  }
   Rgb all;
   for (int c = 0; c < 3; ++c) {
     all[c] = integrate(c, whole);
-    if (HasDeltaLobe(below)) all[c] += (share[c] - integrate(c, below)) * left;
+    if (HasMirror(below)) all[c] += (share[c] - integrate(c, below)) * left;
   }
   return all;
 }
 
-// For kOneLight: the light that the material below its topmost coat reflects, whose share is
-// `share`, and that the coat transmits. The coat attenuates it on the way to the viewer.
-Rgb ShareThroughCoat(const ShadingMaterial& material, const Rgb& share, double cosine) {
+// The light that the material below its topmost coat reflects, whose share is `share`, and that the
+// coat transmits: a factor that differs with the direction over which is integrated, that of the
+// viewer for kOneLight and else that of light.
+Rgb ShareThroughCoat(const ShadingMaterial& material, ShareOf what, const Rgb& share,
+                     double cosine) {
   ShadingMaterial below = material;
   below.coats.pop_back();
   const ShadingMaterial& coat = *material.coats.back();
   const auto integrate = [&](int c, const auto& seen) {
-    return IntegrateReflected(below, ShareOf::kOneLight, cosine,
+    return IntegrateReflected(below, what, cosine,
                               [&](const Reflection& r, double mu) { return seen(r, mu)[c]; });
   };
-  const auto left = [&](double mu) { return TransmittedByCoat(coat, mu); };
+  const auto left = [&](double mu) {
+    return what == ShareOf::kOneLight ? TransmittedByCoat(coat, mu, cosine)
+                                      : TransmittedByCoat(coat, cosine, mu);
+  };
   Rgb through;
   for (int c = 0; c < 3; ++c) {
     through[c] = integrate(c, [&](const Reflection& r, double mu) { return r.Sum() * left(mu); });
@@ -233,23 +240,60 @@ Rgb ShareThroughCoat(const ShadingMaterial& material, const Rgb& share, double c
   return through;
 }
 
+// ReflectedShare in a direction in space, as the mean weight of samples. Lobes that are no
+// function of the angle from a peak are integrated along the material's own samples, which are as
+// narrow as they are.
+Rgb SampledShare(const ShadingMaterial& material, ShareOf what, const Vec3d& fixed) {
+  constexpr uint32_t kSamples = 1u << 14;
+  const Vec3d normal(0, 0, 1);
+  Rgb sum(0, 0, 0);
+  for (uint32_t i = 0; i < kSamples; ++i) {
+    const Vec2d u = SobolSample2D(i, 0, 1);
+    const ReflectionSample sample = SampleReflection(material, normal, fixed, u.x, u.y);
+    if (what == ShareOf::kFurnace || sample.kind == LobeKind::kDelta) {
+      // A mirror reflects as much from the one direction as from the other.
+      sum += sample.weight;
+    } else if (sample.pdf > 0 && sample.to_light.z > 0) {
+      const double cosines = sample.to_light.z / fixed.z;
+      sum += Reflect(material, normal, fixed, sample.to_light).Sum() * (cosines / sample.pdf);
+    }
+  }
+  return sum / static_cast<double>(kSamples);
+}
+
 }  // namespace
 
-Rgb ReflectedShare(const ShadingMaterial& material, ShareOf what, double cosine) {
+Rgb ReflectedShare(const ShadingMaterial& material, ShareOf what, double cosine, double azimuth) {
+  if (HasAnisotropicLobe(material)) {
+    const double sine = std::sqrt((1 - cosine) * (1 + cosine));
+    return SampledShare(material, what,
+                        {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine});
+  }
+  const bool over_coats = !material.layers.empty() && LiesOverCoats(material.layers.back());
+  if (over_coats && !material.coats.empty()) {
+    ShadingMaterial below = material;
+    std::erase_if(below.layers, LiesOverCoats);
+    return ShareWithLayers(material, below, ReflectedShare(below, what, cosine), what, cosine);
+  }
   if (material.coats.empty()) {
     const Rgb share =
         std::visit(Overloaded{[](const std::monostate&) { return Rgb(0); },
                               [&](const auto& model) { return ShareOfModel(model, what, cosine); }},
                    material.model);
-    return material.layers.empty() ? share : ShareWithLayers(material, share, what, cosine);
+    if (material.layers.empty()) return share;
+    ShadingMaterial below = material;
+    below.layers.clear();
+    return ShareWithLayers(material, below, share, what, cosine);
   }
   ShadingMaterial below = material;
   below.coats.pop_back();
   const ShadingMaterial& coat = *material.coats.back();
   const Rgb share = ReflectedShare(below, what, cosine);
   const Rgb of_coat = ReflectedShare(coat, what, cosine);
-  if (what == ShareOf::kFurnace) return share * TransmittedByCoat(coat, cosine) + of_coat;
-  return ShareThroughCoat(material, share, cosine) + of_coat;
+  if (what == ShareOf::kFurnace && !AbsorbsAlongLight(coat.transmission)) {
+    return share * TransmittedByCoat(coat, cosine, cosine) + of_coat;
+  }
+  return ShareThroughCoat(material, what, share, cosine) + of_coat;
 }
 
 double PhongLobeIntegral(double shininess, double cosine) {

@@ -8,6 +8,7 @@
 #include "hwy/highway.h"
 
 #include "brdf/ggx-inl.h"
+#include "brdf/ggx_anisotropic-inl.h"
 #include "brdf/phong-inl.h"
 #include "shading/kernels.h"
 #include "shading/soa-inl.h"
@@ -78,6 +79,37 @@ void FormSharpGgxOf(Number alphas, const LitHits& lit, SharpLobeTerms* terms) {
                  terms->distribution.data() + i);
   });
 }
+// The alphas of hits i...
+HWY_INLINE GgxAlphasV<DoubleV> AlphasAt(const AnisotropicLobes& lobes, size_t i) {
+  const DoubleTag d;
+  if (lobes.stride == 0) {
+    const GgxAlphas<double>& alpha = lobes.first->alpha;
+    return MakeGgxAlphas(d, hn::Set(d, alpha.x), hn::Set(d, alpha.y));
+  }
+  HWY_ALIGN double x[hn::MaxLanes(d)], y[hn::MaxLanes(d)];
+  for (size_t k = 0; k < hn::Lanes(d); ++k) {
+    x[k] = lobes.At(i + k).alpha.x;
+    y[k] = lobes.At(i + k).alpha.y;
+  }
+  return MakeGgxAlphas(d, hn::Load(d, x), hn::Load(d, y));
+}
+
+// Streaks are far narrower than float's directions resolve, and there is no limit of roughness from
+// which on they would not be: all anisotropic lobes are computed in double.
+void FormAnisotropicGgxT(const AnisotropicLobes& lobes, const LitHits& lit, SharpLobeTerms* terms) {
+  const DoubleTag d;
+  ForEachHit(lit, [&](const Directions& at, size_t i) HWY_ATTR {
+    const BasisV<DoubleV> frame = LobeFrame(d, at.normal, PromoteSoa(d, lit.surface.tangent, i));
+    const GgxAlphasV<DoubleV> alpha = AlphasAt(lobes, i);
+    const FrameAnglesV<DoubleV> a = ComputeAngles(d, frame, at.to_light, at.to_view);
+    StoreRounded(d, GgxDistribution(d, a, alpha), terms->distribution.data() + i);
+    StoreRounded(d, SmithRootOfLight(d, a, alpha), terms->light_root.data() + i);
+    StoreRounded(d, SmithRootOfView(d, a, alpha), terms->view_root.data() + i);
+    StoreRounded(d, a.t_dot_l, terms->t_dot_l.data() + i);
+    StoreRounded(d, a.b_dot_l, terms->b_dot_l.data() + i);
+  });
+}
+
 constexpr auto& FormSharpGgxT = FormSharpGgxOf<double>;
 constexpr auto& FormSharpGgxMapsT = FormSharpGgxOf<const double*>;
 
@@ -112,6 +144,7 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(FormSharpGgxT);
 HWY_EXPORT(FormSharpGgxMapsT);
+HWY_EXPORT(FormAnisotropicGgxT);
 HWY_EXPORT(FormSharpPhongT);
 HWY_EXPORT(FormSharpPhongMapsT);
 
@@ -121,6 +154,10 @@ void FormSharpGgx(double alpha, const LitHits& lit, SharpLobeTerms* terms) {
 
 void FormSharpGgx(const double* alphas, const LitHits& lit, SharpLobeTerms* terms) {
   HWY_DYNAMIC_DISPATCH(FormSharpGgxMapsT)(alphas, lit, terms);
+}
+
+void FormAnisotropicGgx(const AnisotropicLobes& lobes, const LitHits& lit, SharpLobeTerms* terms) {
+  HWY_DYNAMIC_DISPATCH(FormAnisotropicGgxT)(lobes, lit, terms);
 }
 
 void FormSharpPhong(PhongModel model, double exponent, const LitHits& lit, SharpLobeTerms* terms) {

@@ -19,7 +19,7 @@ struct Surface : HitDirections {
   bool normal_mapped = false;
   Soa3<float> interpolated_normal;
   // Set by TextureHits if the material asks for it (VariesByHit::tangent): unit, perpendicular to
-  // the shading normal, along dP/du of the coordinates of its normal map.
+  // the shading normal, along dP/du of the coordinates that TangentTurn names, turned by it.
   Soa3<float> tangent;
   // Set by PrepareRun for hits on microfacet materials:
   AlignedArray<float> multiple{kBatchCapacity};  // the weight of multiple scattering
@@ -66,9 +66,13 @@ struct ReflectedRadiance {
 
 // The half-vector terms of sharp lobes, computed in double (sharp_lobe_kernel.cc). Hits with their
 // own roughness or exponent may mix sharp and wide lobes: wide ones are marked by a distribution or
-// one_minus_cos of -1.
+// one_minus_cos of -1. All lobes of an anisotropic material count as sharp.
 struct SharpLobeTerms {
-  AlignedArray<float> distribution{kBatchCapacity};                        // GGX
+  AlignedArray<float> distribution{kBatchCapacity};  // GGX
+  // Anisotropic GGX: SmithRootOfLight and SmithRootOfView, and the light's cosines to tangent and
+  // bitangent.
+  AlignedArray<float> light_root{kBatchCapacity}, view_root{kBatchCapacity};
+  AlignedArray<float> t_dot_l{kBatchCapacity}, b_dot_l{kBatchCapacity};
   AlignedArray<float> one_minus_cos{kBatchCapacity}, cos{kBatchCapacity};  // Phong family
 };
 

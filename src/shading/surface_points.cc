@@ -89,6 +89,7 @@ void FindMeshCoordinates(const TexturedRun& run, const PreparedTexture& texture)
     if (hits.primitive[i] < sphere_count) continue;
     const Corners corners = CornersOf(run.scene, hits.primitive[i]);
     const std::vector<Vec2d>& uvs = UvsOf(*corners.mesh, texture.second_uvs);
+    if (uvs.empty()) continue;  // ShapeCoordinates of PlaceMeshPoints
     const Vec2d uv = uvs[corners.index[0]];
     const Vec2d d1 = uvs[corners.index[1]] - uv, d2 = uvs[corners.index[2]] - uv;
     const auto [g1, g2] = GradientsOf(corners);

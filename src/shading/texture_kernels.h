@@ -38,8 +38,9 @@ void MapNormals(const TexturedRun& run, float middle, float scale, bool frames);
 void MapNormalsBySlopes(const TexturedRun& run, double distance);
 
 // Sets Surface::tangent by the gradients of the coordinates and, if `frames`, by FindTangents, at
-// final shading normals (normal_map_kernel.cc).
-void StoreTangents(const TexturedRun& run, bool frames);
+// final shading normals (normal_map_kernel.cc). If `by_map`, red and green of the last texels that
+// were looked up are the direction, of which 0.5 stands for 0, before the material's turn.
+void StoreTangents(const TexturedRun& run, bool frames, bool by_map);
 
 // Compute HitParameters::numbers (mapped_kernel.cc). StartNumbers sets the material's own
 // parameters at every hit, MultiplyNumber multiplies one of them by the last texels that were

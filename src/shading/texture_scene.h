@@ -21,7 +21,7 @@ namespace nacre {
 
 // A texture with its mapping prepared.
 struct PreparedTexture {
-  const MipChain* image;
+  const MipChain* image;  // null for ShapeCoordinates
   SampleSettings sampling;
   MappingKind mapping;
   bool second_uvs;
@@ -48,11 +48,17 @@ struct TextureScene {
   // The width of a sample's footprint, in pixels: with many samples per pixel, each stands for a
   // small part of it.
   double footprint = 1;
-  std::vector<PreparedTexture> textures;  // one per texture of the scene
+  std::vector<PreparedTexture> textures;  // one per texture of the scene, and ShapeCoordinates
   PrimitiveNumbers primitives;
   std::vector<std::shared_ptr<const CornerTangents>> tangents;
   std::vector<std::vector<MapTangents>> mesh_tangents;  // by mesh; empty if no mesh has any
 };
+
+// The coordinates that shapes have by themselves: those of a mesh, or longitude and latitude about
+// the y axis of a sphere and of a mesh that has none. It has no image.
+inline const PreparedTexture& ShapeCoordinates(const TextureScene& textures) {
+  return textures.textures.back();
+}
 
 // How far the points that the rays of a batch hit are apart from one pixel to the next.
 struct RayFootprints {

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <tuple>
 
+#include "scene/coat.h"
 #include "scene/mesh.h"
 #include "scene/texture_mapping.h"
+#include "shading/anisotropic_lobe.h"
 #include "shading/models_at_hit.h"
 #include "shading/texture_kernels.h"
 
@@ -33,9 +35,10 @@ void PrepareTangents(int threads, KeptTables* kept, TextureScene* prepared) {
   };
   std::vector<Made> made;  // the tangents made for the current mesh
   const auto prepare_map = [&](TextureId map, size_t number) {
-    if (!map.valid() || scene.textures[map.index].mapping != MappingKind::kUv) return;
-    const Mesh& mesh = scene.meshes[number];
+    if (!map.valid()) return;
     const PreparedTexture& texture = prepared->textures[map.index];
+    const Mesh& mesh = scene.meshes[number];
+    if (texture.mapping != MappingKind::kUv || mesh.uvs.empty()) return;
     prepared->mesh_tangents.resize(scene.meshes.size());
     std::vector<MapTangents>& of_mesh = prepared->mesh_tangents[number];
     const std::vector<Vec2d>& uvs = UvsOf(mesh, texture.second_uvs);
@@ -69,6 +72,14 @@ void PrepareTangents(int threads, KeptTables* kept, TextureScene* prepared) {
     for (const MaterialNormalMap& row : ModelOf(material)->normal_maps) {
       prepare_map(NormalMapOf(row, material).texture, number);
     }
+    const auto anisotropic = [&](const Material& of) {
+      if (!IsAnisotropic(of)) return;
+      const TextureId map = TangentTurnOf(of).coordinates;
+      const auto own = static_cast<uint32_t>(prepared->textures.size() - 1);
+      prepare_map(map.valid() ? map : TextureId{own}, number);
+    };
+    anisotropic(material);
+    for (const Coat& coat : CoatsOf(material)) anisotropic(coat.material);
   };
   for (size_t number = 0; number < scene.meshes.size(); ++number) {
     made.clear();
@@ -94,7 +105,9 @@ class RunTexturer {
     const Material& material = *run_.material.scene_material;
     if (material.normal_map.texture.valid()) ApplyNormalMap(material.normal_map);
     if (material.bump_map.texture.valid()) ApplyBumpMap(material.bump_map);
-    if (run_.material.by_hit.tangent) FindTangent(material.normal_map.texture);
+    if (run_.material.by_hit.tangent) FindTangent(TangentTurnOf(material));
+    // Without maps of parameters only the tangent is wanted.
+    if (!run_.material.by_hit.parameters) return;
     const MaterialModel& model = *ModelOf(material);
     StartNumbers(run_);
     if (material.vertex_colors == VertexColors::kBase) {
@@ -114,7 +127,10 @@ class RunTexturer {
 
  private:
   const PreparedTexture& FindCoordinates(TextureId id) {
-    const PreparedTexture& texture = run_.scene.textures[id.index];
+    return FindCoordinates(run_.scene.textures[id.index]);
+  }
+
+  const PreparedTexture& FindCoordinates(const PreparedTexture& texture) {
     if (texture.coordinates != made_) MakeCoordinates(run_, texture);
     made_ = texture.coordinates;
     return texture;
@@ -161,13 +177,22 @@ class RunTexturer {
     MapNormalsBySlopes(run_, map.distance);
   }
 
-  void FindTangent(TextureId map) { StoreTangents(run_, FindTangents(run_, FindCoordinates(map))); }
+  void FindTangent(const TangentTurn& turn) {
+    const bool by_map = turn.direction.valid();
+    if (by_map) LookUp(turn.direction);
+    const PreparedTexture& texture =
+        FindCoordinates(turn.coordinates.valid() ? run_.scene.textures[turn.coordinates.index]
+                                                 : ShapeCoordinates(run_.scene));
+    StoreTangents(run_, FindTangents(run_, texture), by_map);
+  }
 
-  // Each layer reflects its albedo of ambient light, and attenuates what is reflected below it.
+  // Each layer below the coats reflects its albedo of ambient light, and attenuates what is
+  // reflected below it.
   void CoverAmbient() {
     const ShadingMaterial& material = run_.material;
     const HitParameters* const maps = material.by_hit.model ? &t_ : nullptr;
     for (const LayerModel& layer : material.layers) {
+      if (LiesOverCoats(layer)) continue;
       for (size_t i = run_.begin; i < run_.end; ++i) {
         const LayerReflection albedo =
             LayerAlbedo(LayerAtHit(layer, maps, i), NDotV(run_.surface, i));
@@ -195,16 +220,14 @@ TextureScene PrepareTextures(const Scene& scene, double footprint, int threads, 
   TextureScene prepared;
   prepared.scene = &scene;
   prepared.footprint = footprint;
-  prepared.textures.reserve(scene.textures.size());
-  for (size_t i = 0; i < scene.textures.size(); ++i) {
-    const Texture& texture = scene.textures[i];
+  prepared.textures.reserve(scene.textures.size() + 1);
+  const auto prepare = [&](const Texture& texture) {
     PreparedTexture& to = prepared.textures.emplace_back();
-    const SceneImage& image = scene.images[texture.image.index];
-    to.image = image.texels.get();
+    to.image = nullptr;
     to.sampling = texture.sampling;
     to.mapping = texture.mapping;
     to.second_uvs = texture.second_uvs;
-    to.middle = image.middle;
+    to.middle = 0;
     const MappingFrame frame = FrameOf(texture);
     to.frame[0] = frame.x;
     to.frame[1] = frame.y;
@@ -215,9 +238,18 @@ TextureScene PrepareTextures(const Scene& scene, double footprint, int threads, 
     to.u_row = transform.u_row;
     to.v_row = transform.v_row;
     to.offset = transform.offset;
-    to.coordinates = 0;
-    while (!SameCoordinates(scene.textures[to.coordinates], texture)) ++to.coordinates;
+    const auto same =
+        std::find_if(scene.textures.begin(), scene.textures.end(),
+                     [&](const Texture& other) { return SameCoordinates(other, texture); });
+    to.coordinates = static_cast<size_t>(same - scene.textures.begin());
+  };
+  for (const Texture& texture : scene.textures) {
+    prepare(texture);
+    const SceneImage& image = scene.images[texture.image.index];
+    prepared.textures.back().image = image.texels.get();
+    prepared.textures.back().middle = image.middle;
   }
+  prepare(Texture{});
   prepared.primitives = NumberPrimitives(scene);
   PrepareTangents(threads, kept, &prepared);
   return prepared;

@@ -10,12 +10,14 @@
 #include <string_view>
 #include <variant>
 
+#include "base/basis.h"
 #include "base/parallel.h"
 #include "base/printable.h"
 #include "brdf/ggx.h"
 #include "brdf/phong.h"
 #include "scene/coat.h"
 #include "scene/material_parameters.h"
+#include "shading/anisotropic_lobe.h"
 #include "shading/light.h"
 #include "shading/scalar_bsdf.h"
 #include "shading/share.h"
@@ -54,10 +56,14 @@ struct ExplainedMaterial {
   ShadingMaterial base;             // without coats and layers
   std::vector<Vec3d> coat_normals;  // coats have normal maps of their own
   std::optional<Vec3d> unmapped;    // without normal maps, if the material or a coat has one
+  std::optional<Vec3d> tangent;     // of anisotropic lobes
+  std::vector<Vec3d> coat_tangents;
 
   StackNormals NormalsWith(const Vec3d& model) const {
     StackNormals normals(model, coat_normals);
     normals.unmapped = unmapped;
+    normals.tangent = tangent;
+    normals.coat_tangents = coat_tangents;
     return normals;
   }
 };
@@ -107,15 +113,22 @@ std::optional<Arrival> ArrivalOf(const Light& light, const Point& point) {
   return Arrival{to_light, distance, prepared.color * factor};
 }
 
-Json TermsJson(const ShadingMaterial& material, const Vec3d& normal, const Vec3d& to_light,
+// `frame` is that of the material's lobe.
+Json TermsJson(const ShadingMaterial& material, const Basis<double>& frame, const Vec3d& to_light,
                const Vec3d& to_view) {
+  const Vec3d& normal = frame.z;
   Json terms = Json::object();
   if (!((normal ^ to_light) > 0) || !((normal ^ to_view) > 0)) return terms;
   const Angles<double> a = ComputeAngles(normal, to_light, to_view);
   if (const auto* model = std::get_if<MicrofacetModel>(&material.model)) {
-    const double visibility = VisibilityOf(*model, a.n_dot_l, a.n_dot_v);
-    terms["alpha"] = model->alpha;
-    terms["D"] = NumberJson(GgxDistribution(a, model->alpha));
+    const auto [distribution, visibility] = GgxTermsOf(*model, frame, to_light, to_view);
+    if (model->anisotropic) {
+      terms["alpha_x"] = model->anisotropic->alpha.x;
+      terms["alpha_y"] = model->anisotropic->alpha.y;
+    } else {
+      terms["alpha"] = model->alpha;
+    }
+    terms["D"] = NumberJson(distribution);
     terms["G"] = NumberJson(4 * visibility * a.n_dot_l * a.n_dot_v);
     terms["V"] = NumberJson(visibility);
     terms["F"] = TripleJson(FresnelOf(*model, VDotH(a), OneMinusVDotH(a)));
@@ -142,7 +155,7 @@ Json LayerTermsJson(const LayerModel& layer, const Angles<double>& angles) {
 Json CoatTermsJson(const ShadingMaterial& material, size_t k, const StackNormals& normals,
                    const Vec3d& to_light, const Vec3d& to_view) {
   const Vec3d& n = normals.coat(k);
-  Json terms = TermsJson(*material.coats[k], n, to_light, to_view);
+  Json terms = TermsJson(*material.coats[k], FrameOfCoat(material, normals, k), to_light, to_view);
   if (n == normals.model) return terms;
   const Vec3d u = to_light + to_view;
   terms["n_dot_l"] = n ^ to_light;
@@ -191,19 +204,24 @@ Reflection ReflectedJson(const ExplainedMaterial& material, const Point& point,
   };
   const Angles<double> angles = ComputeAngles(point.normal, to_light, v);
   const bool above = angles.n_dot_l > 0 && angles.n_dot_v > 0;
-  for (size_t k = 0; k < prepared.layers.size(); ++k) {
-    const LayerModel& layer = prepared.layers[k];
-    cover(NameOf(layer), k, above ? LayerTermsJson(layer, angles) : Json::object());
-  }
+  const auto cover_by_layers = [&](bool over_coats) {
+    for (size_t k = 0; k < prepared.layers.size(); ++k) {
+      const LayerModel& layer = prepared.layers[k];
+      if (LiesOverCoats(layer) != over_coats) continue;
+      cover(NameOf(layer), k, above ? LayerTermsJson(layer, angles) : Json::object());
+    }
+  };
+  cover_by_layers(false);
   if (material.unmapped) cover(kMirroredLevel, 0, Json::object());
   for (size_t k = 0; k < prepared.coats.size(); ++k) {
     cover("coat", k, CoatTermsJson(prepared, k, normals, to_light, v));
   }
+  cover_by_layers(true);
   (*json)["covers"] = std::move(covers);
   return reflected;
 }
 
-void AddAngles(const ShadingMaterial& material, const Point& point, const Vec3d& to_light,
+void AddAngles(const ExplainedMaterial& material, const Point& point, const Vec3d& to_light,
                Json* json) {
   const Vec3d sum = to_light + point.to_view;
   const Vec3d half = sum.length() > 0 ? sum / sum.length() : point.normal;
@@ -212,7 +230,8 @@ void AddAngles(const ShadingMaterial& material, const Point& point, const Vec3d&
   (*json)["n_dot_v"] = point.normal ^ point.to_view;
   (*json)["n_dot_h"] = point.normal ^ half;
   (*json)["v_dot_h"] = point.to_view ^ half;
-  (*json)["terms"] = TermsJson(material, point.normal, to_light, point.to_view);
+  const Basis<double> frame = FrameOfModel(material.base, material.NormalsWith(point.normal));
+  (*json)["terms"] = TermsJson(material.base, frame, to_light, point.to_view);
 }
 
 Json LightJson(const Light& light, const ExplainedMaterial& material, const Point& point,
@@ -233,11 +252,11 @@ Json LightJson(const Light& light, const ExplainedMaterial& material, const Poin
     const Vec3d way = *middle - point.position;
     const double distance = way.length();
     json["distance"] = NumberJson(distance);
-    if (distance > 0) AddAngles(material.base, point, way / distance, &json);
+    if (distance > 0) AddAngles(material, point, way / distance, &json);
     return json;
   }
   const Vec3d& l = arrival->to_light;
-  AddAngles(material.base, point, l, &json);
+  AddAngles(material, point, l, &json);
   const Reflection reflected = ReflectedJson(material, point, l, arrival->irradiance, &json);
   const Rgb sum = reflected.Sum();
   const bool shows = std::max({rendered.x, rendered.y, rendered.z}) > 0;
@@ -361,11 +380,7 @@ ShadingMaterial PrepareAtHit(const Material& material, const Material& at_hit, s
     coat.material = MaterialAtHit(coats[k].material, index, pixel_with, &of_coat);
     if (of_coat.empty()) continue;
     const std::string prefix = k > 0 ? "coat " + std::to_string(k + 1) + " " : "coat ";
-    const auto strength = [](const Coat& of) {
-      return std::get<MetallicRoughnessMaterial>(of.material.model).specular;
-    };
-    coat.tint = Rgb(1) - (Rgb(1) - coat.tint) * (strength(coat) / strength(coats[k]));
-    prepared.coats[k] = MakeShadingCoat(coat);
+    prepared.coats[k] = MakeShadingCoat(coat, at_hit);
     for (const auto& [name, value] : of_coat.items()) (*parameters)[prefix + name] = value;
   }
   return prepared;
@@ -419,6 +434,13 @@ Json ExplainPixel(const Scene& scene, const PixelLayers& layers, const PixelWith
   const auto normal_with = [&](const Material& other) {
     return LayerOf(pixel_with(number - 1, other), "N", "XYZ").normalized();
   };
+  explained.tangent = LayerOf(pixel, "T", "XYZ").normalized();
+  for (const Coat& coat : CoatsOf(own)) {
+    explained.coat_tangents.push_back(
+        IsAnisotropic(coat.material)
+            ? LayerOf(pixel_with(number - 1, coat.material), "T", "XYZ").normalized()
+            : Vec3d(0));
+  }
   bool any_mapped = base_mapped;
   for (const Coat& coat : CoatsOf(own)) {
     const bool mapped = coat.material.normal_map.texture.valid();

@@ -93,7 +93,7 @@ TEST_CASE("dielectric albedo fits are within 5e-5 of the truth") {
   for (const Shadowing form : kForms) {
     for (const double roughness : {0.0, 0.004, 0.01, 0.02, 0.04, 0.07, 0.1, 0.15, 0.3, 0.6, 1.0}) {
       CAPTURE(static_cast<int>(form), roughness);
-      const FresnelAlbedoFit fit = MakeDielectricAlbedoFit(form, roughness, kEta);
+      const FresnelAlbedoFit fit = MakeDielectricAlbedoFit(form, roughness, {kEta});
       double worst = 0;
       for (const float mu : FurnaceCosines()) {
         worst = std::max(
@@ -114,7 +114,7 @@ TEST_CASE("SIMD albedos are their scalar twins on every target, in range everywh
   for (const Shadowing form : kForms) {
     for (const double roughness : {0.0, 1e-6, 1e-3, 0.01, 0.1, 0.37, 1.0}) {
       CAPTURE(static_cast<int>(form), roughness);
-      const FresnelAlbedoFit fit = MakeDielectricAlbedoFit(form, roughness, kEta);
+      const FresnelAlbedoFit fit = MakeDielectricAlbedoFit(form, roughness, {kEta});
       ForEachTarget([&](Target) {
         const std::vector<AlbedoOutput> outputs = EvaluateAlbedos(fit, cosines);
         // The polynomials' coefficients sum to less than 50, so the error is at most 50 roundings
@@ -165,7 +165,7 @@ TEST_CASE("white furnace: dielectrics over a white diffuse base") {
   const float f0 = 0.04f;
   for (const Shadowing form : kForms) {
     for (const double roughness : FurnaceRoughnesses()) {
-      const FresnelAlbedoFit fit = MakeDielectricAlbedoFit(form, roughness, kEta);
+      const FresnelAlbedoFit fit = MakeDielectricAlbedoFit(form, roughness, {kEta});
       for (const float mu : FurnaceCosines()) {
         CAPTURE(static_cast<int>(form), roughness, mu);
         const float e = AlbedoOne(fit.lobe, mu);
@@ -192,9 +192,9 @@ TEST_CASE("curves of an index blended by roughness are near those of the roughne
   for (const Shadowing form :
        {Shadowing::kHeightCorrelated, Shadowing::kSeparable, Shadowing::kSchlickDirect}) {
     for (const double eta : {1.1, 1.5, 2.4}) {
-      const DielectricCurves curves = MakeDielectricCurves(form, eta);
+      const DielectricCurves curves = MakeDielectricCurves(form, {eta});
       for (const double roughness : {0.004, 0.02, 0.09, 0.3, 0.47, 0.81, 1.0}) {
-        const FresnelAlbedoFit fit = MakeDielectricAlbedoFit(form, roughness, eta);
+        const FresnelAlbedoFit fit = MakeDielectricAlbedoFit(form, roughness, {eta});
         FresnelAlbedoFit blend = fit;
         const AlbedoWeights at = FindAlbedoWeights(roughness);
         blend.fresnel = {};

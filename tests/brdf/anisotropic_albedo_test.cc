@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/brdf/anisotropic_albedo_test.cc: the anisotropic albedos against the quadrature that they
-// were fitted to, the quadrature against the isotropic one, white furnaces, and the SIMD twins.
+// were fitted to, with exact Fresnel curves, too, the quadrature against the isotropic one, white
+// furnaces, and the SIMD twins.
 #include "brdf/anisotropic_albedo.h"
 
 #include <cmath>
 #include <random>
+#include <vector>
 
+#include "brdf/albedo.h"
 #include "brdf/albedo_integral.h"
 #include "brdf/anisotropic_albedo_integral.h"
 #include "brdf/anisotropic_kernel.h"
@@ -190,6 +193,152 @@ TEST_CASE("fits between the table's entries, and averages, are near the truth") 
   }
 }
 
+// Bare and coated dielectrics. Below its coat the second but one has a relative index below 1.
+const CoatedDielectric<double> kDielectrics[] = {{1.01},
+                                                 {1.1},
+                                                 {1.33},
+                                                 {1.5},
+                                                 {2},
+                                                 {3},
+                                                 {1.5, 0.5, 1.5 / 1.3, 1 / 1.3},
+                                                 {1.5, 0.7, 1.5 / 1.6, 1 / 1.6},
+                                                 {2.5, 1, 2.5 / 1.3, 1 / 1.3}};
+
+double FresnelAlbedoAt(const AnisotropicAlbedoFit& lobe, const AnisotropicFresnelCurve& curve,
+                       const CoatedDielectric<double>& dielectric, const Vec3d& v) {
+  const auto x = VariablesAt(lobe, v);
+  const double mirror = FresnelCoatedDielectric(x.n_dot_x, 1 - x.n_dot_x, dielectric);
+  return AlbedoFresnel(curve, AlbedoOne(lobe, x), mirror, x);
+}
+double FresnelAlbedoAt(const AnisotropicFresnelFit& fit, const Vec3d& v) {
+  return FresnelAlbedoAt(fit.lobe, fit.fresnel, fit.dielectric, v);
+}
+
+FresnelFunction CurveOf(const CoatedDielectric<double>& dielectric) {
+  return [dielectric](double v_dot_h, double one_minus_vh) {
+    return FresnelCoatedDielectric(v_dot_h, one_minus_vh, dielectric);
+  };
+}
+
+TEST_CASE("the anisotropic quadrature of a Fresnel curve is that of Schlick's weight for it") {
+  const FresnelFunction schlick = [](double, double one_minus_vh) { return Power5(one_minus_vh); };
+  for (const GgxAlphas<double>& alpha : {GgxAlphas<double>{0.9, 0.1}, {0.3, 0.2}, {0.05, 1e-4}}) {
+    for (const double n_dot_v : {1e-4, 0.2, 0.7, 1.0}) {
+      const auto albedos = IntegrateAlbedos(alpha, ViewAt(n_dot_v, 50), {}, schlick);
+      for (const AnisotropicAlbedo& albedo : albedos) {
+        CHECK(std::abs(albedo.fresnel - albedo.powers[4]) < 1e-14);
+      }
+    }
+  }
+}
+
+TEST_CASE("anisotropic fits of exact Fresnel curves are near the truth") {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (const CoatedDielectric<double>& dielectric : kDielectrics) {
+    const FresnelFunction curve = CurveOf(dielectric);
+    double worst = 0;
+    for (int i = 0; i < 32; ++i) {
+      const double x = kLargestAlbedoAlpha * (i % 7 == 0   ? 1
+                                              : i % 2 == 0 ? unit(random)
+                                                           : std::pow(10, -4 * unit(random)));
+      const double ratio = i % 10 == 0  ? 1
+                           : i % 3 == 0 ? unit(random)
+                                        : std::pow(10, -5 * unit(random));
+      const GgxAlphas<double> alpha{x, ratio * x};
+      const size_t form = static_cast<size_t>(i) / 2 % 2;
+      const auto fit = MakeAnisotropicFresnelFit(kSmith[form], alpha, dielectric);
+      for (int j = 0; j < 30; ++j) {
+        const Vec3d v = ViewAt(j % 2 == 0 ? unit(random) : std::pow(10, -4 * unit(random)),
+                               j % 3 == 0   ? 90
+                               : j % 3 == 1 ? 90 * unit(random)
+                                            : 90 - 90 * std::pow(10, -3 * unit(random)));
+        const double truth = IntegrateAlbedos(alpha, v, {}, curve)[form].fresnel;
+        worst = std::max(worst, std::abs(FresnelAlbedoAt(fit, v) - truth));
+      }
+    }
+    CAPTURE(dielectric.eta, dielectric.coat, worst);
+    CHECK(worst <= (dielectric.eta < 1.05 ? 1.2e-3 : 7.5e-4));
+  }
+}
+
+TEST_CASE("anisotropic fits of Fresnel curves are the isotropic ones for equal alphas") {
+  for (const Shadowing form : kSmith) {
+    for (const CoatedDielectric<double>& dielectric : kDielectrics) {
+      for (const double roughness : {0.0, 0.05, 0.3, 0.8, 1.0}) {
+        CAPTURE(dielectric.eta, dielectric.coat, roughness);
+        const double alpha = AlphaFromRoughness(roughness);
+        const auto fit = MakeAnisotropicFresnelFit(form, {alpha, alpha}, dielectric);
+        const FresnelAlbedoFit isotropic = MakeDielectricAlbedoFit(form, roughness, dielectric);
+        double worst = 0;
+        for (const double n_dot_v : kCosines) {
+          worst = std::max(worst, std::abs(FresnelAlbedoAt(fit, ViewAt(n_dot_v, 30)) -
+                                           AlbedoFresnel(isotropic, n_dot_v)));
+        }
+        CHECK(worst <= 4e-4);
+        CHECK(std::abs(fit.fresnel.average - isotropic.average) <= 1e-4);
+      }
+    }
+  }
+}
+
+// The midpoint rule in n.v^2 and the azimuth.
+TEST_CASE("the average of an anisotropic Fresnel fit is the mean of its curve") {
+  for (const GgxAlphas<double>& alpha : {GgxAlphas<double>{1.4, 1e-3}, {0.6, 0.1}, {0.02, 0.01}}) {
+    for (const double eta : {1.1, 1.5, 3.0}) {
+      const auto fit = MakeAnisotropicFresnelFit(kSmith[0], alpha, {eta});
+      constexpr int kSteps = 300;
+      double sum = 0;
+      for (int i = 0; i < kSteps * kSteps; ++i) {
+        const double n_dot_v = std::sqrt((i % kSteps + 0.5) / kSteps);
+        sum += FresnelAlbedoAt(fit, ViewAt(n_dot_v, 90 * (i / kSteps + 0.5) / kSteps));
+      }
+      CHECK(std::abs(sum / (kSteps * kSteps) - fit.fresnel.average) < 1e-4);
+    }
+  }
+}
+
+TEST_CASE("anisotropic Fresnel curves blended by roughness are near the truth") {
+  const AlphasOfRoughness mappings[] = {
+      [](double roughness) { return OpenPbrAlphas(roughness, 0.0, AlphaLimit::kNone); },
+      [](double roughness) { return OpenPbrAlphas(roughness, 0.95, AlphaLimit::kNone); },
+      // Mappings with a kink.
+      [](double roughness) { return OpenPbrAlphas(roughness, 0.7, AlphaLimit::kOne); },
+      [](double roughness) { return DisneyAlphas(roughness, 0.9); },
+      // A streak at roughness 0, and an alpha.x at its limit from there on.
+      [](double roughness) { return GltfAlphas(roughness, 0.6); },
+      [](double roughness) { return GltfAlphas(roughness, 1.0); }};
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> unit(0, 1);
+  double worst = 0, worst_average = 0;
+  for (const AlphasOfRoughness& alphas : mappings) {
+    for (const CoatedDielectric<double>& dielectric : {kDielectrics[1], kDielectrics[6]}) {
+      const auto curves = MakeAnisotropicFresnelCurves(kSmith[0], alphas, dielectric);
+      for (int i = 0; i < 40; ++i) {
+        const double roughness = i == 0       ? 1
+                                 : i % 2 == 0 ? unit(random)
+                                              : std::pow(10, -2 * unit(random));
+        GgxAlphas<double> alpha = alphas(roughness);
+        const AnisotropicAlbedoFit lobe = MakeAnisotropicAlbedoFit(kSmith[0], alpha);
+        const AnisotropicFresnelCurve blend = BlendAnisotropicFresnelCurves(curves, roughness);
+        alpha = {double{lobe.shape.alpha_x}, double{lobe.shape.alpha_y}};
+        for (int j = 0; j < 15; ++j) {
+          const Vec3d v = ViewAt(j % 2 == 0 ? unit(random) : std::pow(10, -4 * unit(random)),
+                                 j % 3 == 0 ? 90 : 90 * unit(random));
+          const double truth = IntegrateAlbedos(alpha, v, {}, CurveOf(dielectric))[0].fresnel;
+          worst = std::max(worst, std::abs(FresnelAlbedoAt(lobe, blend, dielectric, v) - truth));
+        }
+        if (i % 8 != 0) continue;
+        const auto fit = MakeAnisotropicFresnelFit(kSmith[0], alpha, dielectric);
+        worst_average = std::max(worst_average, std::abs(blend.average - fit.fresnel.average));
+      }
+    }
+  }
+  CAPTURE(worst, worst_average);
+  CHECK(worst <= 8e-4);
+  CHECK(worst_average <= 1e-4);
+}
+
 TEST_CASE("SIMD anisotropic albedos are their scalar twins on every target, in range everywhere") {
   std::vector<Vec3f> directions = {Vec3f(0, 0, 1),  Vec3f(1, 0, 0),         Vec3f(0, 1, 0),
                                    Vec3f(0, 0, 0),  Vec3f(1, 0, -1e-6f),    Vec3f(0, 1, 1e-30f),
@@ -197,31 +346,33 @@ TEST_CASE("SIMD anisotropic albedos are their scalar twins on every target, in r
   for (int i = 0; i <= 300; ++i) {
     directions.emplace_back(ViewAt(std::pow(10, -i / 50.0), i % 90 + (i % 7 == 0 ? 0.5 : 0)));
   }
-  std::vector<AnisotropicAlbedoFit> fits;
+  const CoatedDielectric<double> dielectric = kDielectrics[6];
+  std::vector<AnisotropicFresnelFit> fits;
   for (const Shadowing form : kSmith) {
     for (const double roughness : {0.0, 1e-6, 1e-3, 0.1, 0.37, 1.0}) {
       for (const double anisotropy : {0.0, 0.4, 0.95, 1.0}) {
-        fits.push_back(MakeAnisotropicAlbedoFit(
-            form, OpenPbrAlphas(roughness, anisotropy, AlphaLimit::kNone)));
+        fits.push_back(MakeAnisotropicFresnelFit(
+            form, OpenPbrAlphas(roughness, anisotropy, AlphaLimit::kNone), dielectric));
       }
     }
   }
-  std::vector<AnisotropicAlbedoFit> mixed;  // one for each direction
+  std::vector<AnisotropicFresnelFit> mixed;  // one for each direction
   for (size_t i = 0; i < directions.size(); ++i) mixed.push_back(fits[i % fits.size()]);
   ForEachTarget([&](Target) {
     double worst = 0, lanes = 0;
     bool in_range = true;
-    const auto check = [&](const AnisotropicAlbedoFit& fit, const Vec3f& v,
+    const auto check = [&](const AnisotropicFresnelFit& fit, const Vec3f& v,
                            const AnisotropicAlbedoOutput& out, double* error) {
-      const auto x = VariablesAt(fit, Vec3d(v));
-      const double loss = AlbedoLoss(fit, x);
+      const auto x = VariablesAt(fit.lobe, Vec3d(v));
+      const double loss = AlbedoLoss(fit.lobe, x);
       *error = std::max({*error, std::abs(out.loss - loss),
-                         std::abs(out.schlick - AlbedoSchlick(fit, 1 - loss, x))});
-      for (const float value : {out.loss, out.schlick}) {
+                         std::abs(out.schlick - AlbedoSchlick(fit.lobe, 1 - loss, x)),
+                         std::abs(out.fresnel - FresnelAlbedoAt(fit, Vec3d(v)))});
+      for (const float value : {out.loss, out.schlick, out.fresnel}) {
         in_range = in_range && value >= 0 && value <= 1;
       }
     };
-    for (const AnisotropicAlbedoFit& fit : fits) {
+    for (const AnisotropicFresnelFit& fit : fits) {
       const auto outputs = EvaluateAnisotropicAlbedos(fit, directions);
       for (size_t i = 0; i < directions.size(); ++i) check(fit, directions[i], outputs[i], &worst);
     }

@@ -52,31 +52,38 @@ std::vector<FrameAnswer> AskFramesT(const std::vector<FrameQuery>& queries) {
   });
 }
 
-template <class Fit, class Packet>
-void StoreAlbedos(const Fit& fit, const Packet& packet) {
+template <class Fit, class Curve, class Packet>
+void StoreAlbedos(const Fit& fit, const Curve& curve, const CoatedDielectric<double>& dielectric,
+                  const Packet& packet) {
   const hn::ScalableTag<float> d;
   const auto x = packet.Vector([](const Vec3f& direction) { return direction; });
   const auto variables = ComputeAlbedoVariables(d, fit.shape, x.z, x.x, x.y);
   const auto loss = AlbedoLoss(d, fit, variables);
   packet.Store(loss, &AnisotropicAlbedoOutput::loss);
-  packet.Store(AlbedoSchlick(d, fit, hn::Sub(hn::Set(d, 1.0f), loss), variables),
-               &AnisotropicAlbedoOutput::schlick);
+  const auto one = hn::Set(d, 1.0f), e = hn::Sub(one, loss);
+  packet.Store(AlbedoSchlick(d, fit, e, variables), &AnisotropicAlbedoOutput::schlick);
+  const auto mirror =
+      FresnelCoatedDielectric(d, variables.n_dot_x, hn::Sub(one, variables.n_dot_x), dielectric);
+  packet.Store(AlbedoFresnel(d, curve, e, mirror, variables), &AnisotropicAlbedoOutput::fresnel);
 }
 
 std::vector<AnisotropicAlbedoOutput> EvaluateAnisotropicAlbedosT(
-    const AnisotropicAlbedoFit& fit, const std::vector<Vec3f>& directions) {
-  return AskInPackets<float, AnisotropicAlbedoOutput>(
-      directions, [&](const auto& packet) { StoreAlbedos(fit, packet); });
+    const AnisotropicFresnelFit& fit, const std::vector<Vec3f>& directions) {
+  return AskInPackets<float, AnisotropicAlbedoOutput>(directions, [&](const auto& packet) {
+    StoreAlbedos(fit.lobe, fit.fresnel, fit.dielectric, packet);
+  });
 }
 
 std::vector<AnisotropicAlbedoOutput> EvaluateEachAnisotropicAlbedosT(
-    const std::vector<AnisotropicAlbedoFit>& fits, const std::vector<Vec3f>& directions) {
+    const std::vector<AnisotropicFresnelFit>& fits, const std::vector<Vec3f>& directions) {
   return AskInPackets<float, AnisotropicAlbedoOutput>(directions, [&](const auto& packet) {
     constexpr size_t kLanes = 32;
     constexpr size_t kShare = kShareTerms * kKappaTerms, kWidth = kWidthTerms * kKappaTerms;
-    std::vector<float> numbers((6 + 2 * kShare + kWidth) * kLanes);
+    constexpr size_t kLobe = 6 + 2 * kShare + kWidth;
+    std::vector<float> numbers((kLobe + kShare + kStreakTerms * kKappaTerms) * kLanes);
     for (size_t lane = 0; lane < kLanes; ++lane) {
-      const AnisotropicAlbedoFit& fit = fits[std::min(packet.first + lane, fits.size() - 1)];
+      const AnisotropicFresnelFit& both = fits[std::min(packet.first + lane, fits.size() - 1)];
+      const AnisotropicAlbedoFit& fit = both.lobe;
       float* to = numbers.data() + lane;
       const auto put = [&](float number) {
         *to = number;
@@ -96,13 +103,17 @@ std::vector<AnisotropicAlbedoOutput> EvaluateEachAnisotropicAlbedosT(
       put_all(fit.loss);
       put_all(fit.schlick);
       put_all(fit.streak);
+      put_all(both.fresnel.wider);
+      put_all(both.fresnel.streak);
     }
     const auto at = [&](size_t i) { return numbers.data() + i * kLanes; };
     StoreAlbedos(AnisotropicAlbedoFitLanes{{at(0), at(1), at(2), at(3), at(4), at(5)},
                                            {at(6), kLanes},
                                            {at(6 + kShare), kLanes},
                                            {at(6 + 2 * kShare), kLanes}},
-                 packet);
+                 AnisotropicFresnelCurveLanes{
+                     {at(kLobe), kLanes}, {at(kLobe + kShare), kLanes}, fits.front().fresnel.bend},
+                 fits.front().dielectric, packet);
   });
 }
 
@@ -123,11 +134,11 @@ std::vector<FrameAnswer> AskFrames(const std::vector<FrameQuery>& queries) {
   return HWY_DYNAMIC_DISPATCH(AskFramesT)(queries);
 }
 std::vector<AnisotropicAlbedoOutput> EvaluateAnisotropicAlbedos(
-    const AnisotropicAlbedoFit& fit, const std::vector<Vec3f>& directions) {
+    const AnisotropicFresnelFit& fit, const std::vector<Vec3f>& directions) {
   return HWY_DYNAMIC_DISPATCH(EvaluateAnisotropicAlbedosT)(fit, directions);
 }
 std::vector<AnisotropicAlbedoOutput> EvaluateAnisotropicAlbedos(
-    const std::vector<AnisotropicAlbedoFit>& fits, const std::vector<Vec3f>& directions) {
+    const std::vector<AnisotropicFresnelFit>& fits, const std::vector<Vec3f>& directions) {
   return HWY_DYNAMIC_DISPATCH(EvaluateEachAnisotropicAlbedosT)(fits, directions);
 }
 }  // namespace nacre

@@ -35,12 +35,13 @@ struct FrameAnswer {
 std::vector<FrameAnswer> AskFrames(const std::vector<FrameQuery>& queries);
 
 struct AnisotropicAlbedoOutput {
-  float loss, schlick;
+  float loss, schlick, fresnel;
 };
-// One fit for all directions, which are in the lobe's frame; or a fit for each.
+// One fit for all directions, which are in the lobe's frame; or a fit for each, all of the
+// dielectric of the first.
 std::vector<AnisotropicAlbedoOutput> EvaluateAnisotropicAlbedos(
-    const AnisotropicAlbedoFit& fit, const std::vector<Vec3f>& directions);
+    const AnisotropicFresnelFit& fit, const std::vector<Vec3f>& directions);
 std::vector<AnisotropicAlbedoOutput> EvaluateAnisotropicAlbedos(
-    const std::vector<AnisotropicAlbedoFit>& fits, const std::vector<Vec3f>& directions);
+    const std::vector<AnisotropicFresnelFit>& fits, const std::vector<Vec3f>& directions);
 
 }  // namespace nacre

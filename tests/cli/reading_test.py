@@ -60,7 +60,10 @@ class ReadingTest(unittest.TestCase):
         commands += [(['info', name], 65) for name in ('pipe.json', 'pipe.png', 'pipe.gltf')]
         commands += [(['grid', '--lights', name, *small], 65) for name in ('pipe.json', '/dev/zero')]
         commands += [(['plot', 'brdf', '--scene', 'pipe.json', '-o', 'x.csv'], 65), (['tonemap', 'pipe.png', '-o', 'x.png'], 65),
-                     (['report', 'x.html', 'pipe.json'], 65), (['compare', 'pipe.png', 'pipe.png'], 2)]
+                     (['report', 'x.html', 'pipe.json'], 65), (['compare', 'pipe.png', 'pipe.png'], 2),
+                     (['table', 'lambert', '--check', 'pipe.json'], 2), (['table', 'lambert', '--check', '/dev/zero'], 2),
+                     (['table', 'lambert', '--directions', 'pipe.json', '-o', 'x.csv'], 65),
+                     (['table', 'a', '--scene', 'pipe.json', '-o', 'x.csv'], 65)]
         for command, code in commands:
             with self.subTest(command=command):
                 self.check_refused(self.run_nacre(*command), code, 'is not a regular file')
@@ -114,6 +117,8 @@ class ReadingTest(unittest.TestCase):
             (self.out / 't.json').write_text(json.dumps(scene))
             self.check_refused(self.run_nacre('render', 't.json', *small), 65, said)
         self.check_refused(self.run_nacre('merge', 'i.exr', '-o', 'x.exr'), 65, said)
+        for name in 's.npy', 's.csv', 's.json':
+            self.check_refused(self.run_nacre('table', 'lambert', '--check', name), 2, said)
         for name in 's.npy', 's.csv', 'm.ply':
             scene = dict(json.loads(SCENE), shapes=[{'type': 'spheres', 'file': name, 'material': {'model': 'lambert', 'albedo': 1}}])
             (self.out / 't.json').write_text(json.dumps(scene))

@@ -371,6 +371,8 @@ class TerminalTest(SecurityTest):
                      ['grid', '-o', self.out / 'a.png', '--rows', name], ['explain', name], ['study', name],
                      ['grid', '-o', self.out / 'a.png', '--title', name, '--spp', '1'],
                      ['plot', name, '-o', self.out / 'a.svg'], ['convert', name], ['pair', '--a', name],
+                     ['table', name], ['table', 'lambert', '--check', name], ['table', 'lambert', '-o', name],
+                     ['table', name, '--scene', FIRST],
                      ['pair', '-o', self.out / 'a.png', '--a', '{"model": "phong", "name": "%s"}' % 'a\\u001b[m']):
             with self.subTest(verb=verb[0]):
                 self.check_harmless(run(*verb))
@@ -522,6 +524,7 @@ class MessagesTest(SecurityTest):
         verbs = (['schema'], ['info'], ['info', a], ['info', self.out / 's.json'], ['--help'], ['--version'],
                  ['render', '--help'], ['compare', a, a], ['compare', a, a, '--json'], ['convert', 'phong'],
                  ['convert', 'phong', '--json'], ['pair', '-o', self.out / 'p.png', '--spp', '1'],
+                 ['table', 'lambert', '--no-albedo'], ['table', 'lambert', '--json'],
                  ['study', 'list'], ['docs', 'man'], ['docs', 'bash'], ['validate', self.out / 'refs'],
                  ['render', FIRST, '-o', self.out / 'b.exr', '--dry-run', *SMALL],
                  ['render', FIRST, '-o', self.out / 'b.exr', '--explain', *SMALL],
@@ -637,6 +640,7 @@ class MessagesTest(SecurityTest):
             for verb in (['plot', 'brdf', '--material', text, '-o', self.out / 'a.csv'],
                          ['plot', 'falloff', '--light', text, '-o', self.out / 'a.csv'],
                          ['grid', '--lights', text, '-o', self.out / 'a.png'], ['convert', text], ['pair', '--a', text, '-o', self.out / 'a.png'],
+                         ['table', text, '--no-albedo'],
                          ['grid', '--material', text, '-o', self.out / 'a.png'], ['grid', '--rows', 'material=' + text, '-o', self.out / 'a.png'],
                          ['grid', '--rows', 'roughness=' + text, '-o', self.out / 'a.png'],
                          ['render', FIRST, '--set', '/materials/red=' + text, '-o', self.out / 'a.exr', *SMALL]):
@@ -647,6 +651,7 @@ class MessagesTest(SecurityTest):
             for name in 'f.json', 'f.gltf', 'f.reference.json':
                 (self.out / name).write_bytes(os.fsencode(text))
             for verb in (['info', self.out / 'f.json'], ['info', self.out / 'f.gltf'], ['validate', self.out],
+                         ['table', 'lambert', '--check', self.out / 'f.json'], ['table', 'lambert', '--directions', self.out / 'f.json'],
                          ['grid', '--lights', self.out / 'f.json', '-o', self.out / 'a.png'],
                          ['report', self.out / 'r.html', self.out / 'f.json'], ['report', self.out / 'r.html', self.out]):
                 with self.subTest(text=text[:40], verb=verb[:2]):

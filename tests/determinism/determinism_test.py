@@ -25,7 +25,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / 'report'))
 import pictures  # noqa: E402
 import random_scene  # noqa: E402
 
-LAYERS = ('diffuse', 'specular', 'ambient', 'emission', 'albedo', 'N', 'P', 'Z', 'id.object',
+LAYERS = ('diffuse', 'specular', 'ambient', 'emission', 'albedo', 'N', 'T', 'P', 'Z', 'id.object',
           'id.material')
 # More spheres than are needed here.
 SMALLER = {'million_spheres.json': ['--set', '/shapes/1/count=3000']}

@@ -212,7 +212,7 @@ class SceneMaker:
         r = self.random
         model = r.choice(('lambert', 'oren_nayar', 'burley', 'phong', 'modified_phong',
                           'blinn_phong', 'metallic_roughness', 'metallic_roughness', 'conductor',
-                          'dielectric'))
+                          'dielectric', 'open_pbr'))
         material = {'model': model}
         if model in ('lambert', 'oren_nayar', 'burley'):
             material['albedo'] = self.color()
@@ -225,6 +225,8 @@ class SceneMaker:
                             convention=r.choice(('classic', 'radiometric')))
             self.maybe_map(material, diffuse_map='colors', specular_map='colors',
                            shininess_map='grey')
+        elif model == 'open_pbr':
+            self.open_pbr(material)
         else:
             self.microfacet(material)
         if r.random() < 0.15:
@@ -271,6 +273,10 @@ class SceneMaker:
             self.maybe_map(material, roughness_map='grey')
             return
         material['metallic'] = r.choice((0, 0, 0.5, 1))
+        if r.random() < 0.3 and not material['shadowing'].startswith('schlick'):
+            material.update(anisotropy=r.choice((0.3, 0.9, 1)),
+                            anisotropy_rotation_deg=r.uniform(-180, 180))
+            self.maybe_map(material, anisotropy_map='colors')
         material['dielectric_f0'] = r.choice((0.04, 0, 0.01, 0.1))
         if r.random() < 0.3:
             material['specular'] = r.random()
@@ -286,6 +292,28 @@ class SceneMaker:
         if r.random() < 0.3:
             material.update(sheen_color=self.color(), sheen_roughness=r.choice((0, 0.1, 0.4, 1)))
             self.maybe_map(material, sheen_color_map='colors', sheen_roughness_map='grey')
+
+    def open_pbr(self, material):
+        r = self.random
+        roughness = (0, 0.01, 0.1, 0.3, 1)
+        material.update(rules=r.choice(('spec_1_1', 'spec_1_2', 'materialx', 'adobe')),
+                        base_color=self.color(), base_metalness=r.choice((0, 0, 0.5, 1)),
+                        base_diffuse_roughness=r.choice((0, 0, 1)),
+                        specular_color=self.color(), specular_roughness=r.choice(roughness),
+                        specular_ior=r.choice((1, 1.1, 1.5, 2.4)))
+        self.maybe_map(material, base_color_map='colors', base_metalness_map='grey',
+                       specular_color_map='colors', specular_roughness_map='grey')
+        if r.random() < 0.3:
+            material.update(specular_roughness_anisotropy=r.choice((0.3, 0.9, 1)),
+                            geometry_tangent_deg=r.uniform(-180, 180))
+        if r.random() < 0.4:
+            material.update(coat_roughness_anisotropy=r.choice((0, 0, 0.9)), coat_weight=r.choice((1, 1, 0.5)), coat_color=self.color(),
+                            coat_ior=r.choice((1, 1.3, 1.6, 2)),
+                            coat_roughness=r.choice(roughness))
+        if r.random() < 0.3:
+            material.update(fuzz_weight=r.random(), fuzz_color=self.color(),
+                            fuzz_roughness=r.choice((0, 0.1, 0.4, 1)))
+            self.maybe_map(material, fuzz_color_map='colors', fuzz_roughness_map='grey')
 
     # Punctual lights are the most frequent: of theirs there are the most forms of kernels.
     def lights(self):

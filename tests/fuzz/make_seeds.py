@@ -127,6 +127,25 @@ def meshes():
               struct.pack(kind[0] + '10' + {'4': 'f', '8': 'd'}[kind[2]], *[1] * 10))
 
 
+# ---- Tables of BRDFs ----
+
+def tables():
+    names = [f'{what}_{axis}' for what in ('light', 'view') for axis in 'xyz'] + ['f_r', 'f_g', 'f_b']
+    row = [0, 0, 1, 0.6, 0, 0.8, 0.1, 0.2, 0.3]
+    write('table', 'csv', '# material: {"model": "lambert"}\n' + ','.join(names) + ',pdf,diffuse\n' +
+          ','.join(map(str, row)) + ',1,nan\n0,0,1,0.70711,0,0.70711,1e300,-inf,0,1,1\n')
+    write('table', 'nameless', ' '.join(map(str, row)) + '\n')
+    write('table', 'rows_json', json.dumps({'header': {'material': {}}, 'columns': names, 'rows': [row, row]}))
+    write('table', 'arrays_json', '{"light": [[0,0,1]], "view": [[0,0,1]], "f": [NaN], "albedo": [[1,-Infinity,0]]}')
+    write('table', 'records_json', '[{"light": [0,0,1], "view": [0,0,1], "f": 1}]')
+    records = [('light', '<f4', (3,)), ('view', '<f4', (3,)), ('f', '<f4')]
+    for name, kind, shape, letter, numbers in (('npy', '>f8', (1, 9), '>9d', row),
+                                               ('records', records, (1,), '<7f', row[:7])):
+        header = str({'descr': kind, 'fortran_order': True, 'shape': shape}).ljust(181) + '\n'
+        write('table', name, b'\x93NUMPY\1\0' + struct.pack('<H', len(header)) + header.encode() +
+              struct.pack(letter, *numbers))
+
+
 # ---- glTF ----
 
 def png(width=2, height=2, kind=2, filter_type=0, bits=8, extra=b''):
@@ -256,6 +275,7 @@ def images():
 if __name__ == '__main__':
     scenes()
     meshes()
+    tables()
     gltf_files()
     images()
     print(sum(1 for path in CORPUS.rglob('*') if path.is_file()), 'seeds')

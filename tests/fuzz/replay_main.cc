@@ -31,7 +31,8 @@ constexpr std::array kTargets = {Target{"scene_json", FuzzSceneJson},
                                  Target{"glb", FuzzGlb},
                                  Target{"texture_image", FuzzTextureImage},
                                  Target{"environment_image", FuzzEnvironmentImage},
-                                 Target{"compare_image", FuzzCompareImage}};
+                                 Target{"compare_image", FuzzCompareImage},
+                                 Target{"table", FuzzBrdfTable}};
 
 void Replay(const Target& target, const fs::path& file) {
   // The last line before a crash names the culprit.

@@ -20,5 +20,6 @@ void FuzzGlb(std::string_view bytes);
 void FuzzTextureImage(std::string_view bytes);
 void FuzzEnvironmentImage(std::string_view bytes);
 void FuzzCompareImage(std::string_view bytes);
+void FuzzBrdfTable(std::string_view bytes);  // a .csv, .json or .npy of another program
 
 }  // namespace nacre

@@ -38,8 +38,10 @@ BRANCHES = {
     "output": TRUNK_FOLDERS | {"image_io"},
     # What the lesson's exercises ask: the renderer's terms and pictures as curves and numbers.
     "study": TRUNK_FOLDERS | {"image_io", "report"},
+    # Tables of BRDFs, and what is wrong with those of other programs: for the program and the API.
+    "table": TRUNK_FOLDERS | {"image_io", "scene_io"},
     # The public API, nacre.h.
-    "api": TRUNK_FOLDERS | {"image_io", "scene_io", "compare", "output"},
+    "api": TRUNK_FOLDERS | {"image_io", "scene_io", "compare", "output", "table"},
     # The live view: its scene and render thread, its page and the server of it.
     "view": TRUNK_FOLDERS | {"image_io", "scene_io", "compare", "report", "study", "output"},
     "python": set(),  # the Python package, on nacre.h alone

@@ -285,27 +285,60 @@ const std::vector<MappedParameter> kMappedParameters = {
     {"shininess_map", {"shininess"}},
     {"base_color_map", {"base_color"}},
     {"metallic_roughness_map", {"roughness", "metallic"}},
-    {"specular_color_map", {"dielectric_f0"}},
+    {"specular_color_map", {"dielectric_f0", "specular_color"}},
     {"roughness_map", {"roughness"}},
     {"emission_map", {"emission"}},
     {"coat_map", {"coat"}},
     {"coat_roughness_map", {"coat_roughness"}},
     {"sheen_color_map", {"sheen_color"}},
     {"sheen_roughness_map", {"sheen_roughness"}},
+    {"base_metalness_map", {"base_metalness"}},
+    {"specular_roughness_map", {"specular_roughness"}},
+    {"fuzz_color_map", {"fuzz_color"}},
+    {"fuzz_roughness_map", {"fuzz_roughness"}},
 };
 
 // What a layer of a map needs beside its parameter to be there.
 constexpr std::pair<std::string_view, std::string_view> kOthers[] = {
     {"coat_roughness_map", "coat"},
     {"sheen_color_map", "sheen_roughness"},
-    {"sheen_roughness_map", "sheen_color"}};
+    {"sheen_roughness_map", "sheen_color"},
+    {"fuzz_color_map", "fuzz_weight"},
+    {"fuzz_roughness_map", "fuzz_weight"}};
+
+// Whether a choice is one of a base or a lobe beside the mapped ones, of which each is walked. What
+// the base is does not ask for the lobe; presets set parameters.
+bool IsWalked(const MaterialChoice& choice) {
+  return choice.get != nullptr && choice.name != "diffuse";
+}
+
+// OpenPBR with everything on, and each option by itself: all of them together are 4 million.
+std::vector<Material> WithEachOption(const MaterialModel& model) {
+  const Material plain = model.make();
+  std::vector<Material> made = {plain};
+  auto& whole = std::get<OpenPbrMaterial>(made.emplace_back(plain).model);
+  whole.base_metalness = 0.4;
+  whole.base_diffuse_roughness = 0.6;
+  whole.specular_color = Rgb(0.9, 0.7, 0.5);
+  whole.coat_weight = 0.7;
+  whole.coat_color = Rgb(0.4, 0.6, 0.9);
+  whole.coat_roughness = 0.2;
+  whole.fuzz_weight = 0.5;
+  for (const MaterialChoice& choice : model.choices) {
+    if (!IsWalked(choice)) continue;
+    for (size_t option = 0; option < choice.options.size(); ++option) {
+      choice.set(made.emplace_back(made[1]), option);
+    }
+  }
+  return made;
+}
 
 // Every other choice of the model beside those that each map is walked with.
 std::vector<Material> WithEveryChoice(const MaterialModel& model) {
   std::vector<Material> made = {model.make()};
+  if (std::holds_alternative<OpenPbrMaterial>(made[0].model)) return WithEachOption(model);
   for (const MaterialChoice& choice : model.choices) {
-    // What the base is does not ask for the lobe; presets set parameters.
-    if (choice.get == nullptr || choice.name == "diffuse") continue;
+    if (!IsWalked(choice)) continue;
     std::vector<Material> more;
     for (const Material& one : made) {
       for (size_t option = 0; option < choice.options.size(); ++option) {
@@ -321,14 +354,20 @@ std::vector<Material> WithEveryChoice(const MaterialModel& model) {
 TEST_CASE("every map of every model is the constant, from code 0 to 255, under every light") {
   size_t walked = 0;
   for (const MaterialModel& model : MaterialModels()) {
-    for (const Material& factors : WithEveryChoice(model)) {
+    const std::vector<Material> all = WithEveryChoice(model);
+    for (const Material& factors : all) {
+      // Of OpenPBR's options one code each will do: they are no functions of a map's number.
+      const bool option =
+          std::holds_alternative<OpenPbrMaterial>(factors.model) && &factors - all.data() > 1;
+      const std::vector<int> codes = option ? std::vector{128} : std::vector{0, 1, 128, 255};
       for (const MaterialMap& map : model.maps) {
-        if (map.name == "opacity_map") continue;  // cuts holes: tests/render/cut_outs_test.cc
+        if (map.name == "opacity_map") continue;     // cuts holes: tests/render/cut_outs_test.cc
+        if (map.name == "anisotropy_map") continue;  // has a direction, too: below
         const auto entry =
             std::find_if(kMappedParameters.begin(), kMappedParameters.end(),
                          [&](const MappedParameter& known) { return known.map == map.name; });
         REQUIRE(entry != kMappedParameters.end());
-        for (const int code : {0, 1, 128, 255}) {
+        for (const int code : codes) {
           const double value = Held(code / 255.0);
           Material constant = factors, mapped = factors;
           // Layers whose other parameter is 0 are none.
@@ -347,8 +386,9 @@ TEST_CASE("every map of every model is the constant, from code 0 to 255, under e
           }
           // The exact dielectric's albedo is a blend of those at some roughnesses.
           const bool blended =
-              model.name == "dielectric" && map.name == "roughness_map" &&
-              std::get<DielectricMaterial>(factors.model).fresnel == DielectricFresnel::kExact;
+              map.name == "specular_roughness_map" ||
+              (model.name == "dielectric" && map.name == "roughness_map" &&
+               std::get<DielectricMaterial>(factors.model).fresnel == DielectricFresnel::kExact);
           if (blended) continue;
           Scene scene = UnderEveryLight(mapped);
           map.set(scene.materials[0], AddConstant(&scene, Rgb(value)));
@@ -362,15 +402,19 @@ TEST_CASE("every map of every model is the constant, from code 0 to 255, under e
   CHECK(walked > 400);
 }
 
-TEST_CASE("an exact dielectric's roughness map is the constant mirror and the constant's lobe") {
+// Holds a roughness map to the constant, for a model whose albedo of a map's roughness is a blend.
+template <class Model>
+void CheckRoughnessMap(const Model& model, double Model::*roughness, TextureId Model::*map) {
   for (const int code : {0, 1, 128, 255}) {
     const double value = Held(code / 255.0);
     Material constant, mapped;
-    constant.model = DielectricMaterial{.base_color = Rgb(0.5), .roughness = value};
-    mapped.model = DielectricMaterial{.base_color = Rgb(0.5), .roughness = 1};
+    Model of_value = model, of_one = model;
+    of_value.*roughness = value;
+    of_one.*roughness = 1;
+    constant.model = of_value;
+    mapped.model = of_one;
     Scene scene = UnderEveryLight(mapped);
-    std::get<DielectricMaterial>(scene.materials[0].model).roughness_map =
-        AddConstant(&scene, Rgb(value));
+    std::get<Model>(scene.materials[0].model).*map = AddConstant(&scene, Rgb(value));
     const Image got = AllLayers(scene), expected = AllLayers(UnderEveryLight(constant));
     for (size_t c = 0; c < got.channels.size(); ++c) {
       CAPTURE(code, got.channels[c].name);
@@ -384,6 +428,54 @@ TEST_CASE("an exact dielectric's roughness map is the constant mirror and the co
         }
       }
     }
+  }
+}
+
+TEST_CASE("an anisotropy map is the constant of its strength, along its direction") {
+  for (const Compensation compensation :
+       {Compensation::kTurquin, Compensation::kKullaConty, Compensation::kNone}) {
+    for (const double strength : {Held(1.0 / 255), Held(0.3), 1.0}) {
+      Material constant, mapped;
+      MetallicRoughnessMaterial brushed{.metallic = 0.5,
+                                        .roughness = 0.4,
+                                        .anisotropy = strength,
+                                        .anisotropy_rotation_deg = 30,
+                                        .compensation = compensation};
+      constant.model = brushed;
+      brushed.anisotropy = 1;
+      brushed.anisotropy_rotation_deg = 120;  // a quarter more than the map takes back
+      mapped.model = brushed;
+      Scene scene = TexturedSpheres(mapped);
+      std::get<MetallicRoughnessMaterial>(scene.materials[0].model).anisotropy_map =
+          AddConstant(&scene, Rgb(0.5, 0, strength));
+      const Image got = AllLayers(scene), expected = AllLayers(TexturedSpheres(constant));
+      for (size_t c = 0; c < got.channels.size(); ++c) {
+        CAPTURE(static_cast<int>(compensation), strength, got.channels[c].name);
+        const auto& a = got.channels[c].samples;
+        const auto& b = expected.channels[c].samples;
+        // Both albedos are polynomials of one table, in float and in double.
+        for (size_t i = 0; i < a.size(); ++i) {
+          if (std::abs(a[i] - b[i]) > 1e-4f * std::max(b[i], 1.0f)) {
+            CAPTURE(i, a[i], b[i]);
+            FAIL("differs");
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("an exact dielectric's roughness map is the constant mirror and the constant's lobe") {
+  CheckRoughnessMap(DielectricMaterial{.base_color = Rgb(0.5)}, &DielectricMaterial::roughness,
+                    &DielectricMaterial::roughness_map);
+  for (const double coat_weight : {0.0, 0.6}) {
+    CAPTURE(coat_weight);
+    CheckRoughnessMap(OpenPbrMaterial{.base_color = Rgb(0.5),
+                                      .coat_weight = coat_weight,
+                                      .coat_color = Rgb(0.3, 0.6, 0.9),
+                                      .coat_roughness = 0.3},
+                      &OpenPbrMaterial::specular_roughness,
+                      &OpenPbrMaterial::specular_roughness_map);
   }
 }
 

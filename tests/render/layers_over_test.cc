@@ -208,7 +208,7 @@ TEST_CASE("a coat dims what a material emits, by what it reflects") {
   const ShadingMaterial twin = PrepareMaterial(scene.materials[0]);
   const Image image = RenderImage(scene, {});
   const size_t middle = static_cast<size_t>(32 * 64 + 32);
-  const double left = TransmittedByCoat(*twin.coats[0], 1)[0];
+  const double left = TransmittedByCoat(*twin.coats[0], 1, 1)[0];
   CHECK(left < 0.97);
   // The pixel's centre is half a pixel from the middle: n.v is 1 - 3e-4 there.
   CHECK(std::abs(image.Find("R")->samples[middle] / (3 * left) - 1) < 1e-4);

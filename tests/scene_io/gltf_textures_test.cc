@@ -418,6 +418,42 @@ TEST_CASE("clear coats and sheen, with their images") {
   CHECK(bare.sheen_color == Rgb(0));
 }
 
+TEST_CASE("anisotropy, with its image") {
+  GltfFile file = MakeTexturedSquare();
+  Json& extension = file.json["materials"][0]["extensions"]["KHR_materials_anisotropy"];
+  extension = {{"anisotropyStrength", 0.6},
+               {"anisotropyRotation", M_PI / 6},
+               {"anisotropyTexture", {{"index", 0}}}};
+  std::vector<std::string> warnings;
+  const Scene scene = LoadFile(file, &warnings);
+  CHECK(warnings.empty());
+  const MetallicRoughnessMaterial& model = MaterialOf(scene);
+  CHECK(model.anisotropy == 0.6);
+  CHECK(std::abs(model.anisotropy_rotation_deg - 30) < 1e-13);
+  REQUIRE(model.anisotropy_map.valid());
+  CHECK(scene.textures.at(model.anisotropy_map.index).image !=
+        scene.textures.at(model.base_color_map.index).image);  // numbers, not sRGB
+  const auto refused = [&](const char* member, const Json& value) {
+    GltfFile bad = file;
+    bad.json["materials"][0]["extensions"]["KHR_materials_anisotropy"][member] = value;
+    try {
+      LoadFile(bad);
+    } catch (const Error& error) {
+      return error.faults().front().where.find(member) != std::string::npos;
+    }
+    return false;
+  };
+  CHECK(refused("anisotropyStrength", 1.5));
+  CHECK(refused("anisotropyStrength", "much"));
+  CHECK(refused("anisotropyRotation", 1e9));
+  CHECK(refused("anisotropyTexture", {{"index", "none"}}));
+  // Without strength nothing is turned, and no image is asked for.
+  extension["anisotropyStrength"] = 0;
+  const MetallicRoughnessMaterial isotropic = MaterialOf(LoadFile(file));
+  CHECK(isotropic.anisotropy == 0);
+  CHECK(!isotropic.anisotropy_map.valid());
+}
+
 // One row of texels as a PNG file: 8 or 16 bits a channel, of a colour type of PNG (0 grey, 2 RGB,
 // 4 grey and alpha, 6 RGB and alpha).
 std::vector<unsigned char> RowPng(uint8_t bits, uint8_t type, const std::vector<uint16_t>& values) {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <memory>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,8 @@ struct Stack {
   // Shading normals over a surface whose normal is kUp.
   Vec3d normal = kUp;
   std::vector<Vec3d> coat_normals = {};
+  // The tangents of an anisotropic model and of its coat. Without them the stack is isotropic.
+  std::vector<Vec3d> tangents = {};
   // If any, the coat of `material` lies over it as often as this, with these tints: no material has
   // more than one, or a tint, but stacks may.
   std::vector<Rgb> tints = {};
@@ -39,6 +42,10 @@ struct Stack {
   StackNormals Normals() const {
     StackNormals normals(normal, coat_normals);
     if (Mapped()) normals.unmapped = kUp;
+    if (!tangents.empty()) {
+      normals.tangent = tangents[0];
+      normals.coat_tangents = std::span(tangents).subspan(1);
+    }
     return normals;
   }
 };
@@ -49,7 +56,8 @@ ShadingMaterial Prepared(const Stack& stack) {
   ShadingMaterial coat = *material.coats.at(0);
   material.coats.clear();
   for (const Rgb& tint : stack.tints) {
-    coat.tint = tint;
+    coat.transmission.color = tint;
+    coat.transmission.weight = 1;
     material.coats.push_back(std::make_shared<const ShadingMaterial>(coat));
   }
   return material;
@@ -86,6 +94,93 @@ void AddMapped(std::vector<Stack>* stacks) {
       stack.coat_normals = {on_coat ? other : kUp};
     }
   }
+}
+
+// Anisotropic lobes of every kind, seen from no axis of theirs.
+void AddAnisotropic(std::vector<Stack>* stacks) {
+  const auto add = [&](const std::string& name, const auto& model) {
+    Add("anisotropic " + name, model, stacks);
+    stacks->back().tangents = {Vec3d(std::cos(1.9), std::sin(1.9), 0),
+                               Vec3d(std::cos(-0.3), std::sin(-0.3), 0)};
+  };
+  for (const Compensation compensation :
+       {Compensation::kNone, Compensation::kTurquin, Compensation::kKullaConty}) {
+    for (const Shadowing shadowing : {Shadowing::kHeightCorrelated, Shadowing::kSeparable}) {
+      MetallicRoughnessMaterial metal = Paint();
+      metal.metallic = 1;
+      metal.anisotropy = 0.7;
+      metal.shadowing = shadowing;
+      metal.compensation = compensation;
+      const std::string options = std::to_string(static_cast<int>(compensation)) +
+                                  std::to_string(static_cast<int>(shadowing));
+      add("metal " + options, metal);
+      stacks->back().reciprocal = compensation != Compensation::kTurquin;
+      metal.metallic = 0.2;
+      metal.coat = 0.8;
+      metal.coat_roughness = 0.5;
+      add("coated paint " + options, metal);
+    }
+  }
+  for (const OpenPbrRules rules :
+       {OpenPbrRules::kSpec11, OpenPbrRules::kMaterialX, OpenPbrRules::kAdobe}) {
+    OpenPbrMaterial model{.options = OptionsOf(rules)};
+    const std::string name = std::to_string(static_cast<int>(rules));
+    model.specular_roughness = 0.6;
+    model.specular_roughness_anisotropy = 0.6;
+    add("dielectric " + name, model);
+    stacks->back().reciprocal = model.options.layering == Layering::kReciprocal;
+    model.base_metalness = 0.4;
+    model.coat_weight = 0.8;
+    model.coat_roughness = 0.5;
+    model.coat_roughness_anisotropy = 0.7;
+    model.coat_color = Rgb(0.6, 0.4, 0.9);
+    model.fuzz_weight = 0.5;
+    add("stack " + name, model);
+  }
+}
+
+// OpenPBR by all rules, with and without coat and fuzz.
+void AddOpenPbr(std::vector<Stack>* stacks) {
+  const std::pair<std::string, OpenPbrRules> all_rules[] = {{"spec_1_1", OpenPbrRules::kSpec11},
+                                                            {"spec_1_2", OpenPbrRules::kSpec12},
+                                                            {"materialx", OpenPbrRules::kMaterialX},
+                                                            {"adobe", OpenPbrRules::kAdobe}};
+  for (const auto& [name, rules] : all_rules) {
+    OpenPbrMaterial model{.options = OptionsOf(rules)};
+    model.base_weight = 0.9;
+    model.base_color = Rgb(0.7, 0.3, 0.1);
+    model.base_diffuse_roughness = 0.4;
+    model.specular_weight = 0.8;
+    model.specular_color = Rgb(0.9, 0.95, 1);
+    model.specular_roughness = 0.5;
+    const bool reciprocal = model.options.layering == Layering::kReciprocal;
+    Add("open_pbr, dielectric, " + name, model, stacks);
+    stacks->back().reciprocal = reciprocal;
+    model.base_metalness = 0.4;
+    Add("open_pbr, mix, " + name, model, stacks);
+    stacks->back().reciprocal = reciprocal;
+    model.coat_weight = 0.7;
+    model.coat_color = Rgb(0.9, 0.5, 0.2);
+    model.coat_roughness = 0.4;
+    Add("open_pbr, coat, " + name, model, stacks);
+    model.fuzz_weight = 0.6;
+    model.fuzz_color = Rgb(0.4, 0.6, 0.9);
+    Add("open_pbr, coat and fuzz, " + name, model, stacks);
+  }
+  OpenPbrMaterial model{.specular_roughness = 0.5};
+  model.options.layering = Layering::kReciprocal;
+  Add("open_pbr, reciprocal", model, stacks);
+  stacks->back().reciprocal = true;
+  for (const SpecularTintBelow tint :
+       {SpecularTintBelow::kComplementary, SpecularTintBelow::kMaxChannel}) {
+    OpenPbrMaterial tinted{.specular_color = Rgb(1, 0.2, 0.5), .specular_roughness = 0.5};
+    tinted.options.specular_tint_below = tint;
+    Add("open_pbr, tint below " + std::to_string(static_cast<int>(tint)), tinted, stacks);
+  }
+  OpenPbrMaterial smooth{.coat_weight = 1};
+  smooth.specular_roughness = 0.5;
+  smooth.coat_color = Rgb(0.9, 0.5, 0.2);
+  Add("open_pbr, smooth coat", smooth, stacks);
 }
 
 // Every kind of lobe, by itself and over and under others. Lobes are wide enough for quadrature.
@@ -132,6 +227,8 @@ std::vector<Stack> Stacks() {
   Add("smooth plastic, sheen and coat", paint, &stacks);
   Add("glass, opaque", DielectricMaterial{.roughness = 0.6}, &stacks);
   AddMapped(&stacks);
+  AddOpenPbr(&stacks);
+  AddAnisotropic(&stacks);
   paint.roughness = 0.6;
   paint.coat_normal_map.texture = TextureId{0};
   Add("two tinted coats with normals of their own", paint, &stacks);
@@ -206,7 +303,7 @@ TEST_CASE("samples of a stack follow its pdf") {
 }
 
 // The worst relative change of f when light and viewer are exchanged.
-double Asymmetry(const ShadingMaterial& material) {
+double Asymmetry(const ShadingMaterial& material, const StackNormals& normals) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> height(0.05, 1), turn(0, 2 * M_PI);
   const auto direction = [&]() -> Vec3d {
@@ -216,8 +313,8 @@ double Asymmetry(const ShadingMaterial& material) {
   double worst = 0;
   for (int i = 0; i < 200; ++i) {
     const Vec3d l = direction(), v = direction();
-    const double f = Reflect(material, kUp, l, v).Sum().y / l.z;
-    const double exchanged = Reflect(material, kUp, v, l).Sum().y / v.z;
+    const double f = Reflect(material, normals, l, v).Sum().y / l.z;
+    const double exchanged = Reflect(material, normals, v, l).Sum().y / v.z;
     worst = std::max(worst, std::abs(f - exchanged) / std::max(f, exchanged));
   }
   return worst;
@@ -228,7 +325,7 @@ double Asymmetry(const ShadingMaterial& material) {
 TEST_CASE("stacks are reciprocal where their models are") {
   for (const Stack& stack : Stacks()) {
     if (stack.Mapped()) continue;
-    const double asymmetry = Asymmetry(Prepared(stack));
+    const double asymmetry = Asymmetry(Prepared(stack), stack.Normals());
     CAPTURE(stack.name, asymmetry);
     CHECK((stack.reciprocal ? asymmetry < 1e-12 : asymmetry > 1e-3));
   }
@@ -252,6 +349,10 @@ struct StackBatch {
     PrepareSurface(hits, &surface);
   }
 
+  static void SetTangents(const Vec3d& tangent, Surface* to) {
+    for (size_t i = 0; i < kBatchCapacity; ++i) SetVector(tangent, i, &to->tangent);
+  }
+
   MaterialHits Prepare(const Stack& stack, const ShadingMaterial& material, const Vec3d& to_view) {
     hits.count = kBatchCapacity;
     SetNormals(kUp, to_view);
@@ -262,9 +363,11 @@ struct StackBatch {
       if (stack.Mapped()) SetNormals(stack.coat_normals[k], to_view);
       CopyToCoat(hits, surface, &coats[k]);
       coats[k].surface.normal_mapped = surface.normal_mapped;
+      if (!stack.tangents.empty()) SetTangents(stack.tangents[1 + k], &coats[k].surface);
       CopySoa(surface.interpolated_normal, kBatchCapacity, &coats[k].surface.interpolated_normal);
     }
     SetNormals(stack.normal, to_view);
+    if (!stack.tangents.empty()) SetTangents(stack.tangents[0], &surface);
     PrepareBsdf(material, 0, kBatchCapacity, nullptr, &surface, coats);
     return {material, hits, surface, 0, kBatchCapacity, nullptr, coats};
   }
@@ -278,7 +381,7 @@ bool Grazes(const Stack& stack, const Vec3d& to_light) {
                      [&](const Vec3d& n) { return grazes(n) || std::abs(n ^ mirrored) < 1e-2; });
 }
 
-// The green light that a stack with shading normals of its own reflects of a white sky.
+// The green light that a stack with shading normals or tangents of its own reflects of a white sky.
 double MappedAlbedo(const Stack& stack, const ShadingMaterial& material, const Vec3d& v) {
   constexpr size_t kRings = 400;
   double sum = 0;
@@ -348,7 +451,7 @@ TEST_CASE("the mean weight of samples is the albedo, and kernels agree with the 
         const double mean = sum / static_cast<double>(count);
         const double variance = squares / static_cast<double>(count) - mean * mean;
         const double error = std::sqrt(std::max(variance, 0.0) / static_cast<double>(count));
-        const double albedo = stack.Mapped()
+        const double albedo = stack.Mapped() || !stack.tangents.empty()
                                   ? MappedAlbedo(stack, material, v)
                                   : ReflectedShare(material, ShareOf::kFurnace, n_dot_v).y;
         CAPTURE(mean, albedo, error, mirrors);

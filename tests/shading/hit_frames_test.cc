@@ -57,7 +57,7 @@ struct MappedHits {
     KeptTables tables;
     const TextureScene textures = PrepareTextures(scene, 1, 1, &tables);
     ShadingMaterial material = PrepareMaterial(scene.materials[0]);
-    material.by_hit.tangent = true;
+    material.by_hit.tangent = true;  // also of materials that do not ask for it
     TextureHits({textures, material, 0, points.size(), hits, surface, maps, footprints});
   }
 };
@@ -133,6 +133,48 @@ TEST_CASE("tangents of meshes are those of MikkTSpace, between the corners") {
       // Triangles that are seen from behind have the frame of the front, mirrored.
       const Vec3d tangent = VectorAt(at->surface.tangent, i);
       CHECK(std::min((tangent - expected[i]).length(), (tangent + expected[i]).length()) < 1e-6);
+    }
+  });
+}
+
+TEST_CASE("anisotropic lobes without maps lie around the y axis, turned, from both sides") {
+  const auto at = std::make_unique<MappedHits>();
+  ForEachTarget([&](Target) {
+    for (const bool inside : {false, true}) {
+      for (const bool mesh : {false, true}) {
+        for (const double turn_deg : {0.0, 30.0, 90.0, -45.0}) {
+          CAPTURE(inside, mesh, turn_deg);
+          Scene scene;
+          scene.camera.position = {0, 0, inside ? 0.1 : 6};
+          scene.materials = {{.model = MetallicRoughnessMaterial{
+                                  .anisotropy = 0.5, .anisotropy_rotation_deg = turn_deg}}};
+          if (mesh) {
+            scene.meshes = {MakeMesh(UvSphere{Vec3d(0), 1, 12, 6})};
+            scene.meshes[0].uvs.clear();
+            scene.meshes[0].material = {0};
+          } else {
+            scene.spheres = {{Vec3d(0), 1, {0}}};
+          }
+          std::vector<Point> points;
+          for (int k = 0; k < 20; ++k) {
+            const double turn = (k + 0.3) / 10 * std::numbers::pi, height = k / 11.0 - 0.9;
+            const double width = std::sqrt((1 - height) * (1 + height));
+            const Vec3d out(width * std::sin(turn), height, width * std::cos(turn));
+            points.push_back({out, inside ? -out : out, 0});
+          }
+          at->LookUp(scene, points, {&kCamera});
+          const double angle = turn_deg / 180 * std::numbers::pi;
+          for (size_t i = 0; i < points.size(); ++i) {
+            const Vec3d out = points[i].position;
+            const Vec3d east = (Vec3d(0, 1, 0) % out).normalized(), north = out % east;
+            const Vec3d expected = east * std::cos(angle) + north * std::sin(angle);
+            const Vec3d tangent = VectorAt(at->surface.tangent, i);
+            CAPTURE(i, tangent, expected);
+            // A line has no sign.
+            CHECK(std::min((tangent - expected).length(), (tangent + expected).length()) < 1e-6);
+          }
+        }
+      }
     }
   });
 }

@@ -116,6 +116,12 @@ inline FresnelTerms Fresnel(const MicrofacetModel& m, const Angles<double>& a) {
       case FresnelForm::kConductor:
         terms.metal[c] = FresnelConductor(VDotH(a), OneMinusVDotH(a), m.eta[c], m.k[c]);
         break;
+      case FresnelForm::kOpenPbr:
+        terms.dielectric[c] = m.dielectric_scale[c] *
+                              FresnelCoatedDielectric(VDotH(a), OneMinusVDotH(a), m.dielectric);
+        terms.metal[c] =
+            m.metal_scale * FresnelF82(VDotH(a), OneMinusVDotH(a), m.metal_f0[c], m.f82_slope[c]);
+        break;
     }
   }
   return terms;

@@ -14,6 +14,7 @@
 
 #include "base/parallel.h"
 #include "brdf/albedo.h"
+#include "shading/scalar_bsdf.h"
 #include "shading/shade.h"
 #include "stress/fuzz_draws.h"
 
@@ -62,6 +63,9 @@ void Fill(const std::vector<Drawn>& drawn, const Light& light, Placement* p) {
 void Shade(const ShadingMaterial& material, const Rgb& color, size_t begin, size_t end,
            Placement* p) {
   p->light.color = color;
+  for (size_t i = begin; material.by_hit.tangent && i < end; ++i) {
+    SetVector(DefaultTangent(material, VectorAt(p->hits.normal, i)), i, &p->surface.tangent);
+  }
   PrepareRun(material, begin, end, &p->surface);
   ShadeRun({{material, p->hits, p->surface, begin, end}, p->light, &p->evaluated, &p->radiance},
            &p->scratch);
@@ -80,19 +84,31 @@ uint64_t Mix(uint64_t hash, uint64_t value) {
   return (hash ^ value) * 0x100000001b3u + (hash >> 29);
 }
 
-// No lobe of the material reflects more than this of irradiance 1, cosine included. GGX: D is at
-// most 1 / (pi alpha^2), and V n.l at most 1 / (2 alpha), as Smith's roots are at least alpha;
-// Turquin's scale is at most 1 / E. Phong's normalisations are below n + 8. The factor 10 is for
-// Kulla and Conty's lobe.
+// No lobe reflects more than this of irradiance 1, cosine included. GGX: D is at most 1 / (pi
+// alpha^2), and V n.l at most 1 / (2 alpha), as Smith's roots are at least alpha; Turquin's scale
+// is at most 1 / E. Phong's normalisations are below n + 8.
+double LargestOfLobe(const ShadingMaterial& material) {
+  if (const auto* phong = std::get_if<PhongFamilyModel>(&material.model)) {
+    return phong->shininess + 8;
+  }
+  const auto* ggx = std::get_if<MicrofacetModel>(&material.model);
+  if (ggx == nullptr) return 1;
+  const double alpha = std::max(ggx->alpha, 0x1p-40);
+  const double largest = 1 + 1 / (2 * M_PI * alpha * alpha * alpha);
+  if (ggx->compensation != Compensation::kTurquin) return largest;
+  return largest / (ggx->anisotropic ? 1 - LossOf(*ggx, 0.0) : AlbedoOne(ggx->albedo.lobe, 0.0));
+}
+
+// The same of all lobes of the material. The factor 10 is for Kulla and Conty's.
 double LargestReflection(const Material& material) {
   const ShadingMaterial prepared = PrepareMaterial(material);
-  double largest = 1;
-  if (const auto* phong = std::get_if<PhongFamilyModel>(&prepared.model)) {
-    largest = phong->shininess + 8;
-  } else if (const auto* ggx = std::get_if<MicrofacetModel>(&prepared.model)) {
-    const double alpha = std::max(ggx->alpha, 0x1p-40);
-    largest = 1 + 1 / (2 * M_PI * alpha * alpha * alpha);
-    if (ggx->compensation == Compensation::kTurquin) largest /= AlbedoOne(ggx->albedo.lobe, 0.0);
+  double largest = LargestOfLobe(prepared);
+  for (const auto& coat : prepared.coats) largest += LargestOfLobe(*coat);
+  for (const LayerModel& layer : prepared.layers) {
+    // Charlie's D is at most (2 + 1 / alpha) / (2 pi), and its visibility times n.l, 1 / (4 n.v)
+    // with Smith's terms, which grow as 1 / n.v does, less than 100.
+    const auto* sheen = std::get_if<SheenModel>(&layer);
+    if (sheen != nullptr) largest += 100 * (2 + 1 / sheen->charlie.alpha) / (2 * M_PI);
   }
   return 10 * largest;
 }
@@ -143,17 +159,17 @@ class ChunkFuzz {
     const double irradiance = ordered_.evaluated.irradiance[hit];
     result_->lit += irradiance > 0;
     const std::array<uint32_t, 6> bits = BitsOf(ordered_, hit);
-    if (bits != BitsOf(moved_, hit)) Fault(&result_->moved, "moved", model, material, hit);
+    if (bits != BitsOf(moved_, hit)) Fault(&result_->moved, "moved", model, material, color, hit);
     for (int i = 0; i < 6; ++i) {
       const float value = std::bit_cast<float>(bits[static_cast<size_t>(i)]);
-      if (std::isnan(value)) Fault(&result_->nan, "NaN", model, material, hit);
-      if (value < 0) Fault(&result_->negative, "negative", model, material, hit);
+      if (std::isnan(value)) Fault(&result_->nan, "NaN", model, material, color, hit);
+      if (value < 0) Fault(&result_->negative, "negative", model, material, color, hit);
       if (!std::isinf(value)) continue;
       const double largest = LargestReflection(material) * color[i % 3] * irradiance;
       if (largest > std::numeric_limits<float>::max()) {
         ++result_->overflowed;
       } else {
-        Fault(&result_->infinite, "infinite", model, material, hit);
+        Fault(&result_->infinite, "infinite", model, material, color, hit);
       }
     }
     JudgeConstantLobe(model, material, color, hit);
@@ -172,11 +188,12 @@ class ChunkFuzz {
         static_cast<float>(phong->ks.x * color.x) * ordered_.evaluated.irradiance[hit];
     if (!std::isnormal(expected)) return;
     const float got = ordered_.radiance.specular.x[hit];
-    if (got != expected) Fault(&result_->power_of_zero, "0^0 is not 1", model, material, hit);
+    if (got != expected)
+      Fault(&result_->power_of_zero, "0^0 is not 1", model, material, color, hit);
   }
 
   void Fault(uint64_t* count, const char* what, const MaterialModel& model,
-             const Material& material, size_t hit) {
+             const Material& material, const Rgb& color, size_t hit) {
     ++*count;
     if (!result_->first_fault.empty()) return;
     const auto text = [&](const Soa3<float>& v) {
@@ -187,11 +204,16 @@ class ChunkFuzz {
       const Rgb value = parameter.get(material);
       parameters += fmt::format(" {} {:g},{:g},{:g}", parameter.name, value.x, value.y, value.z);
     }
+    for (const MaterialChoice& choice : model.choices) {
+      if (choice.get == nullptr) continue;
+      parameters += fmt::format(" {} {}", choice.name, choice.options[choice.get(material)]);
+    }
     result_->first_fault = fmt::format(
-        "{}: {}{} n {} v {} l {} irradiance {:g} diffuse {} specular {}", what, model.name,
-        parameters, text(ordered_.surface.normal), text(ordered_.surface.to_view),
-        text(ordered_.evaluated.light_vector), ordered_.evaluated.irradiance[hit],
-        text(ordered_.radiance.diffuse), text(ordered_.radiance.specular));
+        "{}: {}{} n {} v {} l {} light {:g} {:g} {:g} irradiance {:g} diffuse {} specular {}", what,
+        model.name, parameters, text(ordered_.surface.normal), text(ordered_.surface.to_view),
+        text(ordered_.evaluated.light_vector), color.x, color.y, color.z,
+        ordered_.evaluated.irradiance[hit], text(ordered_.radiance.diffuse),
+        text(ordered_.radiance.specular));
   }
 
   FuzzRandom random_;

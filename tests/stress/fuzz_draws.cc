@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "scene/limits.h"
+#include "scene/scene.h"
+#include "scene/validate.h"
 
 namespace nacre {
 namespace {
@@ -83,7 +85,7 @@ double DrawNumber(const MaterialParameter& parameter, FuzzRandom* random) {
     constexpr double kExponents[] = {0, 1e-30, 1, 2, 1e6, 1e9};
     return random->OneIn(4) ? random->Pick(kExponents) : random->Magnitude(1e-3, 1e6);
   }
-  if (parameter.name == "roughness") {
+  if (parameter.name.ends_with("roughness")) {
     // About the limit of delta lobes, 2^-20, too.
     constexpr double kRoughness[] = {0, 1e-8, 0x1p-20, 0x1.001p-20, 0x1.fp-21, 1};
     return random->OneIn(4) ? random->Pick(kRoughness) : random->Magnitude(1e-8, 1);
@@ -118,7 +120,16 @@ Rgb DrawLight(FuzzRandom* random) {
   return color;
 }
 
-Material DrawMaterial(const MaterialModel& model, FuzzRandom* random) {
+namespace {
+
+// Whether options do not go together. Numbers are in their ranges.
+bool IsRefused(const Material& material) {
+  Scene scene;
+  scene.materials.push_back(material);
+  return !Validate(scene).empty();
+}
+
+Material DrawAnything(const MaterialModel& model, FuzzRandom* random) {
   Material material = model.make();
   for (const MaterialChoice& choice : model.choices) {
     size_t option = random->Below(choice.options.size());
@@ -128,12 +139,24 @@ Material DrawMaterial(const MaterialModel& model, FuzzRandom* random) {
     choice.set(material, option);
   }
   for (const MaterialParameter& parameter : model.parameters) {
-    const double number = DrawNumber(parameter, random);
+    double number = DrawNumber(parameter, random);
+    // Films, and anisotropic lobes of exact dielectrics, prepare for some ten milliseconds.
+    const bool costly = parameter.name == "thin_film_weight" || parameter.name == "iridescence" ||
+                        parameter.name.ends_with("_anisotropy");
+    if (costly && !random->OneIn(8)) number = 0;
     Rgb value(number, number, number);
     if (parameter.is_color) value = DrawColor(parameter.range.max, random);
     for (int c = 0; c < 3; ++c) value[c] = std::max(value[c], parameter.range.min);
     parameter.set(material, value);
   }
+  return material;
+}
+
+}  // namespace
+
+Material DrawMaterial(const MaterialModel& model, FuzzRandom* random) {
+  Material material = DrawAnything(model, random);
+  while (IsRefused(material)) material = DrawAnything(model, random);
   return material;
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "brdf/anisotropic_albedo.h"
+#include "brdf/anisotropic_albedo_fit.h"
 #include "brdf/anisotropic_albedo_integral.h"
 #include "brdf/anisotropic_albedo_table.h"
 #include "brdf/chebyshev.h"
@@ -19,54 +20,12 @@
 namespace nacre {
 namespace {
 
-// A ratio of 0 has no directions of its own at the nodes of the second variable: its limit is
-// taken.
-constexpr double kLeastRatio = 1e-5;
-
-using KappaValues = std::array<double, kKappaTerms>;
-
-KappaPolynomial Rounded(const KappaValues& values) {
-  KappaPolynomial polynomial;
-  const KappaValues exact = InterpolateChebyshev(values);
-  for (size_t i = 0; i < kKappaTerms; ++i) polynomial[i] = static_cast<float>(exact[i]);
-  return polynomial;
-}
-
-// The polynomial of values at the nodes of both variables, by the second one's index first.
-SharePolynomial Interpolate(const std::array<KappaValues, kShareTerms>& values) {
-  std::array<KappaValues, kShareTerms> by_power{};
-  for (size_t k = 0; k < kKappaTerms; ++k) {
-    std::array<double, kShareTerms> column;
-    for (size_t j = 0; j < kShareTerms; ++j) column[j] = values[j][k];
-    column = InterpolateChebyshev(column);
-    for (size_t j = 0; j < kShareTerms; ++j) by_power[j][k] = column[j];
-  }
-  SharePolynomial polynomial;
-  for (size_t j = 0; j < kShareTerms; ++j) polynomial[j] = Rounded(by_power[j]);
-  return polynomial;
-}
-
-// The direction at which z and the second variable, called share, take the given values.
-Vec3d DirectionAt(const AnisotropicAlbedoShape& shape, double z, double share) {
-  const double root = (1 + z) / double{shape.scale};
-  const double t = root * root;  // of z: 1 / (6 K + sqrt(1 + 36 K^2)), K^2 = kappa^2 + mean square
-  const double k = (1 - t) * (1 + t) / (12 * t);
-  const double kappa2 = std::max(k * k - double{shape.mean_square}, 0.0);
-  const double c = (1 + share) * (1 + share) / 4;
-  const double cos2 = shape.ratio_squared * (1 - c) / (c + shape.ratio_squared * (1 - c));
-  const double x = shape.alpha_x, y = shape.alpha_y;
-  const double seen2 = x * x * cos2 + y * y * (1 - cos2);
-  const double n = 1 / std::sqrt(1 + kappa2 / seen2);
-  const double sin = std::sqrt((1 - n) * (1 + n));
-  return {sin * std::sqrt(cos2), sin * std::sqrt(1 - cos2), n};
-}
-
 GgxAlphas<double> AlphasAt(int i, int j) {
   // The entries of alpha 0 hold the limit, which is reached halfway to the next ones.
   const double root = std::max(i, 1) / (i == 0 ? 2.0 : 1.0) / kAlphaIntervals;
   const double x = kLargestAlbedoAlpha * root * root * root * root;
   const double ratio = static_cast<double>(j) / kRatioIntervals;
-  return {x, x * std::max(ratio * ratio * ratio, kLeastRatio)};
+  return {x, x * std::max(ratio * ratio * ratio, kLeastFittedRatio)};
 }
 
 // Powers of the width, from 1 on, of sum_k binomial(5, k) (1 - w)^(5 - k) w^k values[k - 1].
@@ -107,7 +66,7 @@ std::array<WidthPolynomial, kSmithForms> StreakAt(int i) {
   std::array<WidthPolynomial, kSmithForms> streaks;
   for (size_t form = 0; form < kSmithForms; ++form) {
     for (size_t power = 0; power < kWidthTerms; ++power) {
-      streaks[form][power] = Rounded(values[form][power]);
+      streaks[form][power] = InterpolateKappa(values[form][power]);
     }
   }
   return streaks;
@@ -175,8 +134,8 @@ std::array<AnisotropicAlbedoEntry, kSmithForms> EntryAt(
   }
   std::array<AnisotropicAlbedoEntry, kSmithForms> entries;
   for (size_t form = 0; form < kSmithForms; ++form) {
-    entries[form].loss = Interpolate(loss[form]);
-    entries[form].schlick = Interpolate(schlick[form]);
+    entries[form].loss = InterpolateKappa(loss[form]);
+    entries[form].schlick = InterpolateKappa(schlick[form]);
     AnisotropicAlbedoFit fit;
     fit.shape = shape;
     fit.loss = entries[form].loss;

@@ -14,6 +14,7 @@ What there is:
     Scene, Session      what is rendered, once or again and again
     Brdf                a reflection model over arrays, nacre's or a function of your own
     check               is a BRDF right? one page of verdicts, errors and curves
+    table, check_table  a BRDF's values over directions, and what is wrong with those of others
     grid                spheres over one or two parameters of a model
     Image, Picture      channels as numpy arrays, files, tone mapping
     read                an image file
@@ -52,6 +53,7 @@ from ._errors import Cancelled, Error, Fault
 from ._image import (Comparison, Image, LayerMetrics, Picture, Window, compare, difference, heat_map,
                      read, show, side_by_side)
 from ._scene import Scene, Session, grid, render
+from ._table import Table, TableCheck, check_table, read_table, table
 
 __version__: str = _nacre.version()
 
@@ -82,5 +84,6 @@ def scene_schema() -> str:
 
 __all__ = [
     "Brdf", "Cancelled", "Check", "Comparison", "Error", "Fault", "Image", "LayerMetrics", "Picture",
-    "Scene", "Session", "Verdict", "Window", "active_target", "check", "compare", "difference", "grid", "heat_map", "read", "render",
-    "scene_schema", "set_target", "show", "side_by_side", "supported_targets"]
+    "Scene", "Session", "Table", "TableCheck", "Verdict", "Window", "active_target", "check", "check_table",
+    "compare", "difference", "grid", "heat_map", "read", "read_table", "render", "scene_schema", "set_target",
+    "show", "side_by_side", "supported_targets", "table"]

@@ -195,7 +195,7 @@ class Image:
             array = numbers(values, f"image: {name}", "fiub")
             if array.ndim == 3 and array.shape[2] == 3:
                 prefix = "" if name == "beauty" else name + "."
-                parts = _VECTORS if name in ("N", "P") else _COLORS
+                parts = _VECTORS if name in ("N", "T", "P") else _COLORS
                 planes.update({prefix + part: array[:, :, i] for i, part in enumerate(parts)})
             elif array.ndim == 2:
                 planes[name] = array

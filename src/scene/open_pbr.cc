@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/open_pbr.h"
+
+namespace nacre {
+
+OpenPbrOptions OptionsOf(OpenPbrRules rules) {
+  switch (rules) {
+    case OpenPbrRules::kSpec11:
+      break;
+    case OpenPbrRules::kSpec12:
+      return {.specular_weight_rule = SpecularWeightRule::kIndexReflect,
+              .coat_darkening_rule = CoatDarkening::kSpec12,
+              .coat_partial = CoatPartial::kWholeProduct};
+    case OpenPbrRules::kMaterialX:
+      return {.coat_fresnel = CoatFresnel::kInvertRatio,
+              .coat_darkening_rule = CoatDarkening::kMaterialX,
+              .coat_absorption = CoatAbsorption::kNormal,
+              .coat_partial = CoatPartial::kLerpThenExponent,
+              .compensation = Compensation::kTurquin,
+              .emission_through = EmissionThrough::kMaterialX,
+              .f82_clamp = false};
+    case OpenPbrRules::kAdobe:
+      return {.coat_fresnel = CoatFresnel::kIndexLerp,
+              .coat_roughening = CoatRoughening::kAdobe,
+              .coat_darkening_rule = CoatDarkening::kAdobe,
+              .coat_partial = CoatPartial::kPerCrossing,
+              .layering = Layering::kReciprocal,
+              .smith = Shadowing::kSeparable,
+              .emission_through = EmissionThrough::kBaseFactors,
+              .alpha_max = AlphaLimit::kNone,
+              .base_weight_in_rho = true};
+  }
+  return {};
+}
+
+}  // namespace nacre

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shading/anisotropic_lobe.h"
+
+#include <variant>
+
+#include "base/overloaded.h"
+#include "scene/material.h"
+
+namespace nacre {
+
+double AnisotropyOf(const MetallicRoughnessMaterial& material) { return material.anisotropy; }
+double AnisotropyOf(const OpenPbrMaterial& material) {
+  return material.specular_roughness_anisotropy;
+}
+
+bool IsAnisotropic(const Material& material) {
+  return std::visit(
+      Overloaded{[](const MetallicRoughnessMaterial& m) { return AnisotropyOf(m) > 0; },
+                 [](const OpenPbrMaterial& m) { return AnisotropyOf(m) > 0; },
+                 [](const auto&) { return false; }},
+      material.model);
+}
+
+GgxAlphas<double> AlphasOf(const MetallicRoughnessMaterial&, double roughness, double anisotropy) {
+  return GltfAlphas(roughness, anisotropy);
+}
+
+GgxAlphas<double> AlphasOf(const OpenPbrMaterial& material, double roughness, double anisotropy) {
+  return OpenPbrAlphas(roughness, anisotropy, material.options.alpha_max);
+}
+
+GgxAlphas<double> AlphasOf(const Material& material, double roughness, double anisotropy) {
+  if (const auto* open_pbr = std::get_if<OpenPbrMaterial>(&material.model)) {
+    return AlphasOf(*open_pbr, roughness, AnisotropyOf(*open_pbr));  // of which there is no map
+  }
+  return GltfAlphas(roughness, anisotropy);
+}
+
+AnisotropicLobe MakeAnisotropicLobe(const MicrofacetModel& model, const GgxAlphas<double>& alpha,
+                                    double roughness) {
+  AnisotropicLobe lobe{alpha, MakeAnisotropicAlbedoFit(model.shadowing, alpha), {}};
+  if (!HasExactCurve(model.fresnel)) return lobe;
+  lobe.fresnel =
+      model.anisotropic_curves
+          ? BlendAnisotropicFresnelCurves(*model.anisotropic_curves, roughness)
+          : MakeAnisotropicFresnelFit(model.shadowing, alpha, model.albedo.curve).fresnel;
+  return lobe;
+}
+
+TangentTurn TangentTurnOf(const Material& material) {
+  TangentTurn turn{{}, {}, material.normal_map.texture};
+  if (const auto* metallic = std::get_if<MetallicRoughnessMaterial>(&material.model)) {
+    turn.rotation = RotationOfDegrees(metallic->anisotropy_rotation_deg);
+    turn.direction = metallic->anisotropy_map;
+    if (!turn.coordinates.valid()) turn.coordinates = turn.direction;
+  } else if (const auto* open_pbr = std::get_if<OpenPbrMaterial>(&material.model)) {
+    turn.rotation = RotationOfDegrees(open_pbr->geometry_tangent_deg);
+  }
+  return turn;
+}
+
+LobeAlbedos AlbedosOfLobe(const MicrofacetModel& model, const AnisotropicLobe& lobe,
+                          const LobeCosines& x) {
+  const auto variables = ComputeAlbedoVariables(lobe.albedo.shape, x.n, x.t, x.b);
+  const double loss = AlbedoLoss(lobe.albedo, variables), one = 1 - loss;
+  if (!HasExactCurve(model.fresnel)) {
+    return {one, loss, AlbedoSchlick(lobe.albedo, one, variables)};
+  }
+  const double n = variables.n_dot_x;
+  const double mirror = FresnelCoatedDielectric(n, 1 - n, model.albedo.curve);
+  return {one, loss, AlbedoFresnel(lobe.fresnel, one, mirror, variables)};
+}
+
+AlbedoAverages AveragesOf(const AnisotropicLobe& lobe) {
+  return {lobe.albedo.e_average, lobe.albedo.schlick_average, lobe.fresnel.average};
+}
+
+}  // namespace nacre

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// shading/open_pbr.h: what follows from the parameters and options of OpenPBR materials
+// (scene/open_pbr.h) for their base and their coat.
+#pragma once
+
+#include "brdf/fresnel.h"
+#include "scene/open_pbr.h"
+#include "shading/coat_transmission.h"
+
+namespace nacre {
+
+// The roughness of the base's lobe, which a rough coat widens.
+double RoughnessBelowCoat(const OpenPbrMaterial& material);
+// The same of a hit with a specular_roughness of its own.
+double RoughnessBelowCoat(const OpenPbrMaterial& material, double specular_roughness);
+
+// What the material's coat lets through.
+CoatTransmission TransmissionOf(const OpenPbrMaterial& material);
+
+// Sets what a coat's darkening takes the base for.
+void EstimateBelowCoat(const OpenPbrMaterial& material, CoatTransmission* coat);
+
+// Fresnel's curve of the dielectric base, as seen through its coat.
+CoatedDielectric<double> DielectricOf(const OpenPbrMaterial& material);
+
+}  // namespace nacre
