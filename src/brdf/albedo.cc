@@ -54,25 +54,31 @@ AlbedoFit MakeAlbedoFit(Shadowing shadowing, double roughness) {
   return fit;
 }
 
+AlbedoPolynomial FitFresnelAlbedo(Shadowing shadowing, double roughness, const AlbedoFit& lobe,
+                                  const FresnelFunction& curve) {
+  std::array<double, kAlbedoTerms> values{};  // 0 for a mirror
+  for (int i = 0; i < kAlbedoTerms && lobe.shape.offset > 0; ++i) {
+    const double mu = AlbedoNodeCosine(lobe.shape, i);
+    const double albedo = AlbedoOf(shadowing, roughness, mu, curve, kFastAlbedoQuadrature);
+    const double masking =
+        lobe.shape.form == AlbedoForm::kMasked ? AlbedoMasking(lobe.shape, mu) : 1;
+    values[static_cast<size_t>(i)] = (albedo - curve(mu, 1 - mu) * AlbedoOne(lobe, mu)) / masking;
+  }
+  const auto polynomial = InterpolateAlbedo(values);
+  AlbedoPolynomial fit{};
+  for (size_t i = 0; i < kAlbedoTerms; ++i) fit[i] = static_cast<float>(polynomial[i]);
+  return fit;
+}
+
 FresnelAlbedoFit MakeDielectricAlbedoFit(Shadowing shadowing, double roughness,
                                          const CoatedDielectric<double>& base) {
   FresnelAlbedoFit fit;
   fit.lobe = MakeAlbedoFit(shadowing, roughness);
   fit.curve = base;
-  const auto curve = [&](double v_dot_h, double one_minus_vh) {
-    return FresnelCoatedDielectric(v_dot_h, one_minus_vh, base);
-  };
-  std::array<double, kAlbedoTerms> values{};  // 0 for a mirror
-  for (int i = 0; i < kAlbedoTerms && fit.lobe.shape.offset > 0; ++i) {
-    const double mu = AlbedoNodeCosine(fit.lobe.shape, i);
-    const double albedo = AlbedoOf(shadowing, roughness, mu, curve, kFastAlbedoQuadrature);
-    const double masking =
-        fit.lobe.shape.form == AlbedoForm::kMasked ? AlbedoMasking(fit.lobe.shape, mu) : 1;
-    values[static_cast<size_t>(i)] =
-        (albedo - curve(mu, 1 - mu) * AlbedoOne(fit.lobe, mu)) / masking;
-  }
-  const auto polynomial = InterpolateAlbedo(values);
-  for (size_t i = 0; i < kAlbedoTerms; ++i) fit.fresnel[i] = static_cast<float>(polynomial[i]);
+  fit.fresnel =
+      FitFresnelAlbedo(shadowing, roughness, fit.lobe, [&](double v_dot_h, double one_minus_vh) {
+        return FresnelCoatedDielectric(v_dot_h, one_minus_vh, base);
+      });
   fit.average = IntegrateTowardsZero([&](double mu) { return 2 * mu * AlbedoFresnel(fit, mu); });
   return fit;
 }
@@ -82,9 +88,7 @@ DielectricCurves MakeDielectricCurves(Shadowing shadowing, const CoatedDielectri
   curves.fresnel.reserve(kAlbedoIntervals + 1);
   curves.average.reserve(kAlbedoIntervals + 1);
   for (int i = 0; i <= kAlbedoIntervals; ++i) {
-    // A mirror has no curve. That of the next roughness is near the limit for roughness 0.
-    const double root = std::max(i, 1) / static_cast<double>(kAlbedoIntervals);
-    const FresnelAlbedoFit fit = MakeDielectricAlbedoFit(shadowing, root * root, curve);
+    const FresnelAlbedoFit fit = MakeDielectricAlbedoFit(shadowing, AlbedoNodeRoughness(i), curve);
     curves.fresnel.push_back(fit.fresnel);
     curves.average.push_back(fit.average);
   }

@@ -13,6 +13,7 @@
 
 #include "brdf/albedo_curve.h"
 #include "brdf/fresnel.h"
+#include "brdf/fresnel_function.h"
 
 namespace nacre {
 
@@ -38,6 +39,10 @@ struct FresnelAlbedoFit {
   CoatedDielectric<double> curve;
   double average = 0;  // 2 int of the albedo mu dmu
 };
+
+// The third curve for any Fresnel curve: what the lobe's width adds to a mirror's albedo.
+AlbedoPolynomial FitFresnelAlbedo(Shadowing shadowing, double roughness, const AlbedoFit& lobe,
+                                  const FresnelFunction& curve);
 
 // eta >= 1: light arrives from the optically thinner side. (From the denser side, total reflection
 // sets in at a corner that a polynomial cannot follow.) Computed by quadrature, in about half a

@@ -8,7 +8,7 @@ AlbedoShape MakeAlbedoShape(Shadowing shadowing, double roughness) {
   AlbedoShape shape;
   double alpha = AlphaFromRoughness(roughness);
   if (IsDeltaLobe(alpha)) alpha = 0;
-  const double offset = 6 * alpha;
+  const double offset = double{kAlbedoOffsetOverAlpha} * alpha;
   shape.offset = static_cast<float>(offset);
   shape.scale = static_cast<float>(2 * std::sqrt(offset + std::sqrt(1 + offset * offset)));
   shape.form = AlbedoFormOf(shadowing);

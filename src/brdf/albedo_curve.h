@@ -18,6 +18,7 @@
 namespace nacre {
 
 inline constexpr int kAlbedoTerms = 18;
+inline constexpr float kAlbedoOffsetOverAlpha = 6;  // AlbedoShape::offset over alpha
 
 // Below this n.v, albedos are those at this n.v: its square must not underflow.
 inline constexpr double kLeastAlbedoCosine = 1e-15;
@@ -36,7 +37,7 @@ inline AlbedoForm AlbedoFormOf(Shadowing shadowing) {
 
 // The parameters of a curve's variable and factors besides n.v. `offset` is 0 for a mirror.
 struct AlbedoShape {
-  float offset = 0;     // 6 alpha
+  float offset = 0;     // kAlbedoOffsetOverAlpha alpha
   float scale = 2;      // multiplies sqrt(tan(theta / 2)), so that z is 1 at n.v = 1
   float k = 0;          // kMasked: Schlick's k
   float softening = 0;  // kMasked: see AlbedoMasking

@@ -31,6 +31,13 @@ inline double AverageLossScale(AlbedoForm form, double roughness) {
   return alpha > 0 ? alpha * alpha * (1 + std::log1p(1 / alpha)) : 0;
 }
 
+// The roughness at which fits of curves by hit are made for node i. A mirror has no curve: that of
+// the next roughness is near the limit for roughness 0.
+inline double AlbedoNodeRoughness(int i) {
+  const double root = std::max(i, 1) / static_cast<double>(kAlbedoIntervals);
+  return root * root;
+}
+
 // Cubic interpolation through four consecutive roughnesses of the table around a given one:
 // `first` is the index of the first of them.
 struct AlbedoWeights {

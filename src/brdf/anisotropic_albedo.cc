@@ -27,23 +27,18 @@ GgxAlphas<double> FittedAlphas(const GgxAlphas<double>& alpha) {
   return {alpha.x * shrink, alpha.y * shrink};
 }
 
-double Mirror(const CoatedDielectric<double>& dielectric, double cosine) {
-  return FresnelCoatedDielectric(cosine, 1 - cosine, dielectric);
-}
+double Mirror(const FresnelFunction& curve, double cosine) { return curve(cosine, 1 - cosine); }
 
-// The cosines within which a dielectric's curve bends: both terms of Fresnel's equations are 1 at
-// grazing incidence, from where s falls within sqrt(eta^2 - 1) and p, to 0 at Brewster's angle,
-// within 1 / sqrt(eta^2 + 1). Twice the former halves the errors of indices near 1.
-float BendOf(const CoatedDielectric<double>& dielectric) {
-  const double eta = dielectric.eta;
-  const double s = std::sqrt(std::abs((eta - 1) * (eta + 1))), p = 1 / std::sqrt(eta * eta + 1);
-  return static_cast<float>(std::max(std::min(2 * s, p), 0.05));
+FittedFresnel FresnelOf(const CoatedDielectric<double>& dielectric) {
+  return {[dielectric](double v_dot_h, double one_minus_vh) {
+            return FresnelCoatedDielectric(v_dot_h, one_minus_vh, dielectric);
+          },
+          FresnelBend(dielectric.eta), AverageDielectric(dielectric)};
 }
 
 // What the width of the limit ay = 0 adds to a mirror's albedo, over the direction's width, which
 // multiplies v.h.
-StreakPolynomial StreakOf(size_t form, double alpha_x, float bend,
-                          const CoatedDielectric<double>& dielectric) {
+StreakPolynomial StreakOf(size_t form, double alpha_x, float bend, const FresnelFunction& curve) {
   const AnisotropicAlbedoShape shape = MakeAnisotropicAlbedoShape({alpha_x, 0});
   std::array<KappaValues, kStreakTerms> values{};
   for (size_t k = 0; k < kKappaTerms; ++k) {
@@ -52,11 +47,10 @@ StreakPolynomial StreakOf(size_t form, double alpha_x, float bend,
     const double n = 1 / std::hypot(1.0, kappa / alpha_x);
     for (size_t j = 0; j < kStreakTerms; ++j) {
       const double width = WidthAt(double{bend}, ChebyshevNode(j, kStreakTerms));
-      const double mirror = Mirror(dielectric, width * n);
+      const double mirror = Mirror(curve, width * n);
       double wider = 0;
       for (const StreakPoint& point : points) {
-        const double fresnel = FresnelCoatedDielectric(
-            width * point.v_dot_h, 1 - width + width * point.one_minus_vh, dielectric);
+        const double fresnel = curve(width * point.v_dot_h, 1 - width + width * point.one_minus_vh);
         wider += point.weights[form] * (fresnel - mirror);
       }
       values[j][k] = wider / width;
@@ -68,18 +62,19 @@ StreakPolynomial StreakOf(size_t form, double alpha_x, float bend,
 // The mean over the hemisphere of the albedo as fitted, so that light lost along one direction
 // agrees with light returned along all others. Panels halve towards the horizon and towards the
 // bitangent, where streaks bend.
-double AverageOf(const AnisotropicFresnelFit& fit) {
+double AverageOf(const AnisotropicAlbedoFit& lobe, const AnisotropicFresnelCurve& fresnel,
+                 const FresnelFunction& curve) {
   return IntegrateTowardsZero(
       [&](double n) {
         const double sin = std::sqrt((1 - n) * (1 + n));
-        const double mirror = Mirror(fit.dielectric, n);
+        const double mirror = Mirror(curve, n);
         return 2 * n *
                IntegrateTowardsZero(
                    [&](double quarter) {
                      const double angle = M_PI_2 * quarter;  // from the bitangent
-                     const auto x = ComputeAlbedoVariables(fit.lobe.shape, n, sin * std::sin(angle),
+                     const auto x = ComputeAlbedoVariables(lobe.shape, n, sin * std::sin(angle),
                                                            sin * std::cos(angle));
-                     return AlbedoFresnel(fit.fresnel, AlbedoOne(fit.lobe, x), mirror, x);
+                     return AlbedoFresnel(fresnel, AlbedoOne(lobe, x), mirror, x);
                    },
                    3);
       },
@@ -101,6 +96,14 @@ double KinkOf(const AlphasOfRoughness& alphas) {
 }
 
 }  // namespace
+
+// The cosines within which a dielectric's curve bends: both terms of Fresnel's equations are 1 at
+// grazing incidence, from where s falls within sqrt(eta^2 - 1) and p, to 0 at Brewster's angle,
+// within 1 / sqrt(eta^2 + 1). Twice the former halves the errors of indices near 1.
+double FresnelBend(double eta) {
+  const double s = std::sqrt(std::abs((eta - 1) * (eta + 1))), p = 1 / std::sqrt(eta * eta + 1);
+  return std::max(std::min(2 * s, p), 0.05);
+}
 
 AnisotropicAlbedoFit MakeAnisotropicAlbedoFit(Shadowing shadowing, const GgxAlphas<double>& alpha) {
   AnisotropicAlbedoFit fit;
@@ -129,45 +132,68 @@ AnisotropicAlbedoFit MakeAnisotropicAlbedoFit(Shadowing shadowing, const GgxAlph
   return fit;
 }
 
-AnisotropicFresnelFit MakeAnisotropicFresnelFit(Shadowing shadowing, const GgxAlphas<double>& alpha,
-                                                const CoatedDielectric<double>& dielectric) {
-  AnisotropicFresnelFit fit;
-  fit.dielectric = dielectric;
-  fit.fresnel.bend = BendOf(dielectric);
-  if (IsDeltaLobe(alpha)) {
-    fit.fresnel.average = AverageDielectric(dielectric);
-    return fit;
-  }
+namespace {
+
+// Alphas that fits of Fresnel curves cover.
+GgxAlphas<double> FittedFresnelAlphas(const GgxAlphas<double>& alpha) {
   GgxAlphas<double> fitted = FittedAlphas(alpha);
   fitted.y = std::max(fitted.y, kLeastFittedRatio * fitted.x);
-  fit.lobe = MakeAnisotropicAlbedoFit(shadowing, fitted);
+  return fitted;
+}
+
+}  // namespace
+
+AnisotropicFresnelCurve FitAnisotropicFresnel(Shadowing shadowing, const GgxAlphas<double>& alpha,
+                                              const FittedFresnel& fresnel) {
+  AnisotropicFresnelCurve fit;
+  fit.bend = static_cast<float>(fresnel.bend);
+  if (IsDeltaLobe(alpha)) {
+    fit.average = fresnel.average;
+    return fit;
+  }
+  const GgxAlphas<double> fitted = FittedFresnelAlphas(alpha);
+  const AnisotropicAlbedoFit lobe = MakeAnisotropicAlbedoFit(shadowing, fitted);
   const auto form = static_cast<size_t>(shadowing);
-  fit.fresnel.streak = StreakOf(form, fitted.x, fit.fresnel.bend, dielectric);
-  const FresnelFunction curve = [&](double v_dot_h, double one_minus_vh) {
-    return FresnelCoatedDielectric(v_dot_h, one_minus_vh, dielectric);
-  };
+  fit.streak = StreakOf(form, fitted.x, fit.bend, fresnel.curve);
   std::array<KappaValues, kShareTerms> wider;
   for (size_t s = 0; s < kShareTerms; ++s) {
     for (size_t k = 0; k < kKappaTerms; ++k) {
       const Vec3d v =
-          DirectionAt(fit.lobe.shape, ChebyshevNode(k, kKappaTerms), ChebyshevNode(s, kShareTerms));
-      const auto x = ComputeAlbedoVariables(fit.lobe.shape, v.z, v.x, v.y);
+          DirectionAt(lobe.shape, ChebyshevNode(k, kKappaTerms), ChebyshevNode(s, kShareTerms));
+      const auto x = ComputeAlbedoVariables(lobe.shape, v.z, v.x, v.y);
       const double albedo =
-          IntegrateAlbedos(fitted, v, kFastAnisotropicQuadrature, curve)[form].fresnel;
-      const double u = StreakVariable(double{fit.fresnel.bend}, x.width);
-      const double known = Mirror(dielectric, v.z) * AlbedoOne(fit.lobe, x) +
-                           x.width * EvaluatePolynomial(fit.fresnel.streak, x.z, u);
+          IntegrateAlbedos(fitted, v, kFastAnisotropicQuadrature, fresnel.curve)[form].fresnel;
+      const double u = StreakVariable(double{fit.bend}, x.width);
+      const double known = Mirror(fresnel.curve, v.z) * AlbedoOne(lobe, x) +
+                           x.width * EvaluatePolynomial(fit.streak, x.z, u);
       wider[s][k] = (albedo - known) / x.rest;
     }
   }
-  fit.fresnel.wider = InterpolateKappa(wider);
-  fit.fresnel.average = AverageOf(fit);
+  fit.wider = InterpolateKappa(wider);
+  fit.average = AverageOf(lobe, fit, fresnel.curve);
+  return fit;
+}
+
+AnisotropicFresnelFit MakeAnisotropicFresnelFit(Shadowing shadowing, const GgxAlphas<double>& alpha,
+                                                const CoatedDielectric<double>& dielectric) {
+  AnisotropicFresnelFit fit;
+  fit.dielectric = dielectric;
+  fit.fresnel = FitAnisotropicFresnel(shadowing, alpha, FresnelOf(dielectric));
+  if (!IsDeltaLobe(alpha)) {
+    fit.lobe = MakeAnisotropicAlbedoFit(shadowing, FittedFresnelAlphas(alpha));
+  }
   return fit;
 }
 
 AnisotropicFresnelCurves MakeAnisotropicFresnelCurves(Shadowing shadowing,
                                                       const AlphasOfRoughness& alphas,
                                                       const CoatedDielectric<double>& dielectric) {
+  return MakeAnisotropicFresnelCurves(shadowing, alphas, FresnelOf(dielectric));
+}
+
+AnisotropicFresnelCurves MakeAnisotropicFresnelCurves(Shadowing shadowing,
+                                                      const AlphasOfRoughness& alphas,
+                                                      const FittedFresnel& fresnel) {
   AnisotropicFresnelCurves curves;
   curves.kink = KinkOf(alphas);
   curves.kink_node = curves.kink < 1 ? std::clamp(static_cast<int>(curves.kink * kCurveIntervals),
@@ -180,8 +206,7 @@ AnisotropicFresnelCurves MakeAnisotropicFresnelCurves(Shadowing shadowing,
       root = curves.kink +
              (1 - curves.kink) * (i - curves.kink_node) / (kCurveIntervals - curves.kink_node);
     }
-    curves.nodes.push_back(
-        MakeAnisotropicFresnelFit(shadowing, alphas(root * root), dielectric).fresnel);
+    curves.nodes.push_back(FitAnisotropicFresnel(shadowing, alphas(root * root), fresnel));
   }
   return curves;
 }

@@ -21,6 +21,7 @@
 
 #include "brdf/anisotropic_albedo_curve.h"
 #include "brdf/fresnel.h"
+#include "brdf/fresnel_function.h"
 
 namespace nacre {
 
@@ -94,6 +95,20 @@ struct AnisotropicFresnelFit {
   CoatedDielectric<double> dielectric;
 };
 
+// The cosine within which the curve of a dielectric of this relative index bends most.
+double FresnelBend(double eta);
+
+// A curve to be fitted. `bend` is the cosine within which it bends most at grazing incidence.
+struct FittedFresnel {
+  FresnelFunction curve;
+  double bend = 1;
+  double average = 0;  // 2 int F c dc, the albedo of a mirror
+};
+
+// The curve alone, under the lobe that MakeAnisotropicAlbedoFit makes for these alphas.
+AnisotropicFresnelCurve FitAnisotropicFresnel(Shadowing shadowing, const GgxAlphas<double>& alpha,
+                                              const FittedFresnel& fresnel);
+
 // Computed by quadrature, in 6 to 11 ms. shadowing and alpha as for MakeAnisotropicAlbedoFit.
 //
 // As for MakeDielectricAlbedoFit, eta >= 1. (Below a coat the index may be smaller: light that was
@@ -119,6 +134,9 @@ struct AnisotropicFresnelCurves {
 AnisotropicFresnelCurves MakeAnisotropicFresnelCurves(Shadowing shadowing,
                                                       const AlphasOfRoughness& alphas,
                                                       const CoatedDielectric<double>& dielectric);
+AnisotropicFresnelCurves MakeAnisotropicFresnelCurves(Shadowing shadowing,
+                                                      const AlphasOfRoughness& alphas,
+                                                      const FittedFresnel& fresnel);
 
 // The curve of one roughness in [0, 1]. Delta lobes need none: their albedo is the mirror's.
 AnisotropicFresnelCurve BlendAnisotropicFresnelCurves(const AnisotropicFresnelCurves& curves,

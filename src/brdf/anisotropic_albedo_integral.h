@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "brdf/fresnel_function.h"
 #include "brdf/ggx_anisotropic.h"
 
 namespace nacre {
@@ -21,10 +22,6 @@ struct AnisotropicAlbedo {
   std::array<double, kFresnelPowers> powers{};  // for F = (1 - v.h)^1 to (1 - v.h)^5, Schlick's
   double fresnel = 0;                           // for the curve that was given, if any
 };
-
-// The reflectance at the cosine v.h. It is also given 1 - v.h, which may be too small to survive a
-// subtraction.
-using FresnelFunction = std::function<double(double v_dot_h, double one_minus_vh)>;
 
 // The resolution of the quadrature. Compared with a rule of several times as many points, over
 // alphas in [1e-3, sqrt(2)], ratios in [1e-5, 1], all azimuths and n.v in [1e-8, 1], albedos of the

@@ -185,6 +185,13 @@ void NoteNarrowLobes(const NotedMaterials& of, int max_samples, std::vector<std:
   }
 }
 
+void NoteTransmission(const NotedMaterials& of, std::vector<std::string>* notes) {
+  const std::string names =
+      NameMaterials(of, MaterialTrait::kTransmits, [](size_t) { return true; });
+  if (names.empty()) return;
+  notes->push_back(names + ": the light that passes through is not rendered; the base is opaque");
+}
+
 void NoteMaterials(const NotedMaterials& of, bool sampled_lights, std::vector<std::string>* notes) {
   NoteDarkness(of, notes);
   const std::vector<Light>& lights = of.scene.lights;
@@ -195,6 +202,7 @@ void NoteMaterials(const NotedMaterials& of, bool sampled_lights, std::vector<st
   }
   NoteGain(of, notes);
   NotePhongGain(of, notes);
+  NoteTransmission(of, notes);
 }
 
 }  // namespace nacre

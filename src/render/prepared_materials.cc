@@ -36,6 +36,9 @@ MaterialTraits TraitsOf(const Material& material, const ShadingMaterial& prepare
       MaterialTrait::kTextured);
   add(HasDoubleTerms(prepared) || any_coat(HasDoubleTerms), MaterialTrait::kDoubleTerms);
   add(HasDeltaLobe(prepared), MaterialTrait::kMirror);
+  if (const auto* const open_pbr = std::get_if<OpenPbrMaterial>(&material.model)) {
+    add(open_pbr->transmission_weight > 0, MaterialTrait::kTransmits);
+  }
   add(any_coat(HasDeltaLobe), MaterialTrait::kCoatMirror);
   add(std::holds_alternative<UserModel>(prepared.model), MaterialTrait::kUserModel);
   add(BurleyGain(prepared) > 1, MaterialTrait::kBurleyGain);

@@ -27,6 +27,7 @@ enum class MaterialTrait : uint32_t {
   kPhongGain = 1 << 10,  // PhongGain, if it would not be printed as 1.00
   // The form of Shadowing of the lobe: this bit and the three bits after it, in the enum's order.
   kFirstShadowing = 1 << 11,
+  kTransmits = 1 << 15,  // OpenPbrMaterial::transmission_weight above 0, which is not rendered
 };
 
 // A set of traits, as bits.

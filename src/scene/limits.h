@@ -45,6 +45,13 @@ inline constexpr Range kExtinction{0, 100};
 // Of OpenPBR, which has no upper limits.
 inline constexpr Range kOpenPbrIor{0.015625, 100};
 inline constexpr Range kOpenPbrWeight{0, 1e6};
+inline constexpr Range kOpenPbrLength{0, 1e9};
+inline constexpr Range kScatterAnisotropy{-1, 1};
+inline constexpr Range kAbbeNumber{1, 1e6};
+// Of thin films. Fringes of thicker ones are too narrow for tables of them.
+inline constexpr Range kFilmIor{1, 10};
+inline constexpr Range kFilmThicknessUm{0, 10};
+inline constexpr Range kFilmThicknessNm{0, 1e4};
 
 inline constexpr Range kFovYDeg{0, 180, true, true};
 inline constexpr Range kImageSide{1, 65536};

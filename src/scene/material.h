@@ -93,6 +93,11 @@ struct MetallicRoughnessMaterial {
   TextureId coat_map{};            // red multiplies coat
   TextureId coat_roughness_map{};  // green multiplies coat_roughness
   NormalMap coat_normal_map{};     // of the coat, which normal_map does not affect
+  // A thin film on dielectric and metal alike, as KHR_materials_iridescence.
+  double iridescence = 0;  // in [0, 1]: the fraction that it covers
+  double iridescence_ior = 1.3;
+  double iridescence_thickness_nm = 400;
+  ThinFilmForm iridescence_model = ThinFilmForm::kGltf;
   // The sheen of cloth (brdf/sheen.h), between the coat and the other layers, as
   // KHR_materials_sheen.
   Rgb sheen_color{0, 0, 0};    // each in [0, 1]; 0: none

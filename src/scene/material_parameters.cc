@@ -113,6 +113,7 @@ constexpr std::string_view kRoughnessMeaning =
 constexpr std::string_view kOpenPbrAnisotropyMeaning =
     "How much narrower the lobe is across the tangent than along it: 1 minus the ratio of both "
     "alphas, the mean of whose squares is roughness^4.";
+constexpr std::string_view kNotRendered = "Kept, but not rendered.";
 constexpr std::string_view kTangentMeaning =
     "Turns the tangent about the normal, counter-clockwise in degrees. It is that of the normal "
     "map's coordinates, else of the mesh's own, else the direction around the y axis, as on a "
@@ -217,6 +218,14 @@ constexpr auto kMetallicRoughnessParameters = WithCommon(
         "coat_ior", limits::kIor,
         "Index of refraction of the coat, which gives F0 of Schlick's curve; below 1.34 less is "
         "reflected at grazing angles, too. 1: no coat."),
+    Number<&MetallicRoughnessMaterial::iridescence>(
+        "iridescence", limits::kUnit,
+        "The fraction of the surface that a thin film covers (KHR_materials_iridescence).",
+        "iridescence"),
+    Number<&MetallicRoughnessMaterial::iridescence_ior>("iridescence_ior", limits::kFilmIor,
+                                                        "Index of refraction of the film."),
+    Number<&MetallicRoughnessMaterial::iridescence_thickness_nm>(
+        "iridescence_thickness_nm", limits::kFilmThicknessNm, "Thickness of the film in nm."),
     Color<&MetallicRoughnessMaterial::sheen_color>(
         "sheen_color", limits::kUnit,
         "Colour of the sheen, the fuzz of velvet, which is bright at grazing angles (Estevez and "
@@ -241,6 +250,20 @@ constexpr auto kDielectricParameters = WithCommon(
     Number<&DielectricMaterial::ior>("ior", limits::kIor, "Index of refraction."),
     Number<&DielectricMaterial::roughness>("roughness", limits::kUnit, kRoughnessMeaning),
     BaseRoughness<DielectricMaterial>());
+
+// An option of OpenPBR that is a number, which rules set, too.
+constexpr MaterialParameter kFilmFade = {
+    "film_fade_nm",
+    false,
+    limits::kFilmThicknessNm,
+    [](const Material& material) {
+      return Rgb(std::get<OpenPbrMaterial>(material.model).options.film_fade_nm);
+    },
+    [](Material& material, const Rgb& value) {
+      std::get<OpenPbrMaterial>(material.model).options.film_fade_nm = value.x;
+    },
+    "Films thinner than this, in nm, fade to no film. 0: none does; a metal then jumps where its "
+    "film gets a thickness of 0 or a weight of 0, because its index is guessed."};
 
 constexpr auto kOpenPbrParameters = WithCommon(
     Number<&OpenPbrMaterial::base_weight>("base_weight", limits::kUnit, "Multiplies base_color."),
@@ -292,6 +315,43 @@ constexpr auto kOpenPbrParameters = WithCommon(
     Number<&OpenPbrMaterial::fuzz_roughness>(
         "fuzz_roughness", limits::kUnit,
         "0: thin fibres, whose sheen shows at grazing angles; 1: dust."),
+    Number<&OpenPbrMaterial::subsurface_weight>(
+        "subsurface_weight", limits::kUnit,
+        "The share of the dielectric's base that is a subsurface. It is shown as a diffuse base of "
+        "subsurface_color: light comes out where it went in.",
+        "subsurface"),
+    Color<&OpenPbrMaterial::subsurface_color>("subsurface_color", limits::kUnit,
+                                              "Diffuse colour of the subsurface."),
+    Number<&OpenPbrMaterial::subsurface_radius>("subsurface_radius", limits::kOpenPbrLength,
+                                                kNotRendered),
+    Color<&OpenPbrMaterial::subsurface_radius_scale>("subsurface_radius_scale", limits::kUnit,
+                                                     kNotRendered),
+    Number<&OpenPbrMaterial::subsurface_scatter_anisotropy>(
+        "subsurface_scatter_anisotropy", limits::kScatterAnisotropy, kNotRendered),
+    Number<&OpenPbrMaterial::transmission_weight>(
+        "transmission_weight", limits::kUnit,
+        "The share of the base through which light passes. Kept, but not rendered: the base is "
+        "opaque, which a note says.",
+        "transmission"),
+    Color<&OpenPbrMaterial::transmission_color>("transmission_color", limits::kUnit, kNotRendered),
+    Number<&OpenPbrMaterial::transmission_depth>("transmission_depth", limits::kOpenPbrLength,
+                                                 kNotRendered),
+    Color<&OpenPbrMaterial::transmission_scatter>("transmission_scatter", limits::kUnit,
+                                                  kNotRendered),
+    Number<&OpenPbrMaterial::transmission_scatter_anisotropy>(
+        "transmission_scatter_anisotropy", limits::kScatterAnisotropy, kNotRendered),
+    Number<&OpenPbrMaterial::transmission_dispersion_scale>("transmission_dispersion_scale",
+                                                            limits::kUnit, kNotRendered),
+    Number<&OpenPbrMaterial::transmission_dispersion_abbe_number>(
+        "transmission_dispersion_abbe_number", limits::kAbbeNumber, kNotRendered),
+    Number<&OpenPbrMaterial::thin_film_weight>(
+        "thin_film_weight", limits::kUnit,
+        "The fraction of the base that a thin film covers, below the coat.", "thin_film"),
+    Number<&OpenPbrMaterial::thin_film_thickness>("thin_film_thickness", limits::kFilmThicknessUm,
+                                                  "Thickness of the film in micrometres."),
+    Number<&OpenPbrMaterial::thin_film_ior>("thin_film_ior", limits::kFilmIor,
+                                            "Index of refraction of the film."),
+    kFilmFade,
     Number<&OpenPbrMaterial::geometry_tangent_deg>("geometry_tangent_deg", limits::kAngleDeg,
                                                    kTangentMeaning),
     Number<&OpenPbrMaterial::geometry_coat_tangent_deg>(
@@ -348,6 +408,8 @@ constexpr std::string_view kConventionMeaning =
     "factors; the coefficients are not reflectances.";
 constexpr std::array kPhongChoices = {
     Choice<&PhongMaterial::convention>("convention", kConventions, kConventionMeaning), kSides};
+constexpr std::array<std::string_view, 4> kIridescenceModels = {"spectral", "belcour_barla",
+                                                                "lines", "gltf"};
 constexpr std::array kMetallicRoughnessChoices = {
     Choice<&MetallicRoughnessMaterial::shadowing>("shadowing", kShadowings, kShadowingMeaning),
     Choice<&MetallicRoughnessMaterial::compensation>("compensation", kCompensations,
@@ -357,6 +419,11 @@ constexpr std::array kMetallicRoughnessChoices = {
     Choice<&MetallicRoughnessMaterial::diffuse>("diffuse", kDiffuseForms, kDiffuseMeaning),
     Choice<&MetallicRoughnessMaterial::sheen_scaling>("sheen_scaling", kSheenScalings,
                                                       kSheenScalingMeaning),
+    Choice<&MetallicRoughnessMaterial::iridescence_model>(
+        "iridescence_model", kIridescenceModels,
+        "The colours of the film. gltf: the formula of KHR_materials_iridescence. spectral: Airy's "
+        "sum of all reflections, integrated over the spectrum. belcour_barla: the fit of Belcour "
+        "and Barla 2017 to that. lines: Airy's sum at 620, 540 and 450 nm."),
     kSides};
 constexpr std::array kConductorChoices = {
     kConductorPreset,
@@ -414,6 +481,10 @@ constexpr std::array<std::string_view, 4> kPartials = {"exponent_then_lerp", "le
 constexpr std::array<std::string_view, 2> kLayerings = {"view", "reciprocal"};
 constexpr std::array<std::string_view, 3> kTintsBelow = {"untinted", "complementary",
                                                          "max_channel"};
+constexpr std::array<std::string_view, 3> kFilms = {"spectral", "belcour_barla", "lines"};
+constexpr std::array<std::string_view, 3> kFilmMetals = {"gulbrandsen_f82", "gulbrandsen_tint",
+                                                         "real_index"};
+constexpr std::array<std::string_view, 2> kFilmOutsides = {"coat", "air"};
 constexpr std::array<std::string_view, 2> kAlphaLimits = {"none", "one"};
 constexpr std::array<std::string_view, 2> kYesNo = {"no", "yes"};
 constexpr std::array kOpenPbrChoices = {
@@ -451,6 +522,20 @@ constexpr std::array kOpenPbrChoices = {
     Option<&OpenPbrOptions::specular_tint_below>(
         "specular_tint_below", kTintsBelow,
         "The reflectance by which the base gets less light where specular_color tints it."),
+    Option<&OpenPbrOptions::film>(
+        "film", kFilms,
+        "The colours of thin films. spectral: Airy's sum, integrated over the spectrum. "
+        "belcour_barla: the fit of Belcour and Barla 2017 to that, as MaterialX has it. lines: "
+        "Airy's sum at 620, 540 and 450 nm."),
+    Option<&OpenPbrOptions::film_metal>(
+        "film_metal", kFilmMetals,
+        "The complex index that a metal below a film is taken to have. gulbrandsen_f82: "
+        "Gulbrandsen "
+        "2014, of base_color and the reflectance at 81.8 degrees. gulbrandsen_tint: of base_color "
+        "and specular_color. real_index: without absorption, of base_color."),
+    Option<&OpenPbrOptions::film_outside>(
+        "film_outside", kFilmOutsides,
+        "What lies above a film. coat: the coat, where there is one. air: air, always."),
     Option<&OpenPbrOptions::base_weight_in_rho>(
         "base_weight_in_rho", kYesNo,
         "Whether base_weight multiplies the colour before light bounces between rough facets."),

@@ -42,6 +42,14 @@ enum class SheenScaling : uint8_t {
   kConserving,  // 1 - m E of the viewer; not reciprocal
 };
 
+// How the reflectance of a thin film becomes three channels (brdf/thin_film.h).
+enum class ThinFilmForm : uint8_t {
+  kSpectral,      // Airy's sum, integrated over the spectrum
+  kBelcourBarla,  // Belcour and Barla 2017, as MaterialX has it
+  kLines,         // Airy's sum at 620, 540 and 450 nm
+  kGltf,          // the formula of KHR_materials_iridescence; metallic-roughness alone
+};
+
 // How the diffuse base of a microfacet model reflects.
 enum class DiffuseForm : uint8_t { kLambert, kOrenNayar, kBurley };
 

@@ -18,6 +18,9 @@ OpenPbrOptions OptionsOf(OpenPbrRules rules) {
               .coat_partial = CoatPartial::kLerpThenExponent,
               .compensation = Compensation::kTurquin,
               .emission_through = EmissionThrough::kMaterialX,
+              .film = ThinFilmForm::kBelcourBarla,
+              .film_metal = FilmMetal::kRealIndex,
+              .film_outside = FilmOutside::kAir,
               .f82_clamp = false};
     case OpenPbrRules::kAdobe:
       return {.coat_fresnel = CoatFresnel::kIndexLerp,
@@ -28,6 +31,9 @@ OpenPbrOptions OptionsOf(OpenPbrRules rules) {
               .smith = Shadowing::kSeparable,
               .emission_through = EmissionThrough::kBaseFactors,
               .alpha_max = AlphaLimit::kNone,
+              .film = ThinFilmForm::kLines,
+              .film_metal = FilmMetal::kGulbrandsenTint,
+              .film_fade_nm = 30,
               .base_weight_in_rho = true};
   }
   return {};

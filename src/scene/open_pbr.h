@@ -86,6 +86,19 @@ enum class EmissionThrough : uint8_t {
   kMaterialX,    // coat_color (1 - F0) (1 - (1 - n.v)^5)
 };
 
+// The complex index of a metal below a film, of which F0 and the tint at 81.8 degrees are given.
+enum class FilmMetal : uint8_t {
+  kGulbrandsenF82,   // Gulbrandsen 2014 of F0 and the reflectance at 81.8 degrees
+  kGulbrandsenTint,  // the same of F0 and specular_color
+  kRealIndex,        // real, of F0 alone
+};
+
+// What lies above a film.
+enum class FilmOutside : uint8_t {
+  kCoat,  // the coat where it covers the base
+  kAir,
+};
+
 // The options that the text leaves open, each with what rules kSpec11 choose.
 struct OpenPbrOptions {
   SpecularWeightRule specular_weight_rule = SpecularWeightRule::kIndex;
@@ -100,6 +113,10 @@ struct OpenPbrOptions {
   SpecularTintBelow specular_tint_below = SpecularTintBelow::kUntinted;
   EmissionThrough emission_through = EmissionThrough::kCoatPath;
   AlphaLimit alpha_max = AlphaLimit::kOne;
+  ThinFilmForm film = ThinFilmForm::kSpectral;  // not kGltf
+  FilmMetal film_metal = FilmMetal::kGulbrandsenF82;
+  FilmOutside film_outside = FilmOutside::kCoat;
+  double film_fade_nm = 0;  // thinner films fade to none (ThinFilmShare)
   bool f82_clamp = true;
   bool base_weight_in_rho = false;
 };
@@ -130,6 +147,24 @@ struct OpenPbrMaterial {
   double fuzz_weight = 0;       // in [0, 1]
   Rgb fuzz_color{1, 1, 1};      // each in [0, 1]
   double fuzz_roughness = 0.5;  // in [0, 1]
+  // Light that comes out where it went in: a diffuse base of its own colour.
+  double subsurface_weight = 0;  // in [0, 1]
+  Rgb subsurface_color{0.8, 0.8, 0.8};
+  // What else the specification says of subsurfaces and of light that passes through: kept, and
+  // noted when a picture is made, but not rendered.
+  double subsurface_radius = 1;
+  Rgb subsurface_radius_scale{1, 0.5, 0.25};
+  double subsurface_scatter_anisotropy = 0;  // in [-1, 1]
+  double transmission_weight = 0;            // in [0, 1]
+  Rgb transmission_color{1, 1, 1};
+  double transmission_depth = 0;
+  Rgb transmission_scatter{0, 0, 0};
+  double transmission_scatter_anisotropy = 0;  // in [-1, 1]
+  double transmission_dispersion_scale = 0;    // in [0, 1]
+  double transmission_dispersion_abbe_number = 20;
+  double thin_film_weight = 0;       // in [0, 1]
+  double thin_film_thickness = 0.5;  // in micrometres
+  double thin_film_ior = 1.4;
   // The angles by which the tangents of base and coat are turned about the normal, towards the
   // bitangent: geometry_tangent and geometry_coat_tangent.
   double geometry_tangent_deg = 0, geometry_coat_tangent_deg = 0;

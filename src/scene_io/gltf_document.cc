@@ -29,20 +29,14 @@ namespace {
 constexpr uint64_t kMaxBytes = 0xffffffffu;  // the largest length in a GLB header
 
 // Extensions that nacre supports, at least in part, or that do not change the picture.
-constexpr std::array<std::string_view, 13> kKnownExtensions = {
-    "KHR_materials_anisotropy",
-    "KHR_materials_clearcoat",
-    "KHR_materials_sheen",
-    "KHR_lights_punctual",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
-    "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_specular",
-    "KHR_materials_unlit",
-    "KHR_mesh_quantization",
-    "KHR_xmp_json_ld",
-    "KHR_texture_transform",
-    "KHR_materials_variants"};
+constexpr std::array<std::string_view, 14> kKnownExtensions = {
+    "KHR_materials_anisotropy",  "KHR_materials_clearcoat",
+    "KHR_materials_iridescence", "KHR_materials_sheen",
+    "KHR_lights_punctual",       "KHR_materials_emissive_strength",
+    "KHR_materials_ior",         "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_specular",    "KHR_materials_unlit",
+    "KHR_mesh_quantization",     "KHR_xmp_json_ld",
+    "KHR_texture_transform",     "KHR_materials_variants"};
 
 bool IsKnown(const std::string& extension) {
   return std::ranges::find(kKnownExtensions, extension) != kKnownExtensions.end();

@@ -82,6 +82,7 @@ class MaterialMaker {
             TextureEncoding::kLinear);
     ApplyReflectance(&model);
     ApplyAnisotropy(&model);
+    ApplyIridescence(&model);
     ApplyCoat(&model);
     ApplySheen(&model);
     MaskByBaseColor(&result);
@@ -172,6 +173,29 @@ class MaterialMaker {
     if (result->anisotropy == 0) return;
     result->anisotropy_rotation_deg = turn;
     result->anisotropy_map = Map(*anisotropy, "anisotropyTexture", TextureEncoding::kLinear);
+  }
+
+  // KHR_materials_iridescence.
+  void ApplyIridescence(MetallicRoughnessMaterial* result) {
+    const auto film = Find("KHR_materials_iridescence");
+    if (!film) return;
+    const double weight = film->Unit("iridescenceFactor", 0);
+    const double index = film->Number("iridescenceIor", 1.3);
+    const double least = film->Number("iridescenceThicknessMinimum", 100);
+    const double most = film->Number("iridescenceThicknessMaximum", 400);
+    document_.Check(film->PlaceOf("iridescenceIor"), index, limits::kFilmIor);
+    document_.Check(film->PlaceOf("iridescenceThicknessMinimum"), least, limits::kFilmThicknessNm);
+    document_.Check(film->PlaceOf("iridescenceThicknessMaximum"), most, limits::kFilmThicknessNm);
+    if (weight == 0) return;
+    result->iridescence = weight;
+    result->iridescence_ior = index;
+    result->iridescence_thickness_nm = most;
+    if (film->Has("iridescenceTexture")) {
+      document_.Warn("iridescence textures are left out: films cover what their factor says");
+    }
+    if (film->Has("iridescenceThicknessTexture")) {
+      document_.Warn("textures of the thickness of films are left out: it is their maximum");
+    }
   }
 
   // KHR_materials_clearcoat.

@@ -40,10 +40,16 @@ AnisotropicLobe MakeAnisotropicLobe(const MicrofacetModel& model, const GgxAlpha
                                     double roughness) {
   AnisotropicLobe lobe{alpha, MakeAnisotropicAlbedoFit(model.shadowing, alpha), {}};
   if (!HasExactCurve(model.fresnel)) return lobe;
-  lobe.fresnel =
-      model.anisotropic_curves
-          ? BlendAnisotropicFresnelCurves(*model.anisotropic_curves, roughness)
-          : MakeAnisotropicFresnelFit(model.shadowing, alpha, model.albedo.curve).fresnel;
+  if (model.anisotropic_curves) {
+    for (size_t c = 0; c < model.anisotropic_curves->size(); ++c) {
+      lobe.fresnel[c] = BlendAnisotropicFresnelCurves((*model.anisotropic_curves)[c], roughness);
+    }
+  } else if (model.film) {
+    lobe.fresnel =
+        FitAnisotropicTable(model.shadowing, alpha, model.film->dielectric, model.film->bend);
+  } else {
+    lobe.fresnel[0] = MakeAnisotropicFresnelFit(model.shadowing, alpha, model.albedo.curve).fresnel;
+  }
   return lobe;
 }
 
@@ -64,15 +70,20 @@ LobeAlbedos AlbedosOfLobe(const MicrofacetModel& model, const AnisotropicLobe& l
   const auto variables = ComputeAlbedoVariables(lobe.albedo.shape, x.n, x.t, x.b);
   const double loss = AlbedoLoss(lobe.albedo, variables), one = 1 - loss;
   if (!HasExactCurve(model.fresnel)) {
-    return {one, loss, AlbedoSchlick(lobe.albedo, one, variables)};
+    return {one, loss, Rgb(AlbedoSchlick(lobe.albedo, one, variables))};
+  }
+  if (model.film) {
+    return {one, loss,
+            TableAlbedo(lobe.fresnel, lobe.albedo, model.film->dielectric, x.n, x.t, x.b)};
   }
   const double n = variables.n_dot_x;
   const double mirror = FresnelCoatedDielectric(n, 1 - n, model.albedo.curve);
-  return {one, loss, AlbedoFresnel(lobe.fresnel, one, mirror, variables)};
+  return {one, loss, Rgb(AlbedoFresnel(lobe.fresnel[0], one, mirror, variables))};
 }
 
-AlbedoAverages AveragesOf(const AnisotropicLobe& lobe) {
-  return {lobe.albedo.e_average, lobe.albedo.schlick_average, lobe.fresnel.average};
+AlbedoAverages AveragesOf(const MicrofacetModel& model, const AnisotropicLobe& lobe, int channel) {
+  const size_t curve = model.film ? static_cast<size_t>(channel) : 0;
+  return {lobe.albedo.e_average, lobe.albedo.schlick_average, lobe.fresnel[curve].average};
 }
 
 }  // namespace nacre

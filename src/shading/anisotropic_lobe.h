@@ -66,14 +66,15 @@ inline LobeCosines CosinesTo(const Basis<double>& frame, const Vec3d& x) {
 }
 
 // Directional albedos of single scattering: for F = 1, 1 minus that, and for Schlick's weight or,
-// if HasExactCurve, for the dielectric's curve.
+// if HasExactCurve, for the dielectric's curve, of which all channels are alike but under films.
 struct LobeAlbedos {
-  double one, loss, curve;
+  double one, loss;
+  Rgb curve;
 };
 LobeAlbedos AlbedosOfLobe(const MicrofacetModel& model, const AnisotropicLobe& lobe,
                           const LobeCosines& x);
 
-// The means of these over the hemisphere.
-AlbedoAverages AveragesOf(const AnisotropicLobe& lobe);
+// The means of these over the hemisphere, of a channel.
+AlbedoAverages AveragesOf(const MicrofacetModel& model, const AnisotropicLobe& lobe, int channel);
 
 }  // namespace nacre

@@ -130,13 +130,20 @@ NACRE_DERIVE MicrofacetColors DeriveDielectric(double base_color, double f0) {
 // One channel of an OpenPBR material, with what may vary by hit. `f0` is the value at normal
 // incidence of the dielectric's curve.
 struct OpenPbrChannel {
-  double base_color, metalness;
+  double base_color, metalness, subsurface_color;
   double specular_color, largest_specular_color;  // of this channel, and of all
 };
+// The colour of a diffuse base of which a subsurface is a share: its light comes out where it went
+// in.
+NACRE_DERIVE double DeriveDiffuseBase(double base_color, double subsurface_color, double weight) {
+  return base_color + (subsurface_color - base_color) * weight;
+}
 NACRE_DERIVE MicrofacetColors DeriveOpenPbr(const OpenPbrMaterial& material,
                                             const OpenPbrChannel& at, double f0) {
   const OpenPbrOptions& options = material.options;
-  const double base_color = material.base_weight * at.base_color;
+  const double of_metal = material.base_weight * at.base_color;
+  const double base_color =
+      DeriveDiffuseBase(of_metal, at.subsurface_color, material.subsurface_weight);
   const double weight = std::min(material.specular_weight, 1.0);
   const double factor = options.specular_weight_rule == SpecularWeightRule::kFactor ? weight : 1;
   const double tint_below =
@@ -148,11 +155,23 @@ NACRE_DERIVE MicrofacetColors DeriveOpenPbr(const OpenPbrMaterial& material,
           .metallic = at.metalness,
           .dielectric_f0 = f0,
           .dielectric_f90 = 1,
-          .metal_f0 = base_color,
-          .f82_slope = F82SlopeFromTint(base_color, at.specular_color),
+          .metal_f0 = of_metal,
+          .f82_slope = F82SlopeFromTint(of_metal, at.specular_color),
           .dielectric_scale = at.specular_color * factor,
           .metal_scale = weight,
           .cover = tint_below * factor};
+}
+
+// The colours under a thin film, whose reflectances at normal incidence are given. KHR_materials_
+// specular's factor, which F90 is without film, scales all that the dielectric reflects.
+NACRE_DERIVE MicrofacetColors DeriveUnderFilm(MicrofacetColors at, double dielectric_f0,
+                                              double metal_f0) {
+  at.dielectric_scale *= at.dielectric_f90;
+  at.cover *= at.dielectric_f90;
+  at.dielectric_f90 = 1;
+  at.dielectric_f0 = dielectric_f0;
+  at.metal_f0 = metal_f0;
+  return at;
 }
 
 // F90 of the mix, in a form that is exactly 1 for the default dielectric_f90 of 1.

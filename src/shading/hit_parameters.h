@@ -49,7 +49,8 @@ struct HitParameters {
   // one_average, schlick_average and dielectric_average are AlbedoAverages of each hit's lobe, for
   // Kulla and Conty's compensation. phong_scale is DerivePhongScale, for the Phong family.
   AlignedArray<double> one_average{kBatchCapacity}, schlick_average{kBatchCapacity};
-  AlignedArray<double> dielectric_average{kBatchCapacity}, phong_scale{kBatchCapacity};
+  AlignedArray<double> phong_scale{kBatchCapacity};
+  Soa3<double> dielectric_average;
   AlignedArray<double> sharp_alpha{kBatchCapacity};  // LobeWidth::sharp_alpha
   // Of anisotropic hits with alphas each; made for the first of them, as it is large.
   std::vector<AnisotropicLobe> lobes;

@@ -29,6 +29,12 @@ ModelAlbedos AlbedosOfGgx(const GgxNumbers& n, double n_dot_v) {
   return albedos;
 }
 
+// A film may reflect nothing along the normal of what it reflects elsewhere, so that its means over
+// the hemisphere stand for its curves.
+double LargestUnderFilm(const ThinFilmLobe& film, double dielectric, double metal) {
+  return LargestChannel(film.dielectric_average * dielectric + film.metal_average * metal);
+}
+
 bool HasSecondLobe(const MicrofacetModel& model) {
   return model.compensation == Compensation::kKullaConty;
 }
@@ -51,8 +57,14 @@ ModelAlbedos AlbedosOfModel(const UserModel& user, const LobeCosines&) {
 
 ModelAlbedos AlbedosOfModel(const MicrofacetModel& model, const LobeCosines& v) {
   const bool second = HasSecondLobe(model) && model.multiple > 0;
+  double f0 = LargestChannel(model.f0);
+  if (model.film) {
+    f0 =
+        LargestUnderFilm(*model.film, (1 - model.metallic) * LargestChannel(model.dielectric_scale),
+                         model.metallic * model.metal_scale);
+  }
   return AlbedosOfGgx(
-      {LargestChannel(model.diffuse) * M_PI, LargestChannel(model.f0), model.f90, model.delta,
+      {LargestChannel(model.diffuse) * M_PI, f0, model.f90, model.delta,
        second ? LargestChannel(model.f_multiple) : 0, second ? LossOf(model, v) : 0},
       v.n);
 }
@@ -73,6 +85,10 @@ ModelAlbedos AlbedosAtHit(const MicrofacetModel& model,
                      NumberOfHit(constants.not_delta, i) == 0,
                      0,
                      0};
+  if (model.film) {
+    numbers.f0 = LargestUnderFilm(*model.film, largest(constants.dielectric),
+                                  NumberOfHit(constants.metal, i));
+  }
   const double multiple = NumberOfHit(constants.multiple, i);
   if (HasSecondLobe(model) && multiple > 0) {
     numbers.f_multiple = largest(constants.f_multiple);

@@ -108,8 +108,12 @@ void PutShown(const TexturedRun& run) {
     }
   } else {
     const auto* const open_pbr = std::get_if<OpenPbrMaterial>(&material.model);
+    const Rgb subsurface = open_pbr != nullptr ? open_pbr->subsurface_color : Rgb(0);
+    const double share = open_pbr != nullptr ? open_pbr->subsurface_weight : 0;
     const double weight = open_pbr != nullptr ? open_pbr->base_weight : 1;
-    PutShown(run, [&](int c, size_t i) { return DeriveShown(weight * color[c][i]); });
+    PutShown(run, [&](int c, size_t i) {
+      return DeriveShown(DeriveDiffuseBase(weight * color[c][i], subsurface[c], share));
+    });
   }
 }
 
@@ -195,6 +199,7 @@ void PutAlbedos(const TexturedRun& run, const MicrofacetModel& model) {
   const double* const roughness = NumbersOf(run.textures, MappedNumber::kWidth);
   AlbedoFit fit = model.albedo.lobe;
   DielectricCurve curve{model.albedo.fresnel, model.albedo.average};
+  Rgb film_average = model.film ? model.film->albedo.average : Rgb(0);
   const AnisotropicLobes lobes = LobesOf(run.material, model, &run.textures);
   double last = -1;
   for (size_t i = run.begin; i < run.end; ++i) {
@@ -203,28 +208,34 @@ void PutAlbedos(const TexturedRun& run, const MicrofacetModel& model) {
       fit = averages ? MakeAlbedoFit(model.shadowing, last)
                      : BlendAlbedoCurves(model.shadowing, last);
       if (model.curves) curve = BlendDielectricCurves(*model.curves, last);
+      if (model.film && !model.anisotropic) {
+        film_average = BlendTableAlbedo(model.film->curves, last).average;
+      }
     }
     if (run.material.by_hit.width) {
       PutFit(fit, model.curves ? curve.fresnel : fit.schlick, i, &run.textures);
     }
-    const AlbedoAverages averages_here =
-        lobes.first != nullptr ? AveragesOf(lobes.At(i))
-                               : AlbedoAverages{fit.e_average, fit.schlick_average, curve.average};
-    run.textures.one_average[i] = averages_here.one;
-    run.textures.schlick_average[i] = averages_here.schlick;
-    run.textures.dielectric_average[i] = averages_here.dielectric;
+    for (int c = 0; c < 3; ++c) {
+      const double of_curve = model.film ? film_average[c] : curve.average;
+      const AlbedoAverages here =
+          lobes.first != nullptr ? AveragesOf(model, lobes.At(i), c)
+                                 : AlbedoAverages{fit.e_average, fit.schlick_average, of_curve};
+      run.textures.one_average[i] = here.one;
+      run.textures.schlick_average[i] = here.schlick;
+      ChannelOf(run.textures.dielectric_average, c)[i] = here.dielectric;
+    }
   }
 }
 
 // DeriveKullaConty of a channel at hit i.
 template <class Channel>
 struct KullaContyAt {
-  KullaContyAt(const MicrofacetModel& model, const Channel& hits, const HitParameters& t)
+  KullaContyAt(const MicrofacetModel& model, const Channel& hits, const HitParameters& t, int c)
       : form(model),
         channel(hits),
         one(t.one_average.data()),
         schlick(t.schlick_average.data()),
-        dielectric(t.dielectric_average.data()) {}
+        dielectric(ChannelOf(t.dielectric_average, c).data()) {}
   HWY_INLINE KullaContyChannel operator()(size_t i) const {
     const MicrofacetColors at = channel.Colors(i);
     return DeriveKullaConty(form, at, channel.Averages(at),
@@ -294,11 +305,11 @@ void Finish(const TexturedRun& run, const MicrofacetModel& model) {
       hits.Each([&](size_t i) { PutCurve(channel.Colors(i), c, AtHit{i}, &to); });
       if (model.fresnel == FresnelForm::kF82) {
         hits.Each([&](size_t i) { PutF82(channel.Colors(i), c, AtHit{i}, &to); });
-      } else if (model.fresnel == FresnelForm::kOpenPbr) {
+      } else if (HasCover(model.fresnel)) {
         hits.Each([&](size_t i) { PutOpenPbr(channel.Colors(i), c, AtHit{i}, &to); });
       }
       if (NeedsAverages(model)) {
-        const KullaContyAt kulla_conty_at(model, channel, run.textures);
+        const KullaContyAt kulla_conty_at(model, channel, run.textures, c);
         hits.Each([&](size_t i) { PutKullaConty(kulla_conty_at(i), c, AtHit{i}, &to); });
       }
     });
@@ -373,7 +384,7 @@ void Multiply(const LitHits& lit, const MicrofacetModel& model, int c) {
     if (!NeedsAverages(model)) {
       return Multiply(lit, model, c, channel, [&](size_t i) { return channel.Colors(i).diffuse; });
     }
-    const KullaContyAt at(model, channel, *lit.textures);
+    const KullaContyAt at(model, channel, *lit.textures, c);
     Multiply(lit, model, c, channel, [&](size_t i) { return at(i).diffuse; });
     if (model.compensation != Compensation::kKullaConty) return;
     const double light = lit.light.color[c];

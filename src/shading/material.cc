@@ -17,6 +17,7 @@
 #include "scene/material_parameters.h"
 #include "shading/derive.h"
 #include "shading/open_pbr.h"
+#include "shading/thin_film.h"
 
 namespace nacre {
 namespace {
@@ -88,20 +89,25 @@ void PrepareBase(const Microfacet& material, MicrofacetModel* model) {
   if (model->base_roughness == 0) model->base_form = DiffuseForm::kLambert;
 }
 
-AlbedoAverages AveragesOf(const MicrofacetModel& model) {
-  if (model.anisotropic) return AveragesOf(*model.anisotropic);
+AlbedoAverages AveragesOf(const MicrofacetModel& model, int channel) {
+  if (model.anisotropic) return AveragesOf(model, *model.anisotropic, channel);
   const AlbedoFit& lobe = model.albedo.lobe;
-  return {lobe.e_average, lobe.schlick_average, model.albedo.average};
+  const double dielectric = model.film ? model.film->albedo.average[channel] : model.albedo.average;
+  return {lobe.e_average, lobe.schlick_average, dielectric};
+}
+
+// Schlick's forms of shadowing are refused with anisotropy (scene/validate.cc).
+template <class Microfacet>
+bool IsAnisotropicLobe(const Microfacet& material, const MicrofacetModel& model) {
+  return IsAnisotropic(material) && (model.shadowing == Shadowing::kHeightCorrelated ||
+                                     model.shadowing == Shadowing::kSeparable);
 }
 
 // Makes the lobe anisotropic if the material is. The Fresnel curve must already be set.
 template <class Microfacet>
 void MakeAnisotropic(const Microfacet& material, double roughness, bool by_hit,
                      MicrofacetModel* model) {
-  // Schlick's forms of shadowing are refused with anisotropy (scene/validate.cc).
-  const bool is_smith =
-      model->shadowing == Shadowing::kHeightCorrelated || model->shadowing == Shadowing::kSeparable;
-  if (!IsAnisotropic(material) || !is_smith) return;
+  if (!IsAnisotropicLobe(material, *model)) return;
   const GgxAlphas<double> alpha = AlphasOf(material, roughness, AnisotropyOf(material));
   const LobeWidth width = DeriveWidth(alpha);
   PutWidth(width, Rounded(), &model->constants);
@@ -109,24 +115,57 @@ void MakeAnisotropic(const Microfacet& material, double roughness, bool by_hit,
   model->delta = width.delta;
   model->double_terms = true;
   if (by_hit && HasExactCurve(model->fresnel)) {
-    const double anisotropy = AnisotropyOf(material);
+    const auto alphas = [&, anisotropy = AnisotropyOf(material)](double r) {
+      return AlphasOf(material, r, anisotropy);
+    };
+    std::vector<AnisotropicFresnelCurves> curves;
+    if (model->film) {
+      curves = MakeAnisotropicTableCurves(model->shadowing, alphas, model->film->dielectric,
+                                          model->film->bend);
+    } else {
+      curves = {MakeAnisotropicFresnelCurves(model->shadowing, alphas, model->albedo.curve)};
+    }
     model->anisotropic_curves =
-        std::make_shared<const AnisotropicFresnelCurves>(MakeAnisotropicFresnelCurves(
-            model->shadowing, [&](double r) { return AlphasOf(material, r, anisotropy); },
-            model->albedo.curve));
+        std::make_shared<const std::vector<AnisotropicFresnelCurves>>(std::move(curves));
   }
   model->anisotropic =
       std::make_shared<const AnisotropicLobe>(MakeAnisotropicLobe(*model, alpha, roughness));
+}
+
+template <class Microfacet>
+FilmUse FilmUseOf(const Microfacet& material, const MicrofacetModel& model, double roughness,
+                  bool roughness_by_hit) {
+  return {.shadowing = model.shadowing,
+          .roughness = roughness,
+          .roughness_by_hit = roughness_by_hit,
+          .is_anisotropic = IsAnisotropicLobe(material, model)};
+}
+
+// Puts the model under a film, whose tables are to be set.
+void TakeFilm(std::shared_ptr<const ThinFilmLobe> film, MicrofacetModel* model) {
+  if (film == nullptr) return;
+  model->film = std::move(film);
+  model->fresnel = FresnelForm::kThinFilm;
+  model->dielectric_f_average = model->film->dielectric_average;
+  model->metal_f_average = model->film->metal_average;
+}
+
+// The colours of a channel below the model's film, if it has one.
+MicrofacetColors BelowFilm(const MicrofacetModel& model, const MicrofacetColors& at, int c) {
+  if (!model.film) return at;
+  const auto at_normal = [&](const FresnelTable& table) {
+    return 1 - FresnelTableLoss(table, 1.0)[static_cast<size_t>(c)];
+  };
+  return DeriveUnderFilm(at, at_normal(model.film->dielectric), at_normal(model.film->metal));
 }
 
 // Sets the model's colours; of_channel(c) are those of a channel. The averages of both Fresnel
 // curves, which Kulla and Conty's compensation needs, must already be set in the model.
 template <class OfChannel>
 void TakeColors(const OfChannel& of_channel, MicrofacetModel* model) {
-  const AlbedoAverages albedo = AveragesOf(*model);
   const bool kulla_conty = model->compensation == Compensation::kKullaConty;
   MicrofacetConstants<float>* const constants = &model->constants;
-  if (kulla_conty) model->multiple = KullaContyScale(albedo.one);
+  if (kulla_conty) model->multiple = KullaContyScale(AveragesOf(*model, 0).one);
   Rounded()(model->multiple, constants->multiple);
   Rounded()(model->base_roughness, constants->base.roughness);
   for (int c = 0; c < 3; ++c) {
@@ -147,8 +186,9 @@ void TakeColors(const OfChannel& of_channel, MicrofacetModel* model) {
     model->f0[c] = mix.f0;
     model->f90 = MixedF90(at.dielectric_f90, at.metallic);
     if (!kulla_conty && !model->reciprocal) continue;
-    const KullaContyChannel multiple = DeriveKullaConty(
-        *model, at, {model->dielectric_f_average[c], model->metal_f_average[c]}, albedo);
+    const KullaContyChannel multiple =
+        DeriveKullaConty(*model, at, {model->dielectric_f_average[c], model->metal_f_average[c]},
+                         AveragesOf(*model, c));
     PutKullaConty(multiple, c, Rounded(), constants);
     model->diffuse[c] = multiple.diffuse;
     model->dielectric_f_multiple[c] = multiple.dielectric_f_multiple;
@@ -172,14 +212,22 @@ MicrofacetModel MakeModel(const MetallicRoughnessMaterial& material) {
   const bool tinted = material.metallic > 0 && material.f82_tint != Rgb(1);
   const Rgb tint = tinted ? material.f82_tint : Rgb(1);
   model.fresnel = tinted ? FresnelForm::kF82 : FresnelForm::kSchlick;
-  MakeAnisotropic(material, material.roughness,
-                  material.metallic_roughness_map.valid() || material.anisotropy_map.valid(),
+  const bool maps_metallic = material.metallic_roughness_map.valid();
+  if (material.iridescence > 0) {
+    FilmUse use = FilmUseOf(material, model, material.roughness, maps_metallic);
+    use.dielectric = material.metallic < 1 || maps_metallic;
+    use.metal = material.metallic > 0;
+    TakeFilm(MakeThinFilmLobe(material, model.albedo.lobe, use), &model);
+  }
+  MakeAnisotropic(material, material.roughness, maps_metallic || material.anisotropy_map.valid(),
                   &model);
   const auto of_channel = [&](int c) {
-    return DeriveMetallicRoughness(material.base_color[c], material.metallic,
-                                   material.dielectric_f0[c], material.specular, tint[c]);
+    return BelowFilm(model,
+                     DeriveMetallicRoughness(material.base_color[c], material.metallic,
+                                             material.dielectric_f0[c], material.specular, tint[c]),
+                     c);
   };
-  for (int c = 0; c < 3; ++c) {
+  for (int c = 0; c < 3 && !model.film; ++c) {
     const CurveAverages average = DeriveAverages(of_channel(c));
     model.dielectric_f_average[c] = average.dielectric;
     model.metal_f_average[c] = average.metal;
@@ -258,20 +306,29 @@ MicrofacetModel MakeModel(const OpenPbrMaterial& material) {
   }
   model.is_dielectric = material.base_metalness == 0 || material.specular_weight == 0;
   model.dielectric = DielectricOf(material);
-  model.albedo = MakeDielectricAlbedoFit(lobe.shadowing, lobe.roughness, model.dielectric);
-  if (material.specular_roughness_map.valid()) {
+  const bool maps_roughness = material.specular_roughness_map.valid();
+  if (material.thin_film_weight > 0) {
+    FilmUse use = FilmUseOf(material, model, lobe.roughness, maps_roughness);
+    use.dielectric = material.base_metalness < 1 || material.base_metalness_map.valid();
+    use.metal = !model.is_dielectric;
+    TakeFilm(MakeThinFilmLobe(material, model.albedo.lobe, use), &model);
+  }
+  if (!model.film) {
+    model.albedo = MakeDielectricAlbedoFit(lobe.shadowing, lobe.roughness, model.dielectric);
+  }
+  if (maps_roughness && !model.film) {
     model.curves = std::make_shared<const DielectricCurves>(
         MakeDielectricCurves(lobe.shadowing, model.dielectric));
   }
-  MakeAnisotropic(material, lobe.roughness, material.specular_roughness_map.valid(), &model);
+  MakeAnisotropic(material, lobe.roughness, maps_roughness, &model);
   const double f0 = FresnelCoatedDielectric(1.0, 0.0, model.dielectric);
   const Rgb& tint = material.specular_color;
   const auto of_channel = [&](int c) {
-    return DeriveOpenPbr(
-        material, {material.base_color[c], material.base_metalness, tint[c], LargestChannel(tint)},
-        f0);
+    const OpenPbrChannel at{material.base_color[c], material.base_metalness,
+                            material.subsurface_color[c], tint[c], LargestChannel(tint)};
+    return BelowFilm(model, DeriveOpenPbr(material, at, f0), c);
   };
-  if (model.compensation == Compensation::kKullaConty) {
+  if (model.compensation == Compensation::kKullaConty && !model.film) {
     model.dielectric_f_average = Rgb(AverageDielectric(model.dielectric));
     model.metal_f_average = MakeRgb([&](int c) { return DeriveAverages(of_channel(c)).metal; });
   }
@@ -363,8 +420,8 @@ ShadingMaterial PrepareUncoated(const Material& material) {
           },
           [&](const OpenPbrMaterial& open_pbr) {
             prepared.model = MakeModel(open_pbr);
-            take_shown(
-                [&](int c) { return DeriveShown(open_pbr.base_weight * open_pbr.base_color[c]); });
+            const Rgb color = DiffuseColor(open_pbr);
+            take_shown([&](int c) { return DeriveShown(color[c]); });
           },
           [](const SplitMaterial&) {}},
       material.model);
@@ -454,10 +511,15 @@ namespace {
 
 LobeAlbedos AlbedosOfLobe(const MicrofacetModel& model, const LobeCosines& x) {
   if (model.anisotropic) return AlbedosOfLobe(model, *model.anisotropic, x);
-  return {.one = AlbedoOne(model.albedo.lobe, x.n),
-          .loss = AlbedoLoss(model.albedo.lobe, x.n),
-          .curve = HasExactCurve(model.fresnel) ? AlbedoFresnel(model.albedo, x.n)
-                                                : AlbedoSchlick(model.albedo.lobe, x.n)};
+  const AlbedoFit& lobe = model.albedo.lobe;
+  LobeAlbedos albedos{AlbedoOne(lobe, x.n), AlbedoLoss(lobe, x.n), {}};
+  if (model.film) {
+    albedos.curve = TableAlbedo(model.film->albedo, lobe, model.film->dielectric, x.n);
+  } else {
+    albedos.curve = Rgb(HasExactCurve(model.fresnel) ? AlbedoFresnel(model.albedo, x.n)
+                                                     : AlbedoSchlick(lobe, x.n));
+  }
+  return albedos;
 }
 
 }  // namespace
@@ -469,7 +531,8 @@ double LossOf(const MicrofacetModel& model, const LobeCosines& x) {
 
 double CoverAlbedo(const MicrofacetModel& model, const LobeCosines& v, int channel) {
   const double f0 = model.dielectric_f0[channel];
-  const auto [one, loss, curve] = AlbedosOfLobe(model, v);
+  const auto [one, loss, curves] = AlbedosOfLobe(model, v);
+  const double curve = curves[channel];
   const double single =
       HasExactCurve(model.fresnel) ? curve : f0 * (one - curve) + model.dielectric_f90 * curve;
   switch (model.compensation) {

@@ -10,6 +10,7 @@
 #endif
 
 #include "brdf/anisotropic_albedo-inl.h"
+#include "brdf/table_albedo-inl.h"
 #include "shading/range-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,21 +20,28 @@ namespace HWY_NAMESPACE {
 // The directional albedo of single scattering is F0 scale + bias.
 struct AlbedoV {
   FloatV one, loss;  // the albedo for F = 1, and 1 minus that
-  FloatV scale, bias;
+  FloatV scale;
+  RgbV bias;
 };
 
 // The albedo for a dielectric's exact Fresnel curve, of which `fit` is the model's fit, or the fit
 // of each hit.
-HWY_INLINE FloatV DielectricAlbedo(FloatTag d, const MicrofacetModel& model, const AlbedoFit&,
-                                   FloatV one, const AlbedoVariablesV<FloatV>& x) {
-  return AlbedoFresnel(d, model.albedo, one, x);
+HWY_INLINE RgbV DielectricAlbedo(FloatTag d, const MicrofacetModel& model, const AlbedoFit& fit,
+                                 FloatV one, const AlbedoVariablesV<FloatV>& x) {
+  if (model.fresnel == FresnelForm::kThinFilm) {
+    return TableAlbedo(d, model.film->albedo, fit, model.film->dielectric, one, x);
+  }
+  return GreyOf(AlbedoFresnel(d, model.albedo, one, x));
 }
-HWY_INLINE FloatV DielectricAlbedo(FloatTag d, const MicrofacetModel& model,
-                                   const AlbedoFitLanes& fit, FloatV one,
-                                   const AlbedoVariablesV<FloatV>& x) {
+HWY_INLINE RgbV DielectricAlbedo(FloatTag d, const MicrofacetModel& model,
+                                 const AlbedoFitLanes& fit, FloatV one,
+                                 const AlbedoVariablesV<FloatV>& x) {
+  if (model.fresnel == FresnelForm::kThinFilm) {
+    return TableAlbedo(d, model.film->curves, fit, model.film->dielectric, one, x);
+  }
   const FloatV one_minus_mu = hn::Sub(hn::Set(d, 1.0f), x.n_dot_v);
   const FloatV mirror = FresnelCoatedDielectric(d, x.n_dot_v, one_minus_mu, model.albedo.curve);
-  return AlbedoNearMirror(d, fit, fit.schlick, mirror, one, x);
+  return GreyOf(AlbedoNearMirror(d, fit, fit.schlick, mirror, one, x));
 }
 
 template <class Fit>
@@ -41,16 +49,17 @@ HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model, cons
                                   FloatV f90, const AlbedoVariablesV<FloatV>& x) {
   const FloatV one = AlbedoOne(d, fit, x);
   // The branch selects vectors, not structs, because GCC would pass a struct through memory.
-  FloatV scale, bias;
+  FloatV scale, red, green, blue;
   if (HasExactCurve(model.fresnel)) {
     scale = hn::Zero(d);
-    bias = DielectricAlbedo(d, model, fit, one, x);
+    const RgbV exact = DielectricAlbedo(d, model, fit, one, x);
+    red = exact.x, green = exact.y, blue = exact.z;
   } else {
     const FloatV schlick = AlbedoSchlick(d, fit, one, x);
     scale = hn::Sub(one, schlick);
-    bias = hn::Mul(f90, schlick);
+    red = green = blue = hn::Mul(f90, schlick);
   }
-  return {one, AlbedoLoss(d, fit, x), scale, bias};
+  return {one, AlbedoLoss(d, fit, x), scale, {red, green, blue}};
 }
 
 // LobeCosines of a packet of hits.
@@ -63,13 +72,16 @@ HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model,
   const auto x = ComputeAlbedoVariables(d, lobe.albedo.shape, at.n, at.t, at.b);
   const FloatV loss = AlbedoLoss(d, lobe.albedo, x);
   const FloatV one = hn::Sub(hn::Set(d, 1.0f), loss);
+  if (model.fresnel == FresnelForm::kThinFilm) {
+    return {one, loss, hn::Zero(d), TableAlbedo(d, lobe.fresnel, model.film->dielectric, one, x)};
+  }
   if (HasExactCurve(model.fresnel)) {
     const FloatV below_one = hn::Sub(hn::Set(d, 1.0f), x.n_dot_x);
     const FloatV mirror = FresnelCoatedDielectric(d, x.n_dot_x, below_one, model.albedo.curve);
-    return {one, loss, hn::Zero(d), AlbedoFresnel(d, lobe.fresnel, one, mirror, x)};
+    return {one, loss, hn::Zero(d), GreyOf(AlbedoFresnel(d, lobe.fresnel[0], one, mirror, x))};
   }
   const FloatV schlick = AlbedoSchlick(d, lobe.albedo, one, x);
-  return {one, loss, hn::Sub(one, schlick), hn::Mul(f90, schlick)};
+  return {one, loss, hn::Sub(one, schlick), GreyOf(hn::Mul(f90, schlick))};
 }
 
 // The same of hits i..., which share a lobe or have one each: the latter have a table each, whose
@@ -79,7 +91,7 @@ HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model,
                                   const LobeCosinesV& at) {
   if (lobes.stride == 0) return EvaluateAlbedo(d, model, *lobes.first, f90, at);
   constexpr size_t kMost = hn::MaxLanes(FloatTag());
-  HWY_ALIGN float n[kMost], t[kMost], b[kMost], loss[kMost], curve[kMost];
+  HWY_ALIGN float n[kMost], t[kMost], b[kMost], loss[kMost], curve[3][kMost];
   hn::Store(at.n, d, n);
   hn::Store(at.t, d, t);
   hn::Store(at.b, d, b);
@@ -87,12 +99,13 @@ HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model,
     const LobeCosines x(double{n[k]}, double{t[k]}, double{b[k]});
     const LobeAlbedos albedos = AlbedosOfLobe(model, lobes.At(i + k), x);
     loss[k] = static_cast<float>(albedos.loss);
-    curve[k] = static_cast<float>(albedos.curve);
+    for (int c = 0; c < 3; ++c) curve[c][k] = static_cast<float>(albedos.curve[c]);
   }
-  const FloatV lost = hn::Load(d, loss), of_curve = hn::Load(d, curve);
+  const FloatV lost = hn::Load(d, loss);
+  const RgbV of_curve{hn::Load(d, curve[0]), hn::Load(d, curve[1]), hn::Load(d, curve[2])};
   const FloatV one = hn::Sub(hn::Set(d, 1.0f), lost);
   if (HasExactCurve(model.fresnel)) return {one, lost, hn::Zero(d), of_curve};
-  return {one, lost, hn::Sub(one, of_curve), hn::Mul(f90, of_curve)};
+  return {one, lost, hn::Sub(one, of_curve.x), GreyOf(hn::Mul(f90, of_curve.x))};
 }
 
 // EvaluateAlbedo from n.v, or n.l, alone.
@@ -116,21 +129,21 @@ HWY_INLINE AlbedoFitLanes FitAt(const float* fits, size_t i, Shadowing shadowing
 
 // 1 minus the albedo of the whole lobe, including Kulla and Conty's lobe: the fraction of the light
 // from that direction that reaches the base or, equally, that gets from the base to that direction.
-// `cover` is a factor on the albedo (MicrofacetModel::cover).
+// `bias` is a channel of AlbedoV's, `cover` a factor on the albedo (MicrofacetModel::cover).
 // Clamped, because rounding may make it negative where nothing is left.
-HWY_INLINE FloatV KullaContyBase(FloatTag d, const AlbedoV& albedo, FloatV f0, FloatV f_multiple,
-                                 FloatV cover) {
+HWY_INLINE FloatV KullaContyBase(FloatTag d, const AlbedoV& albedo, FloatV bias, FloatV f0,
+                                 FloatV f_multiple, FloatV cover) {
   const FloatV one = hn::Set(d, 1.0f);
-  const FloatV single = hn::MulAdd(f0, albedo.scale, albedo.bias);
+  const FloatV single = hn::MulAdd(f0, albedo.scale, bias);
   const FloatV whole = hn::MulAdd(f_multiple, albedo.loss, single);
   return hn::Max(hn::NegMulAdd(cover, whole, one), hn::Zero(d));
 }
 
 // KullaContyBase, but with Turquin's scale on the lobe, where `multiple` = 1 / E - 1.
-HWY_INLINE FloatV TurquinBase(FloatTag d, const AlbedoV& albedo, FloatV f0, FloatV multiple,
-                              FloatV cover) {
+HWY_INLINE FloatV TurquinBase(FloatTag d, const AlbedoV& albedo, FloatV bias, FloatV f0,
+                              FloatV multiple, FloatV cover) {
   const FloatV one = hn::Set(d, 1.0f);
-  const FloatV single = hn::MulAdd(f0, albedo.scale, albedo.bias);
+  const FloatV single = hn::MulAdd(f0, albedo.scale, bias);
   const FloatV whole = hn::Mul(single, hn::MulAdd(f0, multiple, one));
   return hn::Max(hn::NegMulAdd(cover, whole, one), hn::Zero(d));
 }

@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "brdf/fresnel-inl.h"
+#include "brdf/table_albedo-inl.h"
 #include "shading/range-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -41,6 +42,18 @@ HWY_INLINE RgbV MetalF82(FloatTag d, const HalfIncidentV& in, FloatV v_dot_h, si
           FresnelF82(d, v_dot_h, in.one_minus_vh, f0.z, slope.z)};
 }
 
+// `scale` times the reflectance of a table, or 0.
+HWY_INLINE RgbV UnderFilm(FloatTag d, const FresnelTable& table, bool reflects, FloatV v_dot_h,
+                          const RgbV& scale) {
+  const FloatV zero = hn::Zero(d);
+  FloatV red = zero, green = zero, blue = zero;
+  if (reflects) {
+    const RgbV reflected = Mul3(TableReflectance(d, table, v_dot_h), scale);
+    red = reflected.x, green = reflected.y, blue = reflected.z;
+  }
+  return {red, green, blue};
+}
+
 template <FresnelForm kFresnel, class Number>
 HWY_INLINE auto EvaluateCurve(FloatTag d, const HalfIncidentV& in, size_t i,
                               const MicrofacetUniforms<Number>& uniforms) {
@@ -68,6 +81,12 @@ HWY_INLINE auto EvaluateCurve(FloatTag d, const HalfIncidentV& in, size_t i,
         metal = Scale(MetalF82(d, in, v_dot_h, i, uniforms), NumberAt(d, uniforms.metal, i));
       }
       return MixedCurveV{dielectric, metal};
+    } else if constexpr (kFresnel == FresnelForm::kThinFilm) {
+      const ThinFilmLobe& film = *uniforms.model.film;
+      return MixedCurveV{UnderFilm(d, film.dielectric, film.has_dielectric, v_dot_h,
+                                   RgbAt(d, uniforms.dielectric, i)),
+                         UnderFilm(d, film.metal, film.has_metal, v_dot_h,
+                                   GreyOf(NumberAt(d, uniforms.metal, i)))};
     } else if constexpr (kFresnel == FresnelForm::kDielectric) {
       const FloatV grey = FresnelDielectric(d, v_dot_h, one_minus_vh, hn::Set(d, uniforms.eta[0]));
       return FresnelCurveV{{grey, grey, grey}};

@@ -162,7 +162,7 @@ struct Microfacet {
   }
 
   HWY_INLINE FloatV CoverAt(FloatTag d, int c, size_t i) const {
-    if constexpr (kFresnel == FresnelForm::kOpenPbr) return NumberAt(d, uniforms.cover[c], i);
+    if constexpr (HasCover(kFresnel)) return NumberAt(d, uniforms.cover[c], i);
     return hn::Set(d, 1.0f);
   }
 
@@ -186,9 +186,11 @@ struct Microfacet {
     if (model.reciprocal) {
       const RgbV f0 = RgbAt(d, uniforms.dielectric_f0, i);
       const RgbV f_multiple = RgbAt(d, uniforms.dielectric_f_multiple, i);
-      *base = Mul3(*base, {KullaContyBase(d, from_light, f0.x, f_multiple.x, CoverAt(d, 0, i)),
-                           KullaContyBase(d, from_light, f0.y, f_multiple.y, CoverAt(d, 1, i)),
-                           KullaContyBase(d, from_light, f0.z, f_multiple.z, CoverAt(d, 2, i))});
+      const RgbV& bias = from_light.bias;
+      *base = Mul3(*base,
+                   {KullaContyBase(d, from_light, bias.x, f0.x, f_multiple.x, CoverAt(d, 0, i)),
+                    KullaContyBase(d, from_light, bias.y, f0.y, f_multiple.y, CoverAt(d, 1, i)),
+                    KullaContyBase(d, from_light, bias.z, f0.z, f_multiple.z, CoverAt(d, 2, i))});
     }
   }
 };
@@ -211,6 +213,8 @@ auto CurveKernel(FresnelForm form) {
       return &ShadeByCurve<FresnelForm::kDielectric, Number>;
     case FresnelForm::kOpenPbr:
       return &ShadeByCurve<FresnelForm::kOpenPbr, Number>;
+    case FresnelForm::kThinFilm:
+      return &ShadeByCurve<FresnelForm::kThinFilm, Number>;
     case FresnelForm::kConductor:
       break;
   }

@@ -2,12 +2,15 @@
 // shading/models.h: the constants of each reflection model, in double.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "brdf/albedo.h"
 #include "brdf/anisotropic_albedo.h"
 #include "brdf/ggx.h"
+#include "brdf/table_albedo.h"
 #include "scene/model_options.h"
 #include "scene/user_brdf.h"
 #include "shading/constants.h"
@@ -52,12 +55,19 @@ enum class FresnelForm : uint8_t {
   kF82,
   kDielectric,
   kConductor,
-  kOpenPbr,  // a mix of an exact dielectric, which a coat may cover, and of F82's metal
+  kOpenPbr,   // a mix of an exact dielectric, which a coat may cover, and of F82's metal
+  kThinFilm,  // a mix of a dielectric and a metal under a film, each by a table
 };
 
-// Whether the dielectric's curve is Fresnel's own, whose albedo has a fit of its own.
+// Whether the dielectric's curve is Fresnel's own or a film's, whose albedo has a fit of its own.
 inline bool HasExactCurve(FresnelForm fresnel) {
-  return fresnel == FresnelForm::kDielectric || fresnel == FresnelForm::kOpenPbr;
+  return fresnel == FresnelForm::kDielectric || fresnel == FresnelForm::kOpenPbr ||
+         fresnel == FresnelForm::kThinFilm;
+}
+
+// Whether MicrofacetModel's scales and cover are not all 1, so that kernels read them.
+constexpr bool HasCover(FresnelForm fresnel) {
+  return fresnel == FresnelForm::kOpenPbr || fresnel == FresnelForm::kThinFilm;
 }
 
 // The variant of a microfacet model.
@@ -76,7 +86,8 @@ struct MicrofacetForm {
 struct AnisotropicLobe {
   GgxAlphas<double> alpha;
   AnisotropicAlbedoFit albedo;
-  AnisotropicFresnelCurve fresnel;  // of the dielectric's curve, if HasExactCurve
+  // Of the dielectric's curve, if HasExactCurve: the first; under a film one of each channel.
+  std::array<AnisotropicFresnelCurve, 3> fresnel;
 };
 
 // The anisotropic lobes of hits: one that they share, or one each.
@@ -85,6 +96,18 @@ struct AnisotropicLobes {
   size_t stride = 0;                       // from the lobe of a hit to that of the next
 
   const AnisotropicLobe& At(size_t i) const { return first[i * stride]; }
+};
+
+// What a thin film makes of the Fresnel curves of dielectric and metal.
+struct ThinFilmLobe {
+  FresnelTable dielectric, metal;
+  bool has_dielectric = true, has_metal = true;  // whether any hit reflects anything of it
+  Rgb dielectric_average{0, 0, 0}, metal_average{0, 0, 0};  // 2 int F c dc
+  double bend = 1;                                          // FittedFresnel
+  // The albedo of the dielectric under isotropic lobes; and by all roughnesses, if hits have one
+  // each.
+  TableAlbedoFit albedo;
+  TableAlbedoCurves curves;
 };
 
 // A GGX lobe over a diffuse base: metallic-roughness, conductor and dielectric.
@@ -111,8 +134,8 @@ struct MicrofacetModel : MicrofacetForm {
   Rgb metal_f0{0, 0, 0};
   Rgb f82_slope{0, 0, 0};        // kF82: for the metal
   Rgb eta{0, 0, 0}, k{0, 0, 0};  // kDielectric (eta only) and kConductor
-  // kOpenPbr: the dielectric's curve; factors on the reflection of dielectric and metal; and the
-  // fraction of the dielectric's albedo that the base loses.
+  // kOpenPbr: the dielectric's curve. kOpenPbr and kThinFilm: factors on the reflection of
+  // dielectric and metal; and the fraction of the dielectric's albedo that the base loses.
   CoatedDielectric<double> dielectric;
   Rgb dielectric_scale{1, 1, 1};
   double metal_scale = 1;
@@ -124,6 +147,7 @@ struct MicrofacetModel : MicrofacetForm {
   // second lobe, for the dielectric and for the mix.
   Rgb dielectric_f_average{0, 0, 0}, metal_f_average{0, 0, 0};
   Rgb dielectric_f_multiple{0, 0, 0}, f_multiple{0, 0, 0};
+  std::shared_ptr<const ThinFilmLobe> film;  // kThinFilm; else null
   double multiple = 0;  // kKullaConty: 1 / (pi (1 - E_avg)); 0 where nothing is lost
   double alpha;         // of the GGX lobe; of an anisotropic one the smaller
   double schlick_k;     // SchlickK
@@ -136,8 +160,8 @@ struct MicrofacetModel : MicrofacetForm {
   std::shared_ptr<const DielectricCurves> curves;
   // Null for isotropic lobes. Where maps give hits alphas of their own, it has the maps' factors.
   std::shared_ptr<const AnisotropicLobe> anisotropic;
-  // As `curves`, of anisotropic lobes.
-  std::shared_ptr<const AnisotropicFresnelCurves> anisotropic_curves;
+  // As `curves`, of anisotropic lobes: one, or under a film one of each channel.
+  std::shared_ptr<const std::vector<AnisotropicFresnelCurves>> anisotropic_curves;
   MicrofacetConstants<float> constants;  // the numbers above, as kernels read them
 };
 

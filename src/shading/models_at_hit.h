@@ -70,12 +70,14 @@ struct OpenPbrHits {
         specular_red(NumbersOf(t, MappedNumber::kSpecularColor, 0)),
         specular_green(NumbersOf(t, MappedNumber::kSpecularColor, 1)),
         specular_blue(NumbersOf(t, MappedNumber::kSpecularColor, 2)),
+        subsurface_color(of.subsurface_color[c]),
         f0(model.dielectric_f0[c]),
         average(model.dielectric_f_average[c]) {}
 
   NACRE_DERIVE MicrofacetColors Colors(size_t i) const {
     const double largest = std::max(std::max(specular_red[i], specular_green[i]), specular_blue[i]);
-    return DeriveOpenPbr(material, {base_color[i], metalness[i], specular_color[i], largest}, f0);
+    return DeriveOpenPbr(
+        material, {base_color[i], metalness[i], subsurface_color, specular_color[i], largest}, f0);
   }
   NACRE_DERIVE CurveAverages Averages(const MicrofacetColors& at) const {
     return {average, DeriveAverages(at).metal};
@@ -84,7 +86,26 @@ struct OpenPbrHits {
   const OpenPbrMaterial& material;
   const double *base_color, *metalness, *specular_color;
   const double *specular_red, *specular_green, *specular_blue;
-  double f0, average;
+  double subsurface_color, f0, average;
+};
+
+// The same under a thin film, whose curves are the same at all hits.
+template <class Hits>
+struct HitsUnderFilm {
+  HitsUnderFilm(const Hits& under, const MicrofacetModel& model, int c)
+      : hits(under),
+        dielectric_f0(model.dielectric_f0[c]),
+        metal_f0(model.metal_f0[c]),
+        averages{model.dielectric_f_average[c], model.metal_f_average[c]} {}
+
+  NACRE_DERIVE MicrofacetColors Colors(size_t i) const {
+    return DeriveUnderFilm(hits.Colors(i), dielectric_f0, metal_f0);
+  }
+  NACRE_DERIVE CurveAverages Averages(const MicrofacetColors&) const { return averages; }
+
+  Hits hits;
+  double dielectric_f0, metal_f0;
+  CurveAverages averages;
 };
 
 // Calls use(hits) with one of these for channel c of the material, which must have a
@@ -93,10 +114,17 @@ template <class Use>
 void VisitChannel(const ShadingMaterial& material, const HitParameters& t, int c, const Use& use) {
   const auto& model = std::get<MicrofacetModel>(material.model);
   const Material& of = *material.scene_material;
+  const auto use_hits = [&](const auto& hits) {
+    if (model.film) {
+      use(HitsUnderFilm(hits, model, c));
+    } else {
+      use(hits);
+    }
+  };
   if (const auto* metallic = std::get_if<MetallicRoughnessMaterial>(&of.model)) {
-    use(MetallicRoughnessHits(*metallic, model, t, c));
+    use_hits(MetallicRoughnessHits(*metallic, model, t, c));
   } else if (const auto* open_pbr = std::get_if<OpenPbrMaterial>(&of.model)) {
-    use(OpenPbrHits(*open_pbr, model, t, c));
+    use_hits(OpenPbrHits(*open_pbr, model, t, c));
   } else if (const auto* conductor = std::get_if<ConductorMaterial>(&of.model)) {
     use(ConductorHits(*conductor, model, t, c));
   } else {

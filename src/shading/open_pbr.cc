@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "brdf/open_pbr.h"
+#include "shading/derive.h"
 
 namespace nacre {
 namespace {
@@ -64,10 +65,11 @@ void EstimateBase(const OpenPbrMaterial& m, CoatTransmission* coat) {
   const double weight = std::min(m.specular_weight, 1.0);
   const bool is_factor = m.options.specular_weight_rule == SpecularWeightRule::kFactor;
   const double reflected = is_factor ? weight * f0 : f0;
+  const Rgb diffuse = DiffuseColor(m);
   coat->base_albedo = MakeRgb([&](int c) {
-    const double rho = m.base_weight * m.base_color[c];
-    const double dielectric = m.specular_color[c] * reflected + (1 - reflected) * rho;
-    return Lerp(dielectric, weight * rho, m.base_metalness);
+    const double of_metal = m.base_weight * m.base_color[c];
+    const double dielectric = m.specular_color[c] * reflected + (1 - reflected) * diffuse[c];
+    return Lerp(dielectric, weight * of_metal, m.base_metalness);
   });
   const double unweighted = FresnelF0(Unweighted(m), 0.0);
   const double of_dielectric =
@@ -81,11 +83,12 @@ void DarkenAsAdobe(const OpenPbrMaterial& m, CoatTransmission* coat) {
   coat->of_rough_base = InternalDiffuseReflectance(average, m.coat_ior);
   const double specular = FittedAverage(DielectricOf(m).eta);
   coat->base_roughness = Lerp(1, RoughnessBelowCoat(m), Lerp(specular, 1, m.base_metalness));
+  const Rgb diffuse = DiffuseColor(m);
   coat->base_albedo = MakeRgb([&](int c) {
     const double rho = m.base_weight * m.base_color[c];
     const double metal =
         m.specular_weight * AverageF82(rho, F82SlopeFromTint(rho, m.specular_color[c]));
-    return Lerp(Lerp(rho, 1, specular), metal, m.base_metalness);
+    return Lerp(Lerp(diffuse[c], 1, specular), metal, m.base_metalness);
   });
 }
 
@@ -120,6 +123,17 @@ CoatTransmission TransmissionOf(const OpenPbrMaterial& m) {
   coat.absorbs_inside = m.options.coat_darkening_rule == CoatDarkening::kSpec12;
   EstimateBelowCoat(m, &coat);
   return coat;
+}
+
+Rgb DiffuseColor(const OpenPbrMaterial& m) {
+  return MakeRgb([&](int c) {
+    return DeriveDiffuseBase(m.base_weight * m.base_color[c], m.subsurface_color[c],
+                             m.subsurface_weight);
+  });
+}
+
+double RelativeIndexBelow(const OpenPbrMaterial& material, double above) {
+  return WeightedIndex(material.specular_ior / above, IndexWeight(material));
 }
 
 CoatedDielectric<double> DielectricOf(const OpenPbrMaterial& material) {

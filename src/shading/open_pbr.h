@@ -20,6 +20,12 @@ CoatTransmission TransmissionOf(const OpenPbrMaterial& material);
 // Sets what a coat's darkening takes the base for.
 void EstimateBelowCoat(const OpenPbrMaterial& material, CoatTransmission* coat);
 
+// The colour of the diffuse base, in which a subsurface has its share.
+Rgb DiffuseColor(const OpenPbrMaterial& material);
+
+// The index of the dielectric base over that of what lies above it, by the weight's rule.
+double RelativeIndexBelow(const OpenPbrMaterial& material, double above);
+
 // Fresnel's curve of the dielectric base, as seen through its coat.
 CoatedDielectric<double> DielectricOf(const OpenPbrMaterial& material);
 

@@ -64,7 +64,7 @@ HWY_INLINE AlbedoV AlbedoAt(FloatTag d, const MicrofacetNumbers<Number>& numbers
 struct AlbedoBlock {
   static constexpr size_t kHits = 128;  // a multiple of every target's lanes
   alignas(64) float z[kHits], n_dot_v[kHits], factor[kHits];
-  alignas(64) float one[kHits], loss[kHits], scale[kHits], bias[kHits];
+  alignas(64) float one[kHits], loss[kHits], scale[kHits], bias[3][kHits];
 
   HWY_INLINE void Store(FloatTag d, size_t at, const AlbedoVariablesV<FloatV>& x) {
     hn::Store(x.z, d, z + at);
@@ -78,11 +78,15 @@ struct AlbedoBlock {
     hn::Store(albedo.one, d, one + at);
     hn::Store(albedo.loss, d, loss + at);
     hn::Store(albedo.scale, d, scale + at);
-    hn::Store(albedo.bias, d, bias + at);
+    hn::Store(albedo.bias.x, d, bias[0] + at);
+    hn::Store(albedo.bias.y, d, bias[1] + at);
+    hn::Store(albedo.bias.z, d, bias[2] + at);
   }
   HWY_INLINE AlbedoV Albedo(FloatTag d, size_t at) const {
-    return {hn::Load(d, one + at), hn::Load(d, loss + at), hn::Load(d, scale + at),
-            hn::Load(d, bias + at)};
+    return {hn::Load(d, one + at),
+            hn::Load(d, loss + at),
+            hn::Load(d, scale + at),
+            {hn::Load(d, bias[0] + at), hn::Load(d, bias[1] + at), hn::Load(d, bias[2] + at)}};
   }
 };
 
@@ -132,6 +136,7 @@ HWY_INLINE void PrepareBlock(const MicrofacetNumbers<Number>& numbers, size_t be
   float* const base[3] = {surface->transmittance.x.data(), surface->transmittance.y.data(),
                           surface->transmittance.z.data()};
   const Compensation compensation = numbers.model.compensation;
+  const bool has_cover = HasCover(numbers.model.fresnel);
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
     const AlbedoV albedo = block.Albedo(d, i - begin);
     const FloatV multiple = Multiple(d, compensation, albedo, NumberAt(d, numbers.multiple, i));
@@ -139,14 +144,13 @@ HWY_INLINE void PrepareBlock(const MicrofacetNumbers<Number>& numbers, size_t be
     if constexpr (!kScaled) continue;
     for (int c = 0; c < 3; ++c) {
       const FloatV f0 = NumberAt(d, numbers.dielectric_f0[c], i);
-      const FloatV cover = numbers.model.fresnel == FresnelForm::kOpenPbr
-                               ? NumberAt(d, numbers.cover[c], i)
-                               : hn::Set(d, 1.0f);
+      const FloatV bias = hn::Load(d, block.bias[c] + (i - begin));
+      const FloatV cover = has_cover ? NumberAt(d, numbers.cover[c], i) : hn::Set(d, 1.0f);
       const FloatV left =
           compensation == Compensation::kKullaConty
-              ? KullaContyBase(d, albedo, f0, NumberAt(d, numbers.dielectric_f_multiple[c], i),
-                               cover)
-              : TurquinBase(d, albedo, f0, multiple, cover);
+              ? KullaContyBase(d, albedo, bias, f0,
+                               NumberAt(d, numbers.dielectric_f_multiple[c], i), cover)
+              : TurquinBase(d, albedo, bias, f0, multiple, cover);
       StoreLanes(d, end - i, left, base[c] + i);
     }
   }

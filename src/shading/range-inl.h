@@ -23,6 +23,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using RgbV = Vec3V<FloatV>;
 
+HWY_INLINE RgbV GreyOf(FloatV value) { return {value, value, value}; }
+
 HWY_INLINE RgbV SetRgb(FloatTag d, const float (&rgb)[3]) {
   return {hn::Set(d, rgb[0]), hn::Set(d, rgb[1]), hn::Set(d, rgb[2])};
 }

@@ -78,6 +78,13 @@ FresnelShares SharesOf(const MicrofacetModel& model, double v_dot_h, double one_
       return {.dielectric = FresnelDielectric(v_dot_h, one_minus_vh, model.eta[c])};
     case FresnelForm::kConductor:
       return {.metal = FresnelConductor(v_dot_h, one_minus_vh, model.eta[c], model.k[c])};
+    case FresnelForm::kThinFilm: {
+      const auto reflected = [&](const FresnelTable& table) {
+        return 1 - FresnelTableLoss(table, v_dot_h)[static_cast<size_t>(c)];
+      };
+      return {(1 - metallic) * model.dielectric_scale[c] * reflected(model.film->dielectric),
+              metallic * model.metal_scale * reflected(model.film->metal)};
+    }
     case FresnelForm::kOpenPbr:
       return {(1 - metallic) * model.dielectric_scale[c] *
                   FresnelCoatedDielectric(v_dot_h, one_minus_vh, model.dielectric),

@@ -158,7 +158,7 @@ Rgb ShareOfModel(const MicrofacetModel& model, ShareOf what, double cosine) {
     const auto same = [&](const Rgb& value) { return c > 0 && value[c] == value[c - 1]; };
     if (same(model.dielectric_f0) && same(model.metal_f0) && same(model.diffuse) &&
         same(model.eta) && same(model.k) && same(model.f82_slope) && same(model.base_ratio) &&
-        same(model.dielectric_scale) && same(model.cover)) {
+        same(model.dielectric_scale) && same(model.cover) && !model.film) {
       share[c] = share[c - 1];
       continue;
     }

@@ -47,7 +47,9 @@ double AverageOverF0(const MicrofacetModel& model, int c) {
   const MicrofacetColors at = ColorsOf(model, c);
   const double metal = at.metallic * at.metal_scale;
   const double dielectric = (1 - at.metallic) * at.dielectric_scale;
-  const CurveAverages average = DeriveAverages(at);
+  const CurveAverages average =
+      model.film ? CurveAverages{model.film->dielectric_average[c], model.film->metal_average[c]}
+                 : DeriveAverages(at);
   const double f0 = dielectric * at.dielectric_f0 + metal * at.metal_f0;
   return f0 > 0 ? (dielectric * average.dielectric + metal * average.metal) / f0 : 1;
 }

@@ -292,6 +292,11 @@ class SceneMaker:
         if r.random() < 0.3:
             material.update(sheen_color=self.color(), sheen_roughness=r.choice((0, 0.1, 0.4, 1)))
             self.maybe_map(material, sheen_color_map='colors', sheen_roughness_map='grey')
+        if r.random() < 0.2:
+            material.update(iridescence=r.choice((1, 1, 0.5)),
+                            iridescence_thickness_nm=r.choice((0, 200, 500, 2000)),
+                            iridescence_ior=r.choice((1, 1.3, 2)),
+                            iridescence_model=r.choice(('gltf', 'spectral', 'lines')))
 
     def open_pbr(self, material):
         r = self.random
@@ -307,13 +312,18 @@ class SceneMaker:
             material.update(specular_roughness_anisotropy=r.choice((0.3, 0.9, 1)),
                             geometry_tangent_deg=r.uniform(-180, 180))
         if r.random() < 0.4:
-            material.update(coat_roughness_anisotropy=r.choice((0, 0, 0.9)), coat_weight=r.choice((1, 1, 0.5)), coat_color=self.color(),
+            material.update(coat_weight=r.choice((1, 1, 0.5)), coat_color=self.color(),
+                            coat_roughness_anisotropy=r.choice((0, 0, 0.9)),
                             coat_ior=r.choice((1, 1.3, 1.6, 2)),
                             coat_roughness=r.choice(roughness))
         if r.random() < 0.3:
             material.update(fuzz_weight=r.random(), fuzz_color=self.color(),
                             fuzz_roughness=r.choice((0, 0.1, 0.4, 1)))
             self.maybe_map(material, fuzz_color_map='colors', fuzz_roughness_map='grey')
+        if r.random() < 0.3:
+            material.update(thin_film_weight=r.choice((1, 1, 0.5)),
+                            thin_film_thickness=r.choice((0, 0.2, 0.5, 2)),
+                            thin_film_ior=r.choice((1, 1.4, 2)))
 
     # Punctual lights are the most frequent: of theirs there are the most forms of kernels.
     def lights(self):

@@ -454,6 +454,36 @@ TEST_CASE("anisotropy, with its image") {
   CHECK(!isotropic.anisotropy_map.valid());
 }
 
+TEST_CASE("iridescence") {
+  GltfFile file = MakeTexturedSquare();
+  Json& extension = file.json["materials"][0]["extensions"]["KHR_materials_iridescence"];
+  extension = {{"iridescenceFactor", 0.6}, {"iridescenceThicknessMaximum", 350}};
+  const MetallicRoughnessMaterial model = MaterialOf(LoadFile(file));
+  CHECK(model.iridescence == 0.6);
+  CHECK(model.iridescence_ior == 1.3);  // the extension's default
+  CHECK(model.iridescence_thickness_nm == 350);
+  CHECK(model.iridescence_model == ThinFilmForm::kGltf);
+  const auto refused = [&](const char* member, const Json& value) {
+    GltfFile bad = file;
+    bad.json["materials"][0]["extensions"]["KHR_materials_iridescence"][member] = value;
+    try {
+      LoadFile(bad);
+    } catch (const Error& error) {
+      return error.faults().front().where.find(member) != std::string::npos;
+    }
+    return false;
+  };
+  CHECK(refused("iridescenceFactor", 1.5));
+  CHECK(refused("iridescenceIor", 0.5));
+  CHECK(refused("iridescenceThicknessMinimum", -1));
+  CHECK(refused("iridescenceThicknessMaximum", "thick"));
+  extension["iridescenceThicknessTexture"] = {{"index", 0}};
+  std::vector<std::string> warnings;
+  LoadFile(file, &warnings);
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0].find("thickness") != std::string::npos);
+}
+
 // One row of texels as a PNG file: 8 or 16 bits a channel, of a colour type of PNG (0 grey, 2 RGB,
 // 4 grey and alpha, 6 RGB and alpha).
 std::vector<unsigned char> RowPng(uint8_t bits, uint8_t type, const std::vector<uint16_t>& values) {

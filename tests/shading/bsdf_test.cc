@@ -183,6 +183,50 @@ void AddOpenPbr(std::vector<Stack>* stacks) {
   Add("open_pbr, smooth coat", smooth, stacks);
 }
 
+// Thin films on dielectrics, metals and mixes, bare, below coats and fuzz, and on anisotropic
+// lobes.
+void AddFilms(std::vector<Stack>* stacks) {
+  for (const Compensation compensation :
+       {Compensation::kNone, Compensation::kTurquin, Compensation::kKullaConty}) {
+    for (const double metallic : {0.0, 0.4, 1.0}) {
+      MetallicRoughnessMaterial film = Paint();
+      film.metallic = metallic;
+      film.compensation = compensation;
+      film.specular = 0.9;
+      film.iridescence = 0.8;
+      film.iridescence_model = static_cast<ThinFilmForm>(static_cast<int>(compensation) + 1);
+      Add("film " + std::to_string(static_cast<int>(compensation)) + ", metallic " +
+              std::to_string(metallic),
+          film, stacks);
+      stacks->back().reciprocal = compensation == Compensation::kKullaConty ||
+                                  (compensation == Compensation::kNone && metallic == 1);
+    }
+  }
+  for (const OpenPbrRules rules :
+       {OpenPbrRules::kSpec11, OpenPbrRules::kMaterialX, OpenPbrRules::kAdobe}) {
+    const std::string name = std::to_string(static_cast<int>(rules));
+    OpenPbrMaterial film{.options = OptionsOf(rules)};
+    film.base_color = Rgb(0.7, 0.3, 0.1);
+    film.base_metalness = 0.4;
+    film.specular_color = Rgb(0.9, 0.95, 1);
+    film.specular_roughness = 0.6;
+    film.thin_film_weight = 0.9;
+    film.thin_film_thickness = 0.35;
+    Add("open_pbr, film " + name, film, stacks);
+    stacks->back().reciprocal = film.options.layering == Layering::kReciprocal;
+    film.coat_weight = 0.7;
+    film.coat_color = Rgb(0.9, 0.5, 0.2);
+    film.coat_roughness = 0.4;
+    film.fuzz_weight = 0.3;
+    Add("open_pbr, film, coat and fuzz " + name, film, stacks);
+    film.specular_roughness_anisotropy = 0.6;
+    film.coat_roughness_anisotropy = 0.4;
+    Add("open_pbr, anisotropic film " + name, film, stacks);
+    stacks->back().tangents = {Vec3d(std::cos(1.9), std::sin(1.9), 0),
+                               Vec3d(std::cos(-0.3), std::sin(-0.3), 0)};
+  }
+}
+
 // Every kind of lobe, by itself and over and under others. Lobes are wide enough for quadrature.
 std::vector<Stack> Stacks() {
   std::vector<Stack> stacks;
@@ -229,6 +273,7 @@ std::vector<Stack> Stacks() {
   AddMapped(&stacks);
   AddOpenPbr(&stacks);
   AddAnisotropic(&stacks);
+  AddFilms(&stacks);
   paint.roughness = 0.6;
   paint.coat_normal_map.texture = TextureId{0};
   Add("two tinted coats with normals of their own", paint, &stacks);

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shading/thin_film.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "brdf/fresnel.h"
+#include "brdf/open_pbr.h"
+#include "brdf/quadrature.h"
+#include "brdf/thin_film.h"
+#include "shading/open_pbr.h"
+
+namespace nacre {
+namespace {
+
+// 1 - R of each channel at a cosine.
+using Loss = std::function<Rgb(double cosine)>;
+
+// `weight` of a film's curve, and of `filmless` what is left.
+FresnelCurve Blend(FresnelCurve curve, double weight, const Loss& filmless) {
+  if (weight >= 1) return curve;
+  return {[=, film = std::move(curve.loss)](double cosine) {
+            return film(cosine) * weight + filmless(cosine) * (1 - weight);
+          },
+          0, curve.corner};
+}
+
+Rgb ReflectedAverage(const FresnelTable& table) {
+  return MakeRgb([&](int c) {
+    return IntegrateTowardsZero(
+        [&](double mu) {
+          return 2 * mu * (1 - FresnelTableLoss(table, mu)[static_cast<size_t>(c)]);
+        },
+        20);
+  });
+}
+
+std::shared_ptr<const ThinFilmLobe> MakeLobe(const std::function<FresnelCurve()>& dielectric,
+                                             const std::function<FresnelCurve()>& metal,
+                                             double film_index, const AlbedoFit& lobe,
+                                             const FilmUse& use) {
+  auto film = std::make_shared<ThinFilmLobe>();
+  film->bend = FresnelBend(film_index);
+  film->has_dielectric = use.dielectric;
+  film->has_metal = use.metal;
+  film->metal = MakeFresnelTable(metal());
+  film->metal_average = ReflectedAverage(film->metal);
+  film->dielectric = MakeFresnelTable(dielectric());
+  film->dielectric_average = ReflectedAverage(film->dielectric);
+  if (!use.dielectric || use.is_anisotropic) return film;
+  film->albedo = MakeTableAlbedoFit(use.shadowing, use.roughness, lobe, film->dielectric);
+  if (use.roughness_by_hit) film->curves = MakeTableAlbedoCurves(use.shadowing, film->dielectric);
+  return film;
+}
+
+// --- OpenPBR. ---
+
+ThinFilmOptions FilmOptionsOf(ThinFilmForm form) {
+  switch (form) {
+    case ThinFilmForm::kBelcourBarla:
+      return {.model = ThinFilmModel::kBelcourBarla};
+    case ThinFilmForm::kLines:
+      return {.model = ThinFilmModel::kThreeLines};
+    case ThinFilmForm::kSpectral:
+    case ThinFilmForm::kGltf:
+      break;
+  }
+  return {};
+}
+
+// The index of a metal, seen from vacuum, of which F0 and the factor on the reflectance at 81.8
+// degrees are given.
+Substrate MetalBelow(FilmMetal rule, double f0, double tint) {
+  switch (rule) {
+    case FilmMetal::kGulbrandsenTint:
+      return GulbrandsenIndex(f0, tint, 0.99);
+    case FilmMetal::kRealIndex:
+      return RealIndex(f0);
+    case FilmMetal::kGulbrandsenF82:
+      break;
+  }
+  const double seventh = 1.0 / 7;
+  return GulbrandsenIndex(f0, FresnelF82(seventh, 1 - seventh, f0, F82SlopeFromTint(f0, tint)));
+}
+
+// What lies above the film, and the cosine there of light that comes from the air at a cosine.
+struct Outside {
+  double index;
+  bool refracts;  // the index is a coat's, in which light has another cosine
+};
+
+double CosineIn(const Outside& outside, double cosine) {
+  if (!outside.refracts) return cosine;
+  const double sine2 = (1 - cosine) * (1 + cosine) / (outside.index * outside.index);
+  return std::sqrt(std::max(1 - sine2, 0.0));
+}
+
+// The curve of a film of which a coat, where there is one, covers the fraction `coverage`.
+// make_curve(outside) gives that below one medium.
+template <class MakeCurve>
+FresnelCurve BelowCoat(const OpenPbrMaterial& m, const MakeCurve& make_curve) {
+  const double coverage = m.coat_weight;
+  const bool is_below = coverage > 0 && m.options.film_outside == FilmOutside::kCoat;
+  if (is_below && m.options.coat_fresnel == CoatFresnel::kIndexLerp) {
+    return make_curve(Outside{1 + (m.coat_ior - 1) * coverage, false});
+  }
+  const bool refracts = is_below && m.options.coat_fresnel == CoatFresnel::kRefractCosine;
+  if (!refracts) return make_curve(Outside{1, false});
+  const Outside coat{m.coat_ior, true};
+  const FresnelCurve covered = make_curve(coat);
+  const Loss below = [=](double cosine) { return covered.loss(CosineIn(coat, cosine)); };
+  if (coverage >= 1) return {below, 0, 0};
+  return Blend(make_curve(Outside{1, false}), 1 - coverage, below);
+}
+
+}  // namespace
+
+std::shared_ptr<const ThinFilmLobe> MakeThinFilmLobe(const OpenPbrMaterial& m,
+                                                     const AlbedoFit& lobe, const FilmUse& use) {
+  const double thickness_nm = 1000 * m.thin_film_thickness;
+  const double weight = m.thin_film_weight * ThinFilmShare(thickness_nm, m.options.film_fade_nm);
+  if (!(weight > 0)) return nullptr;
+  const ThinFilmOptions options = FilmOptionsOf(m.options.film);
+  const auto film = [&](const Outside& outside) {
+    return ThinFilm{outside.index, m.thin_film_ior, thickness_nm};
+  };
+  const auto dielectric = [&] {
+    const CoatedDielectric<double> bare = DielectricOf(m);
+    const bool has_ratio = m.coat_weight > 0 && m.options.coat_fresnel == CoatFresnel::kInvertRatio;
+    const FresnelCurve curve = BelowCoat(m, [&](const Outside& outside) {
+      // MaterialX takes the ratio of base and coat for the index below a film in air.
+      const double below =
+          has_ratio ? bare.eta : outside.index * RelativeIndexBelow(m, outside.index);
+      return ThinFilmCurve(film(outside), SameSubstrate({below}), options);
+    });
+    return Blend(curve, weight, [=](double cosine) {
+      return Rgb(1 - FresnelCoatedDielectric(cosine, 1 - cosine, bare));
+    });
+  };
+  const auto metal = [&] {
+    RgbSubstrate below;
+    Rgb f0, slope;
+    for (int c = 0; c < 3; ++c) {
+      f0[c] = m.base_weight * m.base_color[c];
+      slope[c] = F82SlopeFromTint(f0[c], m.specular_color[c]);
+      below[static_cast<size_t>(c)] = MetalBelow(m.options.film_metal, f0[c], m.specular_color[c]);
+    }
+    const FresnelCurve curve = BelowCoat(
+        m, [&](const Outside& outside) { return ThinFilmCurve(film(outside), below, options); });
+    return Blend(curve, weight, [=](double cosine) {
+      return MakeRgb([&](int c) { return 1 - FresnelF82(cosine, 1 - cosine, f0[c], slope[c]); });
+    });
+  };
+  return MakeLobe(dielectric, metal, m.thin_film_ior, lobe, use);
+}
+
+std::shared_ptr<const ThinFilmLobe> MakeThinFilmLobe(const MetallicRoughnessMaterial& m,
+                                                     const AlbedoFit& lobe, const FilmUse& use) {
+  if (!(m.iridescence > 0)) return nullptr;
+  const ThinFilm film{1, m.iridescence_ior, m.iridescence_thickness_nm};
+  // A film over what reflects `f0` at normal incidence and by Schlick's curve, or by F82's,
+  // without.
+  const auto curve = [&](const Rgb& f0, const Rgb& slope, const auto& index_of) {
+    FresnelCurve with;
+    if (m.iridescence_model == ThinFilmForm::kGltf) {
+      with.loss = [=](double cosine) { return Rgb(1) - GltfIridescence(film, f0, cosine); };
+    } else {
+      RgbSubstrate below;
+      for (int c = 0; c < 3; ++c) below[static_cast<size_t>(c)] = index_of(c);
+      with = ThinFilmCurve(film, below, FilmOptionsOf(m.iridescence_model));
+    }
+    return Blend(with, m.iridescence, [=](double cosine) {
+      return MakeRgb([&](int c) { return 1 - FresnelF82(cosine, 1 - cosine, f0[c], slope[c]); });
+    });
+  };
+  const auto dielectric = [&] {
+    return curve(m.dielectric_f0, Rgb(0), [&](int c) { return RealIndex(m.dielectric_f0[c]); });
+  };
+  const auto metal = [&] {
+    const Rgb slope =
+        MakeRgb([&](int c) { return F82SlopeFromTint(m.base_color[c], m.f82_tint[c]); });
+    return curve(m.base_color, slope, [&](int c) {
+      return MetalBelow(FilmMetal::kGulbrandsenF82, m.base_color[c], m.f82_tint[c]);
+    });
+  };
+  return MakeLobe(dielectric, metal, m.iridescence_ior, lobe, use);
+}
+
+}  // namespace nacre
