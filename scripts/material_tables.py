@@ -68,8 +68,8 @@ def tables(schema):
     models = {}  # by name: title and rows
     for option in schema["$defs"]["material"]["oneOf"]:
         model = schema["$defs"][option["$ref"].rpartition("/")[2]]
-        name = model["properties"]["model"]["const"]
-        if name != "split":  # which has no parameters
+        name = model["properties"].get("model", {}).get("const")
+        if name not in ("split", None):  # a split has no parameters, a file no model of its own
             models[name] = model["title"], rows_of(schema, model)
     every = [rows for _, rows in models.values()]
     common = [row for row in every[0] if all(row in rows for rows in every)]

@@ -10,6 +10,7 @@
 
 #include "cli/commands.h"
 #include "cli/difference_page.h"
+#include "cli/given_material.h"
 #include "cli/outputs.h"
 #include "cli/print.h"
 #include "cli/usage_error.h"
@@ -129,7 +130,9 @@ void RunConvert(const ConvertArguments& arguments, const CLI::App& command) {
   Json source = ParseMaterialText("MATERIAL", arguments.material);
   const std::string label = MaterialLabel(source);
   source.erase("name");
-  const Material original = LoadMaterialText(JsonText(source), "MATERIAL");
+  LoadOptions options = OptionsForGiven(source);
+  if (!outputs.empty()) options.on_warning = nullptr;  // the page's scene will tell
+  const Material original = LoadMaterialText(JsonText(source), "MATERIAL", options);
   const MaterialFit fit = FitMaterial(original, arguments.to);
   const Json difference = DrawPage(arguments, source, label, original, fit, outputs);
   DrawCurves(arguments, original, label, fit);
@@ -155,7 +158,9 @@ void AddConvertCommand(CLI::App* app, int*) {
   CLI::App* command = app->add_subcommand(
       "convert", "Find the nearest material of another model, Phong to PBR and back");
   const auto arguments = std::make_shared<ConvertArguments>();
-  command->add_option("MATERIAL", arguments->material, "A model's name, or a material as JSON")
+  command
+      ->add_option("MATERIAL", arguments->material,
+                   "A model's name, a material as JSON, or FILE.mtlx#NAME of a MaterialX document")
       ->required();
   std::vector<std::string> targets(FitTargets().begin(), FitTargets().end());
   command

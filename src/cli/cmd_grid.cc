@@ -214,7 +214,8 @@ void AddGridCommand(CLI::App* app, int*) {
       ->type_name("AXIS");
   command
       ->add_option("--material", arguments->material,
-                   "Material whose parameters vary: a model's name, or a material as JSON")
+                   "Material whose parameters vary: a model's name, a material as JSON, or a "
+                   "MaterialX document, FILE.mtlx or FILE.mtlx#NAME")
       ->capture_default_str();
   AddSheetOptions(command, &arguments->sheet, &arguments->options);
   command->footer(

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "cli/commands.h"
 #include "cli/difference_page.h"
+#include "cli/given_material.h"
 #include "cli/print.h"
 #include "cli/render_job.h"
 #include "scene_io/load_scene.h"
@@ -41,7 +42,9 @@ Side ReadSide(const std::string& option, const std::string& text) {
   side.json = ParseMaterialText(option, text);
   side.label = MaterialLabel(side.json);
   side.json.erase("name");
-  const Material material = LoadMaterialText(JsonText(side.json), option);
+  LoadOptions options = OptionsForGiven(side.json);
+  options.on_warning = nullptr;  // the sheet's scene, which has the material, too, will tell
+  const Material material = LoadMaterialText(JsonText(side.json), option, options);
   if (std::holds_alternative<SplitMaterial>(material.model)) {
     throw Error(ExitCode::kBadInput, option, "a split is not one material", "give --a and --b");
   }
@@ -128,9 +131,10 @@ void RunPair(const PairArguments& arguments, const CLI::App& command) {
 void AddPairCommand(CLI::App* app, int*) {
   CLI::App* command = app->add_subcommand("pair", "Render two materials under the same light");
   const auto arguments = std::make_shared<PairArguments>();
-  command->add_option("--a", arguments->a, "Left material: a model's name or JSON")
+  command->add_option("--a", arguments->a, "Left material: a model's name, JSON, or FILE.mtlx#NAME")
       ->capture_default_str();
-  command->add_option("--b", arguments->b, "Right material: a model's name or JSON")
+  command
+      ->add_option("--b", arguments->b, "Right material: a model's name, JSON, or FILE.mtlx#NAME")
       ->capture_default_str();
   command
       ->add_option("--layout", arguments->layout,

@@ -237,8 +237,9 @@ void AddPlotOptions(CLI::App* command, PlotArguments* a) {
                    "Scene or model whose materials and lights are drawn: all, or those named")
       ->type_name("FILE");
   command
-      ->add_option("--material", a->inputs.materials,
-                   "A material of the scene by name, a model by name, or JSON; repeatable")
+      ->add_option(
+          "--material", a->inputs.materials,
+          "A material of the scene by name, a model by name, JSON, or FILE.mtlx#NAME; repeatable")
       ->allow_extra_args(false);
   command
       ->add_option("--light", a->inputs.lights,

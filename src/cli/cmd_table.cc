@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "cli/commands.h"
+#include "cli/given_material.h"
 #include "cli/help_text.h"
 #include "cli/outputs.h"
 #include "cli/print.h"
@@ -64,7 +65,7 @@ Material ReadMaterial(const TableArguments& a, const std::vector<std::string>& o
   } else {
     Json json = ParseMaterialText("MATERIAL", a.material);
     json.erase("name");
-    material = LoadMaterialText(JsonText(json), "MATERIAL");
+    material = LoadGivenMaterial(json, "MATERIAL");
   }
   if (!std::holds_alternative<SplitMaterial>(material.model)) return material;
   throw Error(ExitCode::kBadInput, a.material, "a split has no reflection model of its own",
@@ -198,8 +199,10 @@ void AddTableCommand(CLI::App* app, int* exit_code) {
       "table", "Write a material's BRDF as a table, or tell what is wrong with another program's");
   const auto a = std::make_shared<TableArguments>();
   command
-      ->add_option("MATERIAL", a->material,
-                   "A model's name, a material as JSON, or with --scene a name in it")
+      ->add_option(
+          "MATERIAL", a->material,
+          "A model's name, a material as JSON, FILE.mtlx#NAME of a MaterialX document, or with "
+          "--scene a name in it")
       ->required();
   command
       ->add_option("-o,--output", a->outputs,

@@ -8,8 +8,10 @@
 #include <fmt/ranges.h>
 
 #include "base/error.h"
+#include "cli/given_material.h"
 #include "cli/outputs.h"
 #include "scene_io/load_scene.h"
+#include "scene_io/materialx.h"
 #include "scene_io/sheet_axis.h"
 
 namespace nacre {
@@ -42,7 +44,7 @@ Json ParseLight(const std::string& option, const std::string& text) {
 // Reads an object of the command line as an item of a scene file; `key` names the part.
 Scene SceneOf(const char* key, const Json& object) {
   const Json scene = {{"nacre", 1}, {key, {{"given", object}}}};
-  return LoadSceneText(JsonText(scene), "nacre plot", ".", {});
+  return LoadSceneText(JsonText(scene), "nacre plot", ".", OptionsForGiven(object));
 }
 
 std::optional<Scene> LoadInputScene(const PlotInputs& inputs) {
@@ -90,15 +92,19 @@ std::vector<std::pair<std::string, Item>> Collect(const PlotInputs& inputs, cons
     return found;
   }
   for (const PlotItem& item : wanted) {
-    if (scene && !IsJson(item.text)) {
+    if (scene && !IsJson(item.text) && !IsMaterialXReference(item.text)) {
       const std::vector<Item>& all = (*scene).*items;
       const auto at = std::ranges::find(all, item.text, &Item::name);
       if (at == all.end()) FailUnknown(inputs, what, item.text, NamesOf(all));
       found.emplace_back(item.text, *at);
       continue;
     }
-    const Json object = parse(item.text);
-    const std::string label = item.label.empty() ? LabelOf(object, kind) : item.label;
+    Json object = parse(item.text);
+    const bool is_file = IsMaterialXReference(item.text);
+    const std::string label = !item.label.empty() ? item.label
+                              : is_file           ? MaterialLabel(object)
+                                                  : LabelOf(object, kind);
+    if (is_file) object.erase("name");
     const Scene own = SceneOf(key, object);
     found.emplace_back(label, (own.*items).front());
   }

@@ -5,6 +5,7 @@
 #include "cli/help_text.h"
 #include "color/display.h"
 #include "color/luminance.h"
+#include "scene_io/materialx.h"
 
 namespace nacre {
 
@@ -100,6 +101,13 @@ SheetRequest MakeSheetRequest(const SheetOptions& options, const RenderOptions& 
 Scene LoadSheet(const std::string& text, const std::string& command, const SheetOptions& options,
                 const SheetPage& page, LoadOptions load) {
   load.trusted_files = {options.lighting.environment};
+  // Materials come from the command line; lights may be somebody else's file.
+  const Json scene_json = TryParseJson(text).value_or(Json::object());
+  for (const char* const part : {"materials", "shapes"}) {
+    for (auto& file : MaterialXFilesIn(scene_json.value(part, Json()))) {
+      load.trusted_files.push_back(std::move(file));
+    }
+  }
   if (page.width > 65536 || page.height > 65536) {
     throw Error(ExitCode::kUsage, "--sphere-size", "the picture would be larger than 65536 pixels",
                 "give smaller spheres");

@@ -36,8 +36,8 @@ std::string SheetTitle(const SheetOptions& options, const std::string& by_defaul
 SheetRequest MakeSheetRequest(const SheetOptions& options, const RenderOptions& render,
                               const Lighting& lighting, int rows, int columns);
 
-// Loads the scene of a sheet. The image of --environment may be anywhere; files that --lights names
-// must be below the working folder unless the options allow more.
+// Loads the scene of a sheet. The image of --environment and MaterialX documents may be anywhere;
+// files that --lights names must be below the working folder unless the options allow more.
 Scene LoadSheet(const std::string& text, const std::string& command, const SheetOptions& options,
                 const SheetPage& page, LoadOptions load);
 

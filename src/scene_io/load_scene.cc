@@ -54,8 +54,8 @@ void RefuseOtherModels(const std::filesystem::path& path) {
       Format{".pbrt", "a pbrt"}, Format{".xml", "an XML"}};
   constexpr std::array kOthers = {
       Other{".mtl", "is a material library", "name the .obj file that refers to it"},
-      Other{".mtlx", "is a MaterialX document, which is not read",
-            "write its materials into a scene, or export a model with them as glTF"},
+      Other{".mtlx", "is a MaterialX document, which has materials and no shapes",
+            "`nacre grid --material` shows one; scenes name them by {\"file\": \"x.mtlx\"}"},
       Other{".vrm", "is a VRM model, which is a GLB file of another name", "rename it to .glb"},
       Other{".bin", "is the buffer of a glTF file", "name the .gltf file that refers to it"},
       Other{".zip", "is an archive", "unpack it, and name the .gltf, .glb or .obj file in it"},
@@ -97,9 +97,10 @@ Scene LoadSceneText(std::string_view text, const std::string& file,
   return ReadSceneSource({text, file, folder}, options);
 }
 
-Material LoadMaterialText(std::string_view json, const std::string& file) {
+Material LoadMaterialText(std::string_view json, const std::string& file,
+                          const LoadOptions& options) {
   const std::string scene = fmt::format(R"({{"nacre": 1, "materials": {{"material": {}}}}})", json);
-  Material material = LoadSceneText(scene, file, ".").materials.front();
+  Material material = LoadSceneText(scene, file, ".", options).materials.front();
   material.name.clear();
   return material;
 }

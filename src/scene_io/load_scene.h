@@ -33,6 +33,7 @@ Scene LoadSceneText(std::string_view text, const std::string& file,
 
 // Reads a material from JSON text, an object as in scene files. The material has no name. Throws
 // Error as LoadSceneText does, located in `file`.
-Material LoadMaterialText(std::string_view json, const std::string& file);
+Material LoadMaterialText(std::string_view json, const std::string& file,
+                          const LoadOptions& options = {});
 
 }  // namespace nacre

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // scene_io/read_materials.cc: the part "materials", and materials wherever a shape names one.
+#include <algorithm>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "scene/material_parameters.h"
+#include "scene_io/materialx.h"
 #include "scene_io/readers.h"
 
 namespace nacre {
@@ -51,8 +54,69 @@ SplitMaterial ReadSplit(JsonObject* object, SceneContext* context) {
   return split;
 }
 
+// The material of a MaterialX document, read once for a scene; nullptr, and a fault is added, if it
+// cannot be read. *folder is where the files that it names are looked for.
+const MaterialXMaterial* FindMaterialX(const JsonValue& value, const std::string& file,
+                                       const std::string& name, SceneContext* context,
+                                       std::filesystem::path* folder) {
+  const auto known = context->materialx.find({file, name});
+  try {
+    const std::filesystem::path path = ResolveReference(context->folder, file, context->references);
+    const auto& trusted = context->references.trusted;
+    // What the user has chosen himself may be anywhere, but names files of its own folder.
+    const bool is_trusted = std::find(trusted.begin(), trusted.end(), path) != trusted.end();
+    *folder =
+        is_trusted ? context->folder / std::filesystem::path(file).parent_path() : context->folder;
+    if (known != context->materialx.end()) return &known->second;
+    MaterialXMaterial material = ReadMaterialX(
+        *folder, is_trusted ? path.filename().string() : file, name, context->references);
+    if (context->on_warning) {
+      for (const std::string& note : material.notes) context->on_warning(note);
+    }
+    return &context->materialx.emplace(std::pair(file, name), std::move(material)).first->second;
+  } catch (const Error& error) {
+    AddFileFaults(error, value);
+    return nullptr;
+  }
+}
+
+void ReadMaterial(const JsonValue& value, SceneContext* context, Material* material);
+
+// Reads {"file": "x.mtlx", "material": "gold"}, whose other members change what the document says.
+void ReadMaterialOfFile(const JsonValue& value, SceneContext* context, Material* material) {
+  std::string file, name;
+  {
+    JsonObject object(value);
+    if (!object.Text("file", &file)) return;
+    if (object.Find("material") && !object.Text("material", &name)) return;
+  }
+  const JsonValue place{value.json.at("file"), value.path.Member("file"), value.faults};
+  if (!IsMaterialXFile(file)) {
+    return place.AddFault("is no MaterialX document", "a file of the extension .mtlx");
+  }
+  std::filesystem::path folder;
+  const MaterialXMaterial* const read = FindMaterialX(place, file, name, context, &folder);
+  if (read == nullptr) return;
+  ReadTexturesOf(*read, folder, place, context);
+  Json whole = read->material;
+  for (const auto& [key, member] : value.json.items()) {
+    if (key == "file" || key == "material") continue;
+    if (key == "model" && member != whole["model"]) {
+      const JsonValue model{member, value.path.Member(key), value.faults};
+      return model.AddFault(fmt::format("the document's material is of the model {}",
+                                        whole["model"].get<std::string>()),
+                            "leave \"model\" out");
+    }
+    whole[key] = member;
+  }
+  ReadMaterial({whole, value.path, value.faults}, context, material);
+}
+
 // Reads everything but the name.
 void ReadMaterial(const JsonValue& value, SceneContext* context, Material* material) {
+  if (value.json.is_object() && value.json.contains("file")) {
+    return ReadMaterialOfFile(value, context, material);
+  }
   JsonObject object(value);
   std::vector<std::string_view> names;
   for (const MaterialModel& model : MaterialModels()) names.push_back(model.name);
@@ -125,7 +189,7 @@ Material ReadNamedMaterial(const JsonValue& value, const std::string& name, Scen
 }
 
 void ChangeMaterial(const JsonValue& value, SceneContext* context, Material* material) {
-  if (value.json.is_object() && value.json.contains("model")) {
+  if (value.json.is_object() && (value.json.contains("model") || value.json.contains("file"))) {
     *material = ReadNamedMaterial(value, std::string(material->name), context);
     return;
   }

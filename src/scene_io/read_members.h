@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -24,7 +25,8 @@ namespace nacre {
 struct TextureSource {
   Texture texture;  // without its image
   std::string file, part;
-  bool is_readable = false;  // false: its faults have been reported
+  std::filesystem::path folder;  // in which the file is looked for
+  bool is_readable = false;      // false: its faults have been reported
   std::optional<TextureEncoding> encoding;
   std::array<TextureId, 3> decoded{};  // indexed by encoding
 };

@@ -98,7 +98,7 @@ TextureReading ReadingOf(const TextureSource& source, MapUse use, const SceneCon
 // The image of the texture in this reading, which is added on first use.
 ImageId FindImage(const TextureSource& source, const TextureReading& reading,
                   SceneContext* context) {
-  const auto path = ResolveReference(context->folder, source.file, context->references);
+  const auto path = ResolveReference(source.folder, source.file, context->references);
   const std::string key = reading.Key(path);
   const auto known = context->images.find(key);
   if (known != context->images.end()) return known->second;
@@ -134,15 +134,18 @@ TextureId AddTexture(TextureSource* source, const TextureReading& reading, Scene
 void CheckFile(const JsonValue& value, TextureSource* source, const SceneContext& context) {
   if (!ReadText(value, &source->file)) return;
   try {
-    ResolveReference(context.folder, source->file, context.references);
+    ResolveReference(source->folder, source->file, context.references);
     source->is_readable = true;
   } catch (const Error& error) {
     for (const Fault& fault : error.faults()) value.AddFault(fault.what, fault.hint);
   }
 }
 
-void ReadTexture(const JsonValue& value, const std::string& name, SceneContext* context) {
+// Reads a texture whose file is looked for in `folder`.
+void ReadTexture(const JsonValue& value, const std::string& name,
+                 const std::filesystem::path& folder, SceneContext* context) {
   TextureSource source;
+  source.folder = folder;
   Texture& texture = source.texture;
   texture.name = name;
   JsonObject object(value, R"({"file": "earth.png"})");
@@ -208,7 +211,18 @@ void ReadTextures(const JsonValue& value, SceneContext* context) {
   const JsonObject object(value, R"(textures by name: {"earth": {"file": "earth.png"}})");
   if (!object.is_object()) return;
   for (const auto& [name, json] : value.json.items()) {
-    ReadTexture({json, value.path.Member(name), value.faults}, name, context);
+    ReadTexture({json, value.path.Member(name), value.faults}, name, context->folder, context);
+  }
+}
+
+void ReadTexturesOf(const MaterialXMaterial& material, const std::filesystem::path& folder,
+                    const JsonValue& value, SceneContext* context) {
+  for (const auto& [name, json] : material.textures) {
+    FaultList faults;
+    ReadTexture({json, JsonPath{}, &faults}, name, folder, context);
+    for (const Fault& fault : faults.kept()) {
+      value.AddFault(fmt::format("{}: {}", name, fault.what), fault.hint);
+    }
   }
 }
 
@@ -225,7 +239,7 @@ void DecodeMapsAhead(const Json& materials, SceneContext* context) {
       const TextureReading reading = ReadingOf(found->second, *use, *context);
       try {
         const auto path =
-            ResolveReference(context->folder, found->second.file, context->references);
+            ResolveReference(found->second.folder, found->second.file, context->references);
         const bool is_kept = context->kept != nullptr &&
                              FindKept(reading.Key(path) + KeyOfFile(path), *context).has_value();
         if (!is_kept) context->ahead.Want(path, reading);

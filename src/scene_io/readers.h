@@ -5,11 +5,13 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "scene/displace.h"
@@ -20,6 +22,7 @@
 #include "scene/user_brdf.h"
 #include "scene_io/json_reader.h"
 #include "scene_io/kept_files.h"
+#include "scene_io/materialx.h"
 #include "scene_io/plain_spheres.h"
 #include "scene_io/read_members.h"
 #include "scene_io/scene_budget.h"
@@ -43,10 +46,12 @@ struct SceneContext {
   TexelBudget* texels = nullptr;
   ReadMembers read;  // what has been read so far
   // So that one fault does not cause more in everything that refers to it:
-  bool has_materials = true;                           // false: their names could not be read
-  std::unordered_set<uint32_t> unreadable_materials;   // indices of materials that have faults
-  const WholeMaterials* whole_materials = nullptr;     // ReadMembers::whole of an earlier reading
-  std::unordered_map<std::string, ImageId> images;     // by path, encoding and part
+  bool has_materials = true;                          // false: their names could not be read
+  std::unordered_set<uint32_t> unreadable_materials;  // indices of materials that have faults
+  const WholeMaterials* whole_materials = nullptr;    // ReadMembers::whole of an earlier reading
+  std::unordered_map<std::string, ImageId> images;    // by path, encoding and part
+  // What MaterialX documents have given, by file and name of the material.
+  std::map<std::pair<std::string, std::string>, MaterialXMaterial> materialx;
   TexturesAhead ahead;                                 // filled by DecodeMapsAhead
   std::function<void(const std::string&)> on_warning;  // LoadOptions::on_warning
   KeptFiles* kept = nullptr;                           // for a scene that is read again; else null
@@ -71,6 +76,11 @@ std::shared_ptr<const Mesh> ReadLightMesh(JsonObject* light, const SceneContext&
 
 // Reads the object "textures". Their images are read when a material names them.
 void ReadTextures(const JsonValue& value, SceneContext* context);
+
+// Reads the textures of a material of a MaterialX document, whose files are looked for in `folder`;
+// `value` is where the scene names the document.
+void ReadTexturesOf(const MaterialXMaterial& material, const std::filesystem::path& folder,
+                    const JsonValue& value, SceneContext* context);
 
 // Reads the name of a texture. A name that does not exist is a fault.
 void ReadTextureId(const JsonValue& value, MapUse use, SceneContext* context, TextureId* id);

@@ -14,6 +14,7 @@
 #include "color/transfer.h"
 #include "scene/generators.h"
 #include "scene/material_parameters.h"
+#include "scene_io/materialx.h"
 
 namespace nacre {
 namespace {
@@ -274,6 +275,7 @@ void CheckSheetAxis(const std::string& option, const std::vector<Json>& material
 }
 
 Json ParseMaterialText(const std::string& option, const std::string& text) {
+  if (IsMaterialXReference(text)) return MaterialXReference(text);
   if (text.find_first_of("{[\" ") == std::string::npos && !text.empty()) return {{"model", text}};
   Json material = TryParseJson(text).value_or(Json());
   if (!material.is_object()) {

@@ -41,7 +41,9 @@ void CheckModels(const std::string& option, const std::vector<Json>& materials);
 // Throws Error (kBadInput) if one has no such parameter, or a value is invalid for it.
 void CheckSheetAxis(const std::string& option, const std::vector<Json>& materials, SheetAxis* axis);
 
-// Parses a material as people type it: the name of a model or a JSON object. Throws Error (kUsage).
+// Parses a material as people type it: the name of a model, a JSON object, or a MaterialX document
+// with or without the name of its material ("x.mtlx#gold"). Throws Error (kUsage; kBadInput for the
+// document).
 Json ParseMaterialText(const std::string& option, const std::string& text);
 
 // Parses a colour as people type it: "#ff8000" (sRGB codes), "[r,g,b]" or "0.5" (linear). Throws

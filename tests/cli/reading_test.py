@@ -192,6 +192,35 @@ class ReadingTest(unittest.TestCase):
                 self.check_refused(result, 0, 'an image is left out: ', f'm.mtl:3: "{image}": ')
                 self.assertEqual(result.stderr.count('warning:'), 1, result.stderr)
 
+    def test_materials_of_materialx_documents(self):
+        document = SOURCE / 'scenes/materials.mtlx'
+        small = ['--rows', 'opacity=1', '--columns', 'emission=0', '--size', '64x64', '--spp', '1']
+        for name in 'brass', 'wood', 'enamel':
+            result = self.run_nacre('grid', '--material', f'{document}#{name}', *small, '-o', f'{name}.png')
+            self.assertEqual((result.returncode, 'warning' in result.stderr), (0, False), result.stderr)
+        for words in (['table', f'{document}#brass', '--no-albedo'], ['convert', f'{document}#enamel', '--to', 'phong'],
+                      ['grid', '--rows', f'material={document}#brass,{document}#enamel', '--columns',
+                       'opacity=1', '--size', '64x64', '--spp', '1', '-o', 'both.png'],
+                      ['pair', '--a', f'{document}#brass', '--b', 'phong', '--size', '64x64', '-o', 'pair.png']):
+            result = self.run_nacre(*words)
+            self.assertEqual(result.returncode, 0, result.stderr)
+        self.check_refused(self.run_nacre('grid', '--material', document, '-o', 'a.png'), 65,
+                           'has 3 materials, of which none is named', 'brass, wood, enamel')
+        self.check_refused(self.run_nacre('render', document, '-o', 'a.png'), 65,
+                           'is a MaterialX document, which has materials and no shapes')
+        # What a document leaves out is told once, and its images must be in its folder.
+        (self.out / 'sub').mkdir()
+        (self.out / 'image.png').write_bytes((SOURCE / 'scenes/textures/wood.png').read_bytes())
+        (self.out / 'sub/a.mtlx').write_text(
+            '<materialx version="1.39"><image name="i" type="color3"><input name="file" type="filename" '
+            'value="../image.png"/></image><gltf_pbr name="s" type="surfaceshader"><input name="base_color" '
+            'type="color3" nodename="i"/><input name="transmission" type="float" value="1"/></gltf_pbr></materialx>')
+        grid = ['grid', '--material', 'sub/a.mtlx', *small, '-o', 'a.png']
+        self.check_refused(self.run_nacre(*grid), 65, 'sub', '"../image.png" is outside')
+        result = self.run_nacre(*grid, '--allow-paths')
+        self.assertEqual((result.returncode, result.stderr.count('warning: ')), (0, 1), result.stderr)
+        self.assertIn('warning: sub/a.mtlx:1: s: transmission: 1: transmission is not rendered', result.stderr)
+
     def test_a_plot_without_gnuplot(self):
         result = self.run_nacre('plot', 'fresnel', '-o', 'f.svg', env={'PATH': str(self.out)})
         self.check_refused(result, 74, 'gnuplot is missing', 'install the package gnuplot-nox')

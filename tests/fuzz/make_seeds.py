@@ -88,6 +88,53 @@ def scenes():
     write('set_path', 'model', '/materials/default/base_color=[1,0,0]\n/background=0.2\n')
 
 
+# ---- MaterialX ----
+
+def materialx():
+    def of(shader, inputs, nodes=''):
+        return (f'<materialx version="1.39" colorspace="acescg" fileprefix="">{nodes}'
+                f'<{shader} name="s" type="surfaceshader">{inputs}</{shader}>'
+                '<surfacematerial name="m" type="material"><input name="surfaceshader" '
+                'type="surfaceshader" nodename="s"/></surfacematerial></materialx>\n')
+
+    def value(name, kind, text, more=''):
+        return f'<input name="{name}" type="{kind}" value="{text}" {more}/>'
+
+    def link(name, kind, node, more=''):
+        return f'<input name="{name}" type="{kind}" nodename="{node}" {more}/>'
+
+    image = value('file', 'filename', 'texture.png', 'colorspace="srgb_texture"')
+    write('materialx', 'open_pbr', of('open_pbr_surface', (
+        value('base_color', 'color3', '0.1, 0.6, 0.9') + value('coat_weight', 'float', '1') +
+        value('subsurface_weight', 'float', '0.5') + value('transmission_weight', 'float', '1'))))
+    write('materialx', 'standard', of('standard_surface', (
+        link('base_color', 'color3', 'a') + link('normal', 'vector3', 'n') +
+        '<input name="specular_roughness" type="float" nodegraph="g" output="o"/>' +
+        value('specular_anisotropy', 'float', '0.5') + value('sheen', 'float', '0.2')), (
+        f'<tiledimage name="i" type="color3">{image}{value("uvtiling", "vector2", "2, 3")}</tiledimage>'
+        f'<mix name="a" type="color3">{link("fg", "color3", "i")}{value("mix", "float", "0.5")}</mix>'
+        '<texcoord name="t" type="vector2"/>'
+        f'<place2d name="p" type="vector2">{link("texcoord", "vector2", "t")}'
+        f'{value("rotate", "float", "30")}{value("scale", "vector2", "2, 2")}</place2d>'
+        f'<image name="v" type="vector3">{image}{link("texcoord", "vector2", "p")}</image>'
+        f'<normalmap name="n" type="vector3">{link("in", "vector3", "v")}</normalmap>'
+        f'<nodegraph name="g">{value("r", "float", "0.25")}<power name="q" type="float">'
+        '<input name="in1" type="float" interfacename="r"/></power>'
+        '<output name="o" type="float" nodename="q"/></nodegraph>')))
+    write('materialx', 'gltf', of('gltf_pbr', (
+        link('base_color', 'color3', 'c', 'output="outcolor"') +
+        link('alpha', 'float', 'c', 'output="outa"') + value('alpha_mode', 'integer', '1') +
+        link('metallic', 'float', 'e', 'output="outz"') +
+        link('roughness', 'float', 'e', 'output="outy"') + value('clearcoat', 'float', '1')), (
+        f'<gltf_colorimage name="c" type="multioutput">{image}</gltf_colorimage>'
+        f'<gltf_image name="i" type="vector3">{image}{value("rotate", "float", "90")}</gltf_image>'
+        f'<separate3 name="e" type="multioutput">{link("in", "vector3", "i")}</separate3>')))
+    write('materialx', 'included', (
+        '<materialx version="1.39"><xi:include href="included.mtlx"/><look name="l">'
+        '<materialassign name="x" geom="b" material="m"/></look></materialx>'
+        '\n<!-- included -->\n' + of('open_pbr_surface', value('fuzz_weight', 'float', '1'))))
+
+
 # ---- OBJ and PLY ----
 
 def meshes():
@@ -274,6 +321,7 @@ def images():
 
 if __name__ == '__main__':
     scenes()
+    materialx()
     meshes()
     tables()
     gltf_files()

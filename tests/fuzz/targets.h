@@ -17,6 +17,7 @@ void FuzzPly(std::string_view bytes);
 void FuzzSphereFile(std::string_view bytes);  // a .csv, .npy or .ply of a shape "spheres"
 void FuzzGltf(std::string_view bytes);
 void FuzzGlb(std::string_view bytes);
+void FuzzMaterialX(std::string_view bytes);  // a .mtlx; after a line "<!-- included -->" another
 void FuzzTextureImage(std::string_view bytes);
 void FuzzEnvironmentImage(std::string_view bytes);
 void FuzzCompareImage(std::string_view bytes);

@@ -59,7 +59,7 @@ TEST_CASE("the schema's materials are those of the parameter table") {
   const json schema = Schema();
   std::set<std::string> in_schema;
   for (const json& option : schema["$defs"]["material"]["oneOf"]) in_schema.insert(option["$ref"]);
-  std::set<std::string> in_table = {"#/$defs/split_material"};
+  std::set<std::string> in_table = {"#/$defs/split_material", "#/$defs/materialx_material"};
 
   for (const MaterialModel& model : MaterialModels()) {
     const std::string name = std::string(model.name) + "_material";

@@ -38,10 +38,13 @@ function variantsOf(schema) {
   return all.map(v => [constOf(v)?.[1], v]).filter(([name]) => name !== undefined);
 }
 
-// The object's own variant, or the schema itself.
+// The object's own variant, or the schema itself. A material of a file alone has no model.
 function variantOf(schema, value) {
   const variants = variantsOf(schema);
   if (!variants.length) return resolve(schema);
+  const ofFile = value?.file !== undefined && value.model === undefined &&
+      resolve(schema).oneOf.map(resolve).find(v => !constOf(v) && v.required?.includes('file'));
+  if (ofFile) return ofFile;
   const found = variants.find(([, v]) => {
     const [member, name] = constOf(v);
     return (value?.[member] ?? resolve(v.properties[member]).default) === name;
