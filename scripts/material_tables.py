@@ -32,6 +32,8 @@ def values_text(schema, key):
         return values_text(schema, schema["$defs"][reference])
     if "enum" in key:
         return ", ".join(f"`{option}`" for option in key["enum"])
+    if key.get("type") == "string":
+        return "a file's name"
     if "anyOf" in key:  # a number, or one for each channel
         return f"colour, {range_text(key['anyOf'][0])}"
     return range_text(key)

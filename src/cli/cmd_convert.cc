@@ -69,6 +69,13 @@ std::string Table(const MaterialFit& fit) {
       "peak, width: of the highlight in the plane of incidence (the width at half its peak), "
       "relative;\n"
       "albedo: of lobe and base, the worst channel\n";
+  if (fit.log_rms >= 0) {
+    text += fmt::format(
+        "log rms {:>9.4f} {:>29.4f}\n"
+        "log rms: of the difference of log(1 + BRDF n.l), which is what was fitted (Low et al. "
+        "2012)\n",
+        fit.guess_log_rms, fit.log_rms);
+  }
   for (const std::string& note : fit.notes) text += "not kept: " + note + "\n";
   return text;
 }
@@ -148,6 +155,10 @@ void RunConvert(const ConvertArguments& arguments, const CLI::App& command) {
       {"closed_form",
        {{"material", MaterialJson(fit.guess)}, {"residual", ResidualJson(fit.guess_residual)}}},
       {"not_kept", fit.notes}};
+  if (fit.log_rms >= 0) {
+    json["residual"]["log_rms"] = fit.log_rms;
+    json["closed_form"]["residual"]["log_rms"] = fit.guess_log_rms;
+  }
   if (!difference.is_null()) json["picture"] = difference;
   PrintOut(JsonText(json, 2) + "\n");
 }

@@ -8,6 +8,7 @@
 
 #include "base/overloaded.h"
 #include "sampling/hash.h"
+#include "shading/measured_model.h"
 #include "shading/user_model.h"
 
 namespace nacre {
@@ -22,18 +23,19 @@ double NarrowestLobe(const ShadingMaterial& material) {
   for (const LayerModel& layer : material.layers) {
     narrowest = std::min(narrowest, LayerLobeWidth(layer));
   }
-  const double of_model =
-      std::visit(Overloaded{[&](const PhongFamilyModel& phong) {
-                              const bool matte = phong.specular.length2() == 0;
-                              return matte ? infinity : std::sqrt(2 / (phong.shininess + 2));
-                            },
-                            [&](const MicrofacetModel& microfacet) {
-                              return microfacet.delta ? infinity : microfacet.alpha;
-                            },
-                            [](const UserModel& user) { return UserLobeWidth(user); },
-                            [&](const MatteModel&) { return infinity; },
-                            [&](const std::monostate&) { return infinity; }},
-                 material.model);
+  const double of_model = std::visit(
+      Overloaded{[&](const PhongFamilyModel& phong) {
+                   const bool matte = phong.specular.length2() == 0;
+                   return matte ? infinity : std::sqrt(2 / (phong.shininess + 2));
+                 },
+                 [&](const MicrofacetModel& microfacet) {
+                   return microfacet.delta ? infinity : microfacet.alpha;
+                 },
+                 [](const UserModel& user) { return UserLobeWidth(user); },
+                 [](const MeasuredModel& measured) { return MeasuredLobeWidth(measured); },
+                 [&](const MatteModel&) { return infinity; },
+                 [&](const std::monostate&) { return infinity; }},
+      material.model);
   return std::min(narrowest, of_model);
 }
 

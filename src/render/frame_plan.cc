@@ -60,10 +60,12 @@ AdaptivePlan PlanAdaptiveSampling(const Scene& scene, const RenderSettings& sett
   adaptive.white = WhiteLevel(scene);
   adaptive.brightest = BrightestObject(scene, lights, adaptive.white);
   // Between pixel centres a texture may show anything, and so may a function of the caller's, which
-  // may have edges of its own, as a toon shader has, and highlights of any width. Triangles are not
-  // binned, so their edges are not known.
+  // may have edges of its own, as a toon shader has, and highlights of any width, and so may what
+  // was measured, between the cells of its table. Triangles are not binned, so their edges are not
+  // known.
   adaptive.footprints = CentersMaySuffice(scene) && binned && scene.meshes.empty() &&
                         !surfaces.splits && !surfaces.textured &&
+                        !Has(surfaces.prepared->any, MaterialTrait::kMeasured) &&
                         !Has(surfaces.prepared->any, MaterialTrait::kUserModel);
   adaptive.texel_maps = FindTexelMaps(scene, lights, settings.max_error);
   adaptive.highlights = {FindHighlightLights(scene, lights), LobeWidths(surfaces.materials)};

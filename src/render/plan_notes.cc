@@ -86,6 +86,24 @@ void NoteGain(const NotedMaterials& of, std::vector<std::string>* notes) {
                   names, most));
 }
 
+// Measurements may reflect more than they get, of all light: by their errors, or because light of
+// grazing angles was extrapolated.
+void NoteMeasuredGain(const NotedMaterials& of, std::vector<std::string>* notes) {
+  constexpr double kNotedGain = 1.005;
+  double most = 1;
+  const std::string names = NameMaterials(of, MaterialTrait::kMeasured, [&](size_t i) {
+    double largest = 0;
+    for (const Rgb& albedo : std::get<MeasuredModel>(of.prepared.all[i].model).brdf->albedo) {
+      largest = std::max(largest, LargestChannel(albedo));
+    }
+    most = std::max(most, largest);
+    return largest >= kNotedGain;
+  });
+  if (names.empty()) return;
+  notes->push_back(fmt::format(
+      "{}: its measurements reflect up to {:.2f} times the light that they get", names, most));
+}
+
 bool IsBlackSky(const EnvironmentLight& light) {
   return std::visit(
       Overloaded{[](const ConstantSky& sky) { return IsBlack(sky.radiance); },
@@ -185,6 +203,13 @@ void NoteNarrowLobes(const NotedMaterials& of, int max_samples, std::vector<std:
   }
 }
 
+void NoteFilms(const NotedMaterials& of, std::vector<std::string>* notes) {
+  const std::string names =
+      NameMaterials(of, MaterialTrait::kFilmWithoutMaps, [](size_t) { return true; });
+  if (names.empty()) return;
+  notes->push_back(names + ": its thin film is that of the material's own colours, without maps");
+}
+
 void NoteTransmission(const NotedMaterials& of, std::vector<std::string>* notes) {
   const std::string names =
       NameMaterials(of, MaterialTrait::kTransmits, [](size_t) { return true; });
@@ -203,6 +228,8 @@ void NoteMaterials(const NotedMaterials& of, bool sampled_lights, std::vector<st
   NoteGain(of, notes);
   NotePhongGain(of, notes);
   NoteTransmission(of, notes);
+  NoteFilms(of, notes);
+  NoteMeasuredGain(of, notes);
 }
 
 }  // namespace nacre

@@ -17,6 +17,20 @@ namespace {
 
 constexpr double kPrintedGain = 1.005;  // less would be printed as 1.00
 
+// Whether what lies below the material's film, if it has one, has another reflectance at each hit.
+bool HasMapsBelowFilm(const Material& material, const ThinFilmLobe* film) {
+  if (film == nullptr) return false;
+  const auto* const metallic = std::get_if<MetallicRoughnessMaterial>(&material.model);
+  if (metallic != nullptr && film->has_dielectric && metallic->specular_color_map.valid()) {
+    return true;
+  }
+  if (!film->has_metal) return false;
+  if (material.vertex_colors == VertexColors::kBase) return true;
+  if (metallic != nullptr) return metallic->base_color_map.valid();
+  const auto& open_pbr = std::get<OpenPbrMaterial>(material.model);
+  return open_pbr.base_color_map.valid() || open_pbr.specular_color_map.valid();
+}
+
 MaterialTraits TraitsOf(const Material& material, const ShadingMaterial& prepared,
                         double phong_gain) {
   MaterialTraits traits = ShadowingTrait(material);
@@ -36,11 +50,15 @@ MaterialTraits TraitsOf(const Material& material, const ShadingMaterial& prepare
       MaterialTrait::kTextured);
   add(HasDoubleTerms(prepared) || any_coat(HasDoubleTerms), MaterialTrait::kDoubleTerms);
   add(HasDeltaLobe(prepared), MaterialTrait::kMirror);
+  const auto* const microfacet = std::get_if<MicrofacetModel>(&prepared.model);
+  add(microfacet != nullptr && HasMapsBelowFilm(material, microfacet->film.get()),
+      MaterialTrait::kFilmWithoutMaps);
   if (const auto* const open_pbr = std::get_if<OpenPbrMaterial>(&material.model)) {
     add(open_pbr->transmission_weight > 0, MaterialTrait::kTransmits);
   }
   add(any_coat(HasDeltaLobe), MaterialTrait::kCoatMirror);
   add(std::holds_alternative<UserModel>(prepared.model), MaterialTrait::kUserModel);
+  add(std::holds_alternative<MeasuredModel>(prepared.model), MaterialTrait::kMeasured);
   add(BurleyGain(prepared) > 1, MaterialTrait::kBurleyGain);
   add(phong_gain >= kPrintedGain, MaterialTrait::kPhongGain);
   return traits;

@@ -28,6 +28,8 @@ enum class MaterialTrait : uint32_t {
   // The form of Shadowing of the lobe: this bit and the three bits after it, in the enum's order.
   kFirstShadowing = 1 << 11,
   kTransmits = 1 << 15,  // OpenPbrMaterial::transmission_weight above 0, which is not rendered
+  kMeasured = 1 << 16,
+  kFilmWithoutMaps = 1 << 17,  // below its film the colour differs by hit, which the film does not
 };
 
 // A set of traits, as bits.

@@ -225,6 +225,9 @@ void AddModel(const Material& material, Hasher* hash) {
   for (const MaterialChoice& choice : model->choices) {
     if (choice.get != nullptr) hash->Word(choice.get(material));
   }
+  if (const auto* measured = std::get_if<MeasuredMaterial>(&material.model)) {
+    hash->Word(measured->brdf ? measured->brdf->hash : 0);
+  }
 }
 
 // Adds a kind of light, or of sky: its keys, and the contents of the mesh or picture that it refers

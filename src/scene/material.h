@@ -11,6 +11,7 @@
 
 #include "base/vec.h"
 #include "brdf/ggx.h"
+#include "brdf/measured_table.h"
 #include "scene/handle.h"
 #include "scene/model_options.h"
 #include "scene/open_pbr.h"
@@ -141,6 +142,14 @@ struct DielectricMaterial {
   TextureId roughness_map{};
 };
 
+// A BRDF that was measured, of a file of the MERL database or of EPFL's. All that it reflects
+// counts as specular.
+struct MeasuredMaterial {
+  std::string file{};                          // as the scene names it
+  std::shared_ptr<const MeasuredBrdf> brdf{};  // what the file contains; null: black
+  MeasuredInterpolation interpolation = MeasuredInterpolation::kLinear;
+};
+
 // Not a model of its own: chooses among other materials by the vertical band of the image that a
 // sample lies in. materials.size() == at.size() + 1; `at` ascends in (0, 1), as fractions of the
 // image width.
@@ -159,7 +168,7 @@ struct Material {
   bool emits_in_front_only = false;
   std::variant<LambertMaterial, PhongMaterial, MetallicRoughnessMaterial, ConductorMaterial,
                DielectricMaterial, SplitMaterial, OrenNayarMaterial, BurleyMaterial,
-               OpenPbrMaterial>
+               OpenPbrMaterial, MeasuredMaterial>
       model{};
   // Meshes only: triangles have only fronts. Rays of the camera and of lights pass through them
   // from behind.

@@ -357,6 +357,9 @@ constexpr auto kOpenPbrParameters = WithCommon(
     Number<&OpenPbrMaterial::geometry_coat_tangent_deg>(
         "geometry_coat_tangent_deg", limits::kAngleDeg, "The same for the coat."));
 
+constexpr auto kMeasuredParameters = WithCommon();
+
+constexpr std::array<std::string_view, 2> kMeasuredInterpolations = {"linear", "nearest"};
 constexpr std::array<std::string_view, 2> kConventions = {"classic", "radiometric"};
 constexpr std::array<std::string_view, 4> kShadowings = {"height_correlated", "separable",
                                                          "schlick_direct", "schlick_ibl"};
@@ -541,6 +544,15 @@ constexpr std::array kOpenPbrChoices = {
         "Whether base_weight multiplies the colour before light bounces between rough facets."),
     kSides};
 
+constexpr std::array kMeasuredChoices = {
+    Choice<&MeasuredMaterial::interpolation>(
+        "interpolation", kMeasuredInterpolations,
+        "How a MERL table is looked up. linear: between the centres of its cells, in the angles of "
+        "Rusinkiewicz 1998, of which theta_half goes by its square root. nearest: the cell that "
+        "contains the directions, as the database's own program; highlights show steps. EPFL's "
+        "files are always linear."),
+    kSides};
+
 constexpr MaterialMap kEmissionMap = Map<&Material::emission_map>(
     "emission_map", MapUse::kColor, "Multiplies emission.",
     Target<&Material::emission>(MappedNumber::kEmission, 0, limits::kRadiance.max));
@@ -634,6 +646,8 @@ constexpr std::array kOpenPbrMaps = {
     kEmissionMap,
     kOpacityMap};
 
+constexpr std::array kMeasuredMaps = {kEmissionMap, kOpacityMap};
+
 constexpr std::array kNormalMaps = {MaterialNormalMap{
     "normal_map", [](Material& material) -> NormalMap& { return material.normal_map; }, ""}};
 constexpr std::array kMetallicRoughnessNormalMaps = {
@@ -673,7 +687,7 @@ constexpr std::string_view kRoughnessAxis = "roughness=0.1:0.9:5";
 constexpr std::string_view kMatteAxis = "roughness=0:1:5";
 constexpr std::string_view kAlbedoAxis = "albedo=0.1:0.9:5";
 
-constexpr std::array<MaterialModel, 10> kModels = {{
+constexpr std::array<MaterialModel, 11> kModels = {{
     {"phong", "Phong: highlight (r.v)^n where the light is above the surface",
      MakePhong<PhongModel::kPhong>, HoldsPhong<PhongModel::kPhong>, kPhongParameters, kPhongChoices,
      kPhongMaps, kNormalMaps, kExponentAxis, kKsAxis},
@@ -714,6 +728,10 @@ constexpr std::array<MaterialModel, 10> kModels = {{
      "implementations by name (rules)",
      Make<OpenPbrMaterial>, Holds<OpenPbrMaterial>, kOpenPbrParameters, kOpenPbrChoices,
      kOpenPbrMaps, kNormalMaps, "specular_roughness=0.1:0.9:5", "base_metalness=0:1:5"},
+    {"measured",
+     "Measured: the table of a file, a .binary of the MERL database or a .bsdf of EPFL's (file)",
+     Make<MeasuredMaterial>, Holds<MeasuredMaterial>, kMeasuredParameters, kMeasuredChoices,
+     kMeasuredMaps, kNormalMaps, "emission=0:0.2:3", "interpolation=linear,nearest"},
 }};
 
 // The row of this name, or nullptr.

@@ -20,6 +20,7 @@ void DropUnheld(KeptFiles* kept) {
   std::erase_if(kept->images, [](const auto& entry) { return entry.second.texels.expired(); });
   std::erase_if(kept->skies, [](const auto& entry) { return entry.second.expired(); });
   std::erase_if(kept->light_meshes, [](const auto& entry) { return entry.second.expired(); });
+  std::erase_if(kept->measured, [](const auto& entry) { return entry.second.expired(); });
 }
 
 }  // namespace nacre

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/kept_files.h: a cache of the images and meshes that a scene has read from files, so that
+// scene_io/kept_files.h: a cache of what a scene has read from files, so that
 // reading the scene again reads only files that have changed. Entries last as long as some scene
 // holds them.
 #pragma once
@@ -22,6 +22,7 @@ struct KeptFiles {
   std::map<std::string, Image> images;
   std::map<std::string, std::weak_ptr<const SkyPicture>> skies;
   std::map<std::string, std::weak_ptr<const Mesh>> light_meshes;
+  std::map<std::string, std::weak_ptr<const MeasuredBrdf>> measured;
 };
 
 // Identifies the present state of a file: two keys are equal only if the file has not been written

@@ -112,9 +112,16 @@ void ReadMaterialOfFile(const JsonValue& value, SceneContext* context, Material*
   ReadMaterial({whole, value.path, value.faults}, context, material);
 }
 
+// Whether the members are those of a material of a MaterialX document: measured BRDFs have files,
+// too.
+bool IsOfDocument(const Json& json) {
+  return json.is_object() && json.contains("file") &&
+         !(json.contains("model") && json.at("model") == "measured");
+}
+
 // Reads everything but the name.
 void ReadMaterial(const JsonValue& value, SceneContext* context, Material* material) {
-  if (value.json.is_object() && value.json.contains("file")) {
+  if (IsOfDocument(value.json)) {
     return ReadMaterialOfFile(value, context, material);
   }
   JsonObject object(value);
@@ -130,6 +137,10 @@ void ReadMaterial(const JsonValue& value, SceneContext* context, Material* mater
   } else {
     const MaterialModel& model = MaterialModels()[choice];
     material->model = model.make().model;
+    if (auto* measured = std::get_if<MeasuredMaterial>(&material->model)) {
+      object.Require("file", "a .binary of the MERL database or a .bsdf of EPFL's");
+      ReadMeasuredTable(&object, context, measured);
+    }
     ReadParameters(model, &object, material);
     ReadMaps(model, &object, context, material);
   }
@@ -189,11 +200,14 @@ Material ReadNamedMaterial(const JsonValue& value, const std::string& name, Scen
 }
 
 void ChangeMaterial(const JsonValue& value, SceneContext* context, Material* material) {
-  if (value.json.is_object() && (value.json.contains("model") || value.json.contains("file"))) {
+  auto* const measured = std::get_if<MeasuredMaterial>(&material->model);
+  if (value.json.is_object() &&
+      (value.json.contains("model") || (measured == nullptr && value.json.contains("file")))) {
     *material = ReadNamedMaterial(value, std::string(material->name), context);
     return;
   }
   JsonObject object(value);
+  if (measured != nullptr) ReadMeasuredTable(&object, context, measured);
   if (const MaterialModel* const model = ModelOf(*material)) {
     ReadParameters(*model, &object, material);
     ReadMaps(*model, &object, context, material);

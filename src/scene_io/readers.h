@@ -52,6 +52,9 @@ struct SceneContext {
   std::unordered_map<std::string, ImageId> images;    // by path, encoding and part
   // What MaterialX documents have given, by file and name of the material.
   std::map<std::pair<std::string, std::string>, MaterialXMaterial> materialx;
+  // Measured BRDFs by path, and the bytes of their tables.
+  std::unordered_map<std::string, std::shared_ptr<const MeasuredBrdf>> measured;
+  uint64_t measured_bytes = 0;
   TexturesAhead ahead;                                 // filled by DecodeMapsAhead
   std::function<void(const std::string&)> on_warning;  // LoadOptions::on_warning
   KeptFiles* kept = nullptr;                           // for a scene that is read again; else null
@@ -88,6 +91,9 @@ void ReadTextureId(const JsonValue& value, MapUse use, SceneContext* context, Te
 // Reads the members of a material that name textures; null removes the present one.
 void ReadMaps(const MaterialModel& model, JsonObject* object, SceneContext* context,
               Material* material);
+
+// Reads the member "file" of a measured material, if there is one. In read_measured.cc.
+void ReadMeasuredTable(JsonObject* object, SceneContext* context, MeasuredMaterial* material);
 
 // Reads a value of `parameter`; a number becomes three equal components.
 bool ReadParameterValue(const JsonValue& value, const MaterialParameter& parameter, Rgb* out);

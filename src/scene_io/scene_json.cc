@@ -55,6 +55,9 @@ struct KindJson {
 Json MaterialJson(const Material& material) {
   const MaterialModel& model = *ModelOf(material);
   Json json = {{"model", model.name}};
+  if (const auto* measured = std::get_if<MeasuredMaterial>(&material.model)) {
+    json["file"] = measured->file;
+  }
   for (const MaterialParameter& parameter : model.parameters) {
     const Rgb value = parameter.get(material);
     if (!DoesNothing(parameter, value)) json[std::string(parameter.name)] = RoundedColorJson(value);

@@ -117,6 +117,13 @@ std::string DefinitionOf(const MaterialModel& model) {
   const Material defaults = model.make();
   std::vector<std::string> properties = {
       Property("model", "", fmt::format(R"("const": {})", Quoted(model.name)))};
+  const bool has_file = std::holds_alternative<MeasuredMaterial>(defaults.model);
+  if (has_file) {
+    properties.push_back(Property("file",
+                                  "A .binary of the MERL database or a .bsdf of EPFL's, in the "
+                                  "scene's folder.",
+                                  R"("type": "string")"));
+  }
   for (const MaterialChoice& choice : model.choices) {
     const std::string value =
         choice.get != nullptr ? Quoted(choice.options[choice.get(defaults)]) : "";
@@ -137,14 +144,15 @@ std::string DefinitionOf(const MaterialModel& model) {
   return fmt::format(R"(    "{}_material": {{
       "title": {},
       "type": "object",
-      "required": ["model"],
+      "required": ["model"{}],
       "additionalProperties": false,
       "properties": {{
         {}
       }}
     }},
 )",
-                     model.name, Quoted(model.title), fmt::join(properties, ",\n        "));
+                     model.name, Quoted(model.title), has_file ? R"(, "file")" : "",
+                     fmt::join(properties, ",\n        "));
 }
 
 void Replace(std::string_view mark, const std::string& with, std::string* text) {

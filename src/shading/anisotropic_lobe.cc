@@ -17,6 +17,7 @@ bool IsAnisotropic(const Material& material) {
   return std::visit(
       Overloaded{[](const MetallicRoughnessMaterial& m) { return AnisotropyOf(m) > 0; },
                  [](const OpenPbrMaterial& m) { return AnisotropyOf(m) > 0; },
+                 [](const MeasuredMaterial& m) { return m.brdf && !m.brdf->isotropic; },
                  [](const auto&) { return false; }},
       material.model);
 }

@@ -179,6 +179,7 @@ bool CoatsAreSampled(const ShadingMaterial& material, LobeKind kind) {
 bool HasDiffuse(const ShadingMaterial& material) {
   return std::visit(Overloaded{[](const std::monostate&) { return false; },
                                [](const UserModel& user) { return !user.brdf->sample; },
+                               [](const MeasuredModel&) { return false; },
                                [&](const auto& model) {
                                  return material.by_hit.model || !IsBlack(model.diffuse);
                                }},

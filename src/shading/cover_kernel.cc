@@ -189,7 +189,7 @@ HWY_INLINE Vec3V<F> CoatFactorsAt(const LitHits& lit, const CoatHits& coat, size
   const Vec3V<F> log2 = Scale(LoadSoa(d, coat.log2_medium, i), paths);
   const F least = hn::Set(d, -126.0f);  // of numbers that are not denormal
   const auto crossing = [&](F of) HWY_ATTR {
-    return hn::IfThenElseZero(hn::Ge(of, least), Exp2(d, hn::Max(of, least)));
+    return hn::IfThenElseZero(hn::Ge(of, least), HWY_NAMESPACE::Exp2(d, hn::Max(of, least)));
   };
   return Add(constant, Mul3(LoadSoa(d, coat.along_light, i),
                             {crossing(log2.x), crossing(log2.y), crossing(log2.z)}));

@@ -87,6 +87,15 @@ inline Rgb ColorOfHit(const HitParameters& t, MappedNumber number, size_t i) {
   return {NumbersOf(t, number, 0)[i], NumbersOf(t, number, 1)[i], NumbersOf(t, number, 2)[i]};
 }
 
+// A number of a hit in one column of a pool. Cheaper than pointers to all of them for one number.
+template <class Columns>
+float NumberIn(const AlignedArray<float>& pool, float* Columns::*column, size_t hit) {
+  static constexpr Columns kNone{};
+  const auto* const first = reinterpret_cast<float* const*>(&kNone);
+  const auto k = static_cast<size_t>(&(kNone.*column) - first);
+  return pool[k * HitParameters::kStride + hit];
+}
+
 // Pointers to the columns of `Columns`, a struct of nothing but float*, one after the other in a
 // pool. Only mapped_kernel.cc writes to them, through a pool that is not const; kernels only read.
 template <class Columns>

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "brdf/fresnel.h"
+#include "brdf/measured.h"
 #include "shading/lobe_sample.h"
 #include "shading/models_at_hit.h"
 
@@ -53,6 +54,10 @@ ModelAlbedos AlbedosOfModel(const PhongFamilyModel& phong, const LobeCosines&) {
 // Nothing is known of a user model: it has one lobe.
 ModelAlbedos AlbedosOfModel(const UserModel& user, const LobeCosines&) {
   return user.brdf->sample ? ModelAlbedos{.glossy = 1} : ModelAlbedos{.diffuse = 1};
+}
+
+ModelAlbedos AlbedosOfModel(const MeasuredModel& measured, const LobeCosines& v) {
+  return {.glossy = LargestChannel(MeasuredAlbedo(*measured.brdf, v.n))};
 }
 
 ModelAlbedos AlbedosOfModel(const MicrofacetModel& model, const LobeCosines& v) {
@@ -108,6 +113,7 @@ ModelAlbedos AlbedosAt(const ShadingMaterial& material, const HitParameters* map
   const auto* model = std::get_if<MicrofacetModel>(&material.model);
   if (model == nullptr) {
     ModelAlbedos albedos = AlbedosOf(material, n_dot_v);
+    if (std::holds_alternative<MeasuredModel>(material.model)) return albedos;  // has no maps
     if (maps != nullptr) albedos.diffuse = LargestChannel(Rgb(VectorAt(maps->albedo, i)));
     return albedos;
   }

@@ -5,6 +5,7 @@
 
 #include "base/overloaded.h"
 #include "shading/lobe_sample.h"
+#include "shading/measured_model.h"
 #include "shading/models_at_hit.h"
 #include "shading/scalar_bsdf.h"
 #include "shading/user_model.h"
@@ -310,11 +311,12 @@ void TakeHit(const ShadingMaterial& material, const HitParameters& t, size_t i,
 }  // namespace
 
 bool HasSampledLobe(const ShadingMaterial& material) {
-  return std::visit(Overloaded{[](const PhongFamilyModel& phong) { return HasLobe(phong); },
-                               [](const MicrofacetModel& model) { return HasLobe(model); },
-                               [](const UserModel& model) { return bool{model.brdf->sample}; },
-                               [](const auto&) { return false; }},
-                    material.model);
+  return std::visit(
+      Overloaded{[](const PhongFamilyModel& phong) { return HasLobe(phong); },
+                 [](const MicrofacetModel& model) { return HasLobe(model); },
+                 [](const UserModel& model) { return bool{model.brdf->sample}; },
+                 [](const MeasuredModel&) { return true; }, [](const auto&) { return false; }},
+      material.model);
 }
 
 void SampleCosines(const MaterialHits& at, const float* u, const float* v, Soa3<float>* to_light) {
@@ -330,6 +332,9 @@ void SampleLobe(const MaterialHits& at, const float* u, const float* v, ShadeScr
   if (!HasSampledLobe(at.material)) return;
   if (const auto* user = std::get_if<UserModel>(&at.material.model)) {
     return SampleUser(*user, at, u, v, scratch, to_light);
+  }
+  if (const auto* measured = std::get_if<MeasuredModel>(&at.material.model)) {
+    return SampleMeasured(*measured, at, u, v, to_light);
   }
   const HitParameters* const maps = at.Maps();
   if (const auto* phong = std::get_if<PhongFamilyModel>(&at.material.model)) {
@@ -352,6 +357,9 @@ void LobePdf(const MaterialHits& at, const LightBatch& light, ShadeScratch* scra
   if (const auto* user = std::get_if<UserModel>(&at.material.model)) {
     return UserPdf(*user, at, light, scratch, pdf);
   }
+  if (const auto* measured = std::get_if<MeasuredModel>(&at.material.model)) {
+    return MeasuredPdf(*measured, at, light, pdf);
+  }
   static const ShadingLight kGiven{.form = LightForm::kGiven};
   const LitHits lit{at, kGiven, &light, nullptr, false};
   const HitParameters* const maps = at.Maps();
@@ -371,7 +379,8 @@ void LobePdf(const MaterialHits& at, const LightBatch& light, ShadeScratch* scra
 bool IsMirror(const MaterialHits& at, size_t hit) {
   const auto* model = std::get_if<MicrofacetModel>(&at.material.model);
   if (model == nullptr || !at.material.by_hit.model) return HasDeltaLobe(at.material);
-  return ColumnsIn<MicrofacetConstants<float*>>(at.textures->constants).not_delta[hit] == 0;
+  using Columns = MicrofacetConstants<float*>;
+  return NumberIn(at.textures->constants, &Columns::not_delta, hit) == 0;
 }
 
 bool AnyMirror(const MaterialHits& at) {

@@ -9,6 +9,7 @@
 #include "brdf/quadrature.h"
 #include "scene/limits.h"
 #include "shading/golden.h"
+#include "shading/measured_model.h"
 #include "shading/open_pbr.h"
 
 namespace nacre {
@@ -45,13 +46,19 @@ struct ViewSums {
   Rgb albedo{0, 0, 0};  // the directional albedo of the other's lobe, minus the original's
 };
 
+// What is compared of a material: its lobe, or all that it reflects, if the original's values do
+// not tell lobe and base apart.
+Rgb ComparedOf(const Reflection& reflection, bool whole) {
+  return whole ? reflection.Sum() : reflection.specular;
+}
+
 ViewSums SumView(const ShadingMaterial& original, const ShadingMaterial& other, double alpha,
-                 double view_deg) {
+                 double view_deg, bool whole) {
   const Vec3d to_view = ViewDirection(view_deg);
   ViewSums sums;
   for (const LobeSample& sample : MakeLobeSamples(alpha, view_deg)) {
-    const Rgb a = Reflect(original, Vec3d(0, 0, 1), sample.to_light, to_view).specular;
-    const Rgb b = Reflect(other, Vec3d(0, 0, 1), sample.to_light, to_view).specular;
+    const Rgb a = ComparedOf(Reflect(original, Vec3d(0, 0, 1), sample.to_light, to_view), whole);
+    const Rgb b = ComparedOf(Reflect(other, Vec3d(0, 0, 1), sample.to_light, to_view), whole);
     const Rgb difference = b - a;
     sums.difference2 += (difference ^ difference) * sample.weight;
     sums.original2 += (a ^ a) * sample.weight;
@@ -66,11 +73,12 @@ struct Highlight {
   double width = 0;  // full width at half maximum, as an angle of light, up to the horizon
 };
 
-Highlight MeasureHighlight(const ShadingMaterial& material, double view_deg) {
+Highlight MeasureHighlight(const ShadingMaterial& material, double view_deg, bool whole) {
   const double mirror = view_deg * M_PI / 180;
   const auto lobe = [&](double light) {
     const Vec3d to_light(-std::sin(light), 0, std::cos(light));
-    const Rgb rgb = Reflect(material, Vec3d(0, 0, 1), to_light, ViewDirection(view_deg)).specular;
+    const Rgb rgb =
+        ComparedOf(Reflect(material, Vec3d(0, 0, 1), to_light, ViewDirection(view_deg)), whole);
     return rgb.x + rgb.y + rgb.z;
   };
   // Angles of light from horizon to horizon. Their distance from the mirror direction grows by a
@@ -166,12 +174,19 @@ double ExponentFromAlpha(PhongModel model, double alpha) {
 
 double LobeAlpha(const Material& material) {
   return std::visit(
-      Overloaded{[](const PhongMaterial& m) { return AlphaFromExponent(m.model, m.shininess); },
-                 [](const MetallicRoughnessMaterial& m) { return AlphaFromRoughness(m.roughness); },
-                 [](const ConductorMaterial& m) { return AlphaFromRoughness(m.roughness); },
-                 [](const DielectricMaterial& m) { return AlphaFromRoughness(m.roughness); },
-                 [](const OpenPbrMaterial& m) { return AlphaFromRoughness(RoughnessBelowCoat(m)); },
-                 [](const auto&) { return 1.0; }},
+      Overloaded{
+          [](const PhongMaterial& m) { return AlphaFromExponent(m.model, m.shininess); },
+          [](const MetallicRoughnessMaterial& m) { return AlphaFromRoughness(m.roughness); },
+          [](const ConductorMaterial& m) { return AlphaFromRoughness(m.roughness); },
+          [](const DielectricMaterial& m) { return AlphaFromRoughness(m.roughness); },
+          [](const OpenPbrMaterial& m) { return AlphaFromRoughness(RoughnessBelowCoat(m)); },
+          [](const MeasuredMaterial& m) {
+            // Where GGX has fallen to 1/e, tan(theta) is sqrt(sqrt(e) - 1) alpha.
+            constexpr double kWidthOverAlpha = 0.8054;
+            if (!m.brdf) return 1.0;
+            return std::min(MeasuredLobeWidth({m.brdf, m.interpolation}) / kWidthOverAlpha, 1.0);
+          },
+          [](const auto&) { return 1.0; }},
       material.model);
 }
 
@@ -179,13 +194,15 @@ MaterialResidual MeasureResidual(const Material& original, const Material& other
   const ShadingMaterial a = PrepareMaterial(original);
   const ShadingMaterial b = PrepareMaterial(other);
   const double alpha = 1.5 * LobeAlpha(original);  // wider, for the flanks
+  const bool whole = std::holds_alternative<MeasuredMaterial>(original.model);
   MaterialResidual residual;
   for (const double view_deg : kResidualViewsDeg) {
-    const ViewSums sums = SumView(a, b, alpha, view_deg);
-    const Highlight from = MeasureHighlight(a, view_deg);
-    const Highlight to = MeasureHighlight(b, view_deg);
+    const ViewSums sums = SumView(a, b, alpha, view_deg, whole);
+    const Highlight from = MeasureHighlight(a, view_deg, whole);
+    const Highlight to = MeasureHighlight(b, view_deg, whole);
     const double n_dot_v = ViewDirection(view_deg).z;
-    const Rgb albedo = sums.albedo + DiffuseAlbedoAt(b, n_dot_v) - DiffuseAlbedoAt(a, n_dot_v);
+    Rgb albedo = sums.albedo;
+    if (!whole) albedo += DiffuseAlbedoAt(b, n_dot_v) - DiffuseAlbedoAt(a, n_dot_v);
     residual.views.push_back(
         {.view_deg = view_deg,
          .rms = RelativeRms(sums.difference2, sums.original2),
@@ -196,7 +213,7 @@ MaterialResidual MeasureResidual(const Material& original, const Material& other
   double difference2 = 0;
   double original2 = 0;
   for (const auto& [view_deg, weight] : HighlightViews()) {
-    const ViewSums sums = SumView(a, b, alpha, view_deg);
+    const ViewSums sums = SumView(a, b, alpha, view_deg, whole);
     difference2 += weight * sums.difference2;
     original2 += weight * sums.original2;
   }

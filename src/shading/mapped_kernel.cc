@@ -98,7 +98,8 @@ void PutShown(const TexturedRun& run) {
   } else if (const auto* dielectric = std::get_if<DielectricMaterial>(&material.model)) {
     const double gloss = AverageDielectric(dielectric->ior);
     PutShown(run, [&](int c, size_t i) { return DeriveDielectricShown(color[c][i], gloss); });
-  } else if (std::holds_alternative<ConductorMaterial>(material.model)) {  // has no colour map
+  } else if (std::holds_alternative<ConductorMaterial>(material.model) ||
+             std::holds_alternative<MeasuredMaterial>(material.model)) {  // have no colour map
     for (int c = 0; c < 3; ++c) {
       hits.Fill(ChannelOf(run.textures.albedo, c).data(),
                 [&](size_t) { return run.material.albedo[c]; });
@@ -323,6 +324,7 @@ void Finish(const TexturedRun& run, const MicrofacetModel& model) {
 
 void Finish(const TexturedRun&, const std::monostate&) {}
 void Finish(const TexturedRun&, const UserModel&) {}
+void Finish(const TexturedRun&, const MeasuredModel&) {}
 
 void FinishNumbersT(const TexturedRun& run) {
   PutShown(run);
@@ -396,6 +398,7 @@ void Multiply(const LitHits& lit, const MicrofacetModel& model, int c) {
 
 void Multiply(const LitHits&, const std::monostate&, int) {}
 void Multiply(const LitHits&, const UserModel&, int) {}
+void Multiply(const LitHits&, const MeasuredModel&, int) {}
 
 void MakeProductsT(const LitHits& lit) {
   for (int c = 0; c < 3; ++c) {

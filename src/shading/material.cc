@@ -214,7 +214,8 @@ MicrofacetModel MakeModel(const MetallicRoughnessMaterial& material) {
   model.fresnel = tinted ? FresnelForm::kF82 : FresnelForm::kSchlick;
   const bool maps_metallic = material.metallic_roughness_map.valid();
   if (material.iridescence > 0) {
-    FilmUse use = FilmUseOf(material, model, material.roughness, maps_metallic);
+    FilmUse use = FilmUseOf(material, model, material.roughness,
+                            maps_metallic || material.anisotropy_map.valid());
     use.dielectric = material.metallic < 1 || maps_metallic;
     use.metal = material.metallic > 0;
     TakeFilm(MakeThinFilmLobe(material, model.albedo.lobe, use), &model);
@@ -423,6 +424,13 @@ ShadingMaterial PrepareUncoated(const Material& material) {
             const Rgb color = DiffuseColor(open_pbr);
             take_shown([&](int c) { return DeriveShown(color[c]); });
           },
+          [&](const MeasuredMaterial& measured) {
+            prepared.model = MatteModel{.diffuse = Rgb(0)};  // without a file
+            if (!measured.brdf) return;
+            prepared.model = MeasuredModel{measured.brdf, measured.interpolation};
+            const Rgb& albedo = measured.brdf->mean_albedo;
+            take_shown([&](int c) { return DeriveShown(std::min(albedo[c], 1.0)); });
+          },
           [](const SplitMaterial&) {}},
       material.model);
   if (material.user) prepared.model = UserModel{material.user};
@@ -490,7 +498,10 @@ ShadingMaterial PrepareMaterial(const Material& material, bool in_ambient) {
 
 void DropMaps(ShadingMaterial* material) {
   material->scene_material = nullptr;
+  const bool tangent =
+      material->by_hit.tangent;  // without maps, too, it is read of an anisotropic lobe
   material->by_hit = {};
+  material->by_hit.tangent = tangent;
   for (std::shared_ptr<const ShadingMaterial>& coat : material->coats) {
     auto without_maps = std::make_shared<ShadingMaterial>(*coat);
     DropMaps(without_maps.get());
@@ -568,6 +579,8 @@ bool HasMirror(const ShadingMaterial& material) {
 
 bool HasAnisotropicLobe(const ShadingMaterial& material) {
   const auto* microfacet = std::get_if<MicrofacetModel>(&material.model);
+  const auto* measured = std::get_if<MeasuredModel>(&material.model);
+  if (measured != nullptr && !measured->brdf->isotropic) return true;
   return (microfacet != nullptr && microfacet->anisotropic) ||
          std::any_of(material.coats.begin(), material.coats.end(),
                      [](const auto& coat) { return HasAnisotropicLobe(*coat); });

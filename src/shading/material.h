@@ -45,7 +45,9 @@ struct ShadingMaterial {
   // The scene material of a coat, to which its `scene_material` points. Owned here, because the
   // scene has none. Null for other materials.
   std::shared_ptr<const Material> own;
-  std::variant<std::monostate, MatteModel, PhongFamilyModel, MicrofacetModel, UserModel> model;
+  std::variant<std::monostate, MatteModel, PhongFamilyModel, MicrofacetModel, UserModel,
+               MeasuredModel>
+      model;
   Rotation<double> tangent_turn;   // of an anisotropic lobe: turns the coordinates' tangent
   std::vector<LayerModel> layers;  // over the model, from the bottom up, under the coats
 };

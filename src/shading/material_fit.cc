@@ -15,12 +15,13 @@
 #include "scene/material_parameters.h"
 #include "shading/golden.h"
 #include "shading/lobe_fit.h"
+#include "shading/log_fit.h"
 
 namespace nacre {
 namespace {
 
-constexpr std::array<std::string_view, 5> kTargets = {"phong", "modified_phong", "blinn_phong",
-                                                      "metallic_roughness", "dielectric"};
+constexpr std::array<std::string_view, 6> kTargets = {
+    "phong", "modified_phong", "blinn_phong", "metallic_roughness", "dielectric", "open_pbr"};
 
 // Perfect mirrors have no lobe to fit. This roughness corresponds to the largest exponent.
 constexpr double kLeastRoughness = 0.007;
@@ -273,6 +274,12 @@ Material WithoutModel(Material material) {
 
 // Notes what no fit between these models can preserve.
 void NoteLosses(const Material& original, bool to_phong, MaterialFit* fit) {
+  if (const auto* measured = std::get_if<MeasuredMaterial>(&original.model)) {
+    if (measured->brdf && !measured->brdf->isotropic) {
+      fit->notes.emplace_back("anisotropy: fitted as it looks from along the tangent");
+    }
+    return;
+  }
   const bool from_phong = std::holds_alternative<PhongMaterial>(original.model);
   if (to_phong && !from_phong) {
     fit->notes.emplace_back(
@@ -349,7 +356,14 @@ MaterialFit FitMaterial(const Material& original, std::string_view target) {
   const Material material = WithLobe(keeps_layers ? original : bare(), &fit.notes);
   fit.guess = fit.fitted = WithoutModel(original);
   const bool to_phong = target.ends_with("phong");
-  if (to_phong) {
+  const bool measured = std::holds_alternative<MeasuredMaterial>(original.model);
+  if (measured || target == "open_pbr") {
+    const LogFit of_values = FitLog(material, target, fit.guess);
+    fit.guess = of_values.guess;
+    fit.fitted = of_values.fitted;
+    fit.guess_log_rms = LogResidual(material, fit.guess);
+    fit.log_rms = LogResidual(material, fit.fitted);
+  } else if (to_phong) {
     FitPhong(material, target, &fit);
   } else if (target == "dielectric") {
     FitDielectric(material, &fit);
@@ -360,7 +374,8 @@ MaterialFit FitMaterial(const Material& original, std::string_view target) {
   fit.residual = MeasureResidual(material, fit.fitted);
   const Rgb base = DiffuseAlbedo(material);
   const Rgb fitted_base = DiffuseAlbedo(fit.fitted);
-  if (LargestChannel((fitted_base - base) * (fitted_base - base)) > kToldAlbedo * kToldAlbedo) {
+  if (!measured &&
+      LargestChannel((fitted_base - base) * (fitted_base - base)) > kToldAlbedo * kToldAlbedo) {
     fit.notes.push_back(
         fmt::format("the base's albedo: {:.3f} {:.3f} {:.3f} of light from everywhere becomes "
                     "{:.3f} {:.3f} {:.3f}",

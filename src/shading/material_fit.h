@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // shading/material_fit.h: converts a material of one reflection model to the nearest one of
-// another: Phong family <-> metallic-roughness and dielectric. A fit starts from the closed forms
-// that books give (n = 2 / alpha^2 - 2 for Blinn's lobe, a fourth of it for Phong's).
+// another: Phong family <-> metallic-roughness and dielectric; and any, also a measured one, to
+// OpenPBR. A fit starts from the closed forms that books give (n = 2 / alpha^2 - 2 for Blinn's
+// lobe, a fourth of it for Phong's).
 //
 // The lobe is fitted by least squares over the directions of light at HighlightViews(); the base
-// keeps its mean albedo. What the other model cannot express is noted in words.
+// keeps its mean albedo. What the other model cannot express is noted in words. Of a measured
+// material, which does not tell lobe and base apart, and for OpenPBR, log_fit.h fits all main
+// parameters at once.
 #pragma once
 
 #include <span>
@@ -22,6 +25,8 @@ struct MaterialFit {
   Material fitted;
   MaterialResidual guess_residual, residual;
   std::vector<std::string> notes;  // what the conversion loses, for users
+  // LogResidual of both, where the fit is that of log_fit.h; else below 0.
+  double guess_log_rms = -1, log_rms = -1;
 };
 
 // The names of the models to which FitMaterial converts.

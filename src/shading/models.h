@@ -10,6 +10,7 @@
 #include "brdf/albedo.h"
 #include "brdf/anisotropic_albedo.h"
 #include "brdf/ggx.h"
+#include "brdf/measured_table.h"
 #include "brdf/table_albedo.h"
 #include "scene/model_options.h"
 #include "scene/user_brdf.h"
@@ -168,6 +169,12 @@ struct MicrofacetModel : MicrofacetForm {
 // A model that the library's caller has written (user_model.h). `brdf` is not null.
 struct UserModel {
   std::shared_ptr<const UserBrdf> brdf;
+};
+
+// A BRDF that was measured (measured_model.h). `brdf` is not null.
+struct MeasuredModel {
+  std::shared_ptr<const MeasuredBrdf> brdf;
+  MeasuredInterpolation interpolation = MeasuredInterpolation::kLinear;
 };
 
 // Whether the terms of a lobe of this roughness are computed in double.

@@ -12,6 +12,7 @@
 #include "brdf/ggx.h"
 #include "brdf/ggx_anisotropic.h"
 #include "brdf/lobe_sampling.h"
+#include "brdf/measured.h"
 #include "brdf/phong.h"
 #include "shading/anisotropic_lobe.h"
 #include "shading/lobe_chances.h"
@@ -151,6 +152,11 @@ Reflection ReflectModel(const UserModel& model, const Frame& frame, const Vec3d&
   return ReflectUser(model, frame.z, l, v);
 }
 
+Reflection ReflectModel(const MeasuredModel& model, const Frame& frame, const Vec3d& l,
+                        const Vec3d& v) {
+  return {Rgb(0), EvaluateMeasured(*model.brdf, model.interpolation, frame, l, v)};
+}
+
 Reflection ReflectModel(const std::monostate&, const Frame&, const Vec3d&, const Vec3d&) {
   return {};
 }
@@ -164,7 +170,10 @@ Reflection ReflectModel(const ShadingMaterial& material, const Frame& frame, con
 Frame FrameOf(const ShadingMaterial& material, const Vec3d& normal,
               const std::optional<Vec3d>& tangent) {
   const auto* const model = std::get_if<MicrofacetModel>(&material.model);
-  if (model == nullptr || !model->anisotropic) return {{}, {}, normal};
+  const auto* const measured = std::get_if<MeasuredModel>(&material.model);
+  const bool is_anisotropic =
+      measured != nullptr ? !measured->brdf->isotropic : model != nullptr && model->anisotropic;
+  if (!is_anisotropic) return {{}, {}, normal};
   return LobeFrame(normal, tangent ? *tangent : DefaultTangent(material, normal));
 }
 
@@ -277,6 +286,9 @@ Vec3d SampleUnmirrored(const ShadingMaterial& material, const Frame& frame, cons
   if (const auto* user = std::get_if<UserModel>(&material.model)) {
     return SampleUser(*user, n, v, u0, u1);
   }
+  if (const auto* measured = std::get_if<MeasuredModel>(&material.model)) {
+    return SampleMeasured(*measured->brdf, frame, v, u0, u1);
+  }
   if (const auto* phong = std::get_if<PhongFamilyModel>(&material.model)) {
     return phong->model == PhongModel::kBlinnPhong
                ? SampleBlinnLobe(n, v, phong->shininess, u0, u1)
@@ -305,6 +317,9 @@ double UnmirroredPdf(const ShadingMaterial& material, const Frame& frame, const 
                      const Vec3d& l) {
   const Vec3d& n = frame.z;
   if (const auto* user = std::get_if<UserModel>(&material.model)) return UserPdf(*user, n, v, l);
+  if (const auto* measured = std::get_if<MeasuredModel>(&material.model)) {
+    return MeasuredPdf(*measured->brdf, frame, v, l);
+  }
   if (const auto* phong = std::get_if<PhongFamilyModel>(&material.model)) {
     return phong->model == PhongModel::kBlinnPhong ? BlinnLobePdf(n, v, l, phong->shininess)
                                                    : PhongLobePdf(n, v, l, phong->shininess);

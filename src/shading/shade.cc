@@ -8,6 +8,7 @@
 #include "base/overloaded.h"
 #include "shading/derive.h"
 #include "shading/kernels.h"
+#include "shading/measured_model.h"
 #include "shading/models_at_hit.h"
 #include "shading/user_model.h"
 
@@ -164,7 +165,8 @@ void ShadeRun(const LitHits& lit, ShadeScratch* scratch) {
     Shade(model, NumbersOfHits(model, lit), light, lit, scratch);
   };
   std::visit(Overloaded{[](std::monostate) {},
-                        [&](const UserModel& model) { ShadeUser(model, lit, scratch); }, shade},
+                        [&](const UserModel& model) { ShadeUser(model, lit, scratch); },
+                        [&](const MeasuredModel& model) { ShadeMeasured(model, lit); }, shade},
              lit.material.model);
   for (const LayerModel& layer : lit.material.layers) {
     if (!LiesOverCoats(layer)) CoverByLayer(layer, lit);

@@ -174,8 +174,10 @@ Rgb ShareOfModel(const MicrofacetModel& model, ShareOf what, double cosine) {
   return share;
 }
 
-// The model is treated as isotropic, but evaluated and averaged in both halves of the hemisphere.
-Rgb ShareOfModel(const UserModel& model, ShareOf what, double cosine) {
+// A model of which only the values are known: it is treated as isotropic, but evaluated and
+// averaged in both halves of the hemisphere.
+template <class Model>
+Rgb ShareOfValues(const Model& model, ShareOf what, double cosine) {
   ShadingMaterial material;
   material.model = model;
   const Vec3d normal(0, 0, 1), fixed = InPlane(cosine, -1);
@@ -191,6 +193,13 @@ Rgb ShareOfModel(const UserModel& model, ShareOf what, double cosine) {
     });
   }
   return share;
+}
+
+Rgb ShareOfModel(const UserModel& model, ShareOf what, double cosine) {
+  return ShareOfValues(model, what, cosine);
+}
+Rgb ShareOfModel(const MeasuredModel& model, ShareOf what, double cosine) {
+  return ShareOfValues(model, what, cosine);
 }
 
 // ReflectedShare of a material whose layers over the coats, or all of whose layers, `below` lacks,

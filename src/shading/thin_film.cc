@@ -36,10 +36,10 @@ Rgb ReflectedAverage(const FresnelTable& table) {
   });
 }
 
-std::shared_ptr<const ThinFilmLobe> MakeLobe(const std::function<FresnelCurve()>& dielectric,
-                                             const std::function<FresnelCurve()>& metal,
-                                             double film_index, const AlbedoFit& lobe,
-                                             const FilmUse& use) {
+std::shared_ptr<const ThinFilmLobe> MakeFilmLobe(const std::function<FresnelCurve()>& dielectric,
+                                                 const std::function<FresnelCurve()>& metal,
+                                                 double film_index, const AlbedoFit& lobe,
+                                                 const FilmUse& use) {
   auto film = std::make_shared<ThinFilmLobe>();
   film->bend = FresnelBend(film_index);
   film->has_dielectric = use.dielectric;
@@ -48,7 +48,8 @@ std::shared_ptr<const ThinFilmLobe> MakeLobe(const std::function<FresnelCurve()>
   film->metal_average = ReflectedAverage(film->metal);
   film->dielectric = MakeFresnelTable(dielectric());
   film->dielectric_average = ReflectedAverage(film->dielectric);
-  if (!use.dielectric || use.is_anisotropic) return film;
+  // Hits with a roughness each ask for the albedo of the dielectric even where there is only metal.
+  if (use.is_anisotropic || (!use.dielectric && !use.roughness_by_hit)) return film;
   film->albedo = MakeTableAlbedoFit(use.shadowing, use.roughness, lobe, film->dielectric);
   if (use.roughness_by_hit) film->curves = MakeTableAlbedoCurves(use.shadowing, film->dielectric);
   return film;
@@ -57,16 +58,10 @@ std::shared_ptr<const ThinFilmLobe> MakeLobe(const std::function<FresnelCurve()>
 // --- OpenPBR. ---
 
 ThinFilmOptions FilmOptionsOf(ThinFilmForm form) {
-  switch (form) {
-    case ThinFilmForm::kBelcourBarla:
-      return {.model = ThinFilmModel::kBelcourBarla};
-    case ThinFilmForm::kLines:
-      return {.model = ThinFilmModel::kThreeLines};
-    case ThinFilmForm::kSpectral:
-    case ThinFilmForm::kGltf:
-      break;
-  }
-  return {};
+  ThinFilmOptions options;
+  if (form == ThinFilmForm::kBelcourBarla) options.model = ThinFilmModel::kBelcourBarla;
+  if (form == ThinFilmForm::kLines) options.model = ThinFilmModel::kThreeLines;
+  return options;
 }
 
 // The index of a metal, seen from vacuum, of which F0 and the factor on the reflectance at 81.8
@@ -152,7 +147,7 @@ std::shared_ptr<const ThinFilmLobe> MakeThinFilmLobe(const OpenPbrMaterial& m,
       return MakeRgb([&](int c) { return 1 - FresnelF82(cosine, 1 - cosine, f0[c], slope[c]); });
     });
   };
-  return MakeLobe(dielectric, metal, m.thin_film_ior, lobe, use);
+  return MakeFilmLobe(dielectric, metal, m.thin_film_ior, lobe, use);
 }
 
 std::shared_ptr<const ThinFilmLobe> MakeThinFilmLobe(const MetallicRoughnessMaterial& m,
@@ -184,7 +179,7 @@ std::shared_ptr<const ThinFilmLobe> MakeThinFilmLobe(const MetallicRoughnessMate
       return MetalBelow(FilmMetal::kGulbrandsenF82, m.base_color[c], m.f82_tint[c]);
     });
   };
-  return MakeLobe(dielectric, metal, m.iridescence_ior, lobe, use);
+  return MakeFilmLobe(dielectric, metal, m.iridescence_ior, lobe, use);
 }
 
 }  // namespace nacre

@@ -15,8 +15,8 @@ struct FilmUse {
   bool dielectric = true, metal = true;
   Shadowing shadowing = Shadowing::kHeightCorrelated;
   double roughness = 0;
-  bool roughness_by_hit = false;
-  bool is_anisotropic = false;  // its albedos are made with the lobe
+  bool roughness_by_hit = false;  // ShadingMaterial::by_hit.width
+  bool is_anisotropic = false;    // its albedos are made with the lobe
 };
 
 // Null without a film.

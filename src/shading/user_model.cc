@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/float_mode.h"
 #include "brdf/lobe_sampling.h"
+#include "shading/lobe_width.h"
 
 namespace nacre {
 namespace {
@@ -241,41 +241,19 @@ double UserPdf(const UserModel& model, const Vec3d& normal, const Vec3d& to_view
 }
 
 double UserLobeWidth(const UserModel& model) {
-  // The half vector is tilted perpendicular to the plane of incidence, so that the light stays
-  // above the surface.
-  constexpr size_t kAngles = 48;
-  constexpr double kLargest = 0.5;
-  double angle[kAngles] = {};  // the first is 0
-  for (size_t k = 1; k < kAngles; ++k) {
-    angle[k] = kLargest * std::exp2(-0.5 * static_cast<double>(kAngles - 1 - k));
-  }
-  double width = std::numeric_limits<double>::infinity();
   const auto room = std::make_unique<UserRoom>();
-  for (const double view_angle : {0.2, 1.0}) {
-    const Vec3d to_view(-std::sin(view_angle), 0, std::cos(view_angle));
-    for (size_t k = 0; k < kAngles; ++k) {
-      const Vec3d half(0, std::sin(angle[k]), std::cos(angle[k]));
-      SetVector({0, 0, 1}, k, &room->normal);
-      SetVector(to_view, k, &room->to_view);
-      SetVector((2 * to_view.dot(half) * half - to_view).normalized(), k, &room->to_light);
+  return FindLobeWidth([&](const LobeWidthPairs& pairs, auto* values) {
+    for (size_t k = 0; k < pairs.to_light.size(); ++k) {
+      SetVector(pairs.normal, k, &room->normal);
+      SetVector(pairs.to_view, k, &room->to_view);
+      SetVector(pairs.to_light[k], k, &room->to_light);
     }
-    Evaluate(
-        *model.brdf,
-        {kAngles, VectorsOf(room->normal), VectorsOf(room->to_view), VectorsOf(room->to_light)},
-        ValuesOf(&room->value));
-    for (const double* const value : ValuesOf(&room->value)) {
-      double change = 0, largest = 0;
-      for (size_t k = 0; k < kAngles; ++k) {
-        change = std::max(change, std::abs(value[k] - value[0]));
-        largest = std::max(largest, std::abs(value[k]));
-      }
-      if (!(change > 1e-3 * largest)) continue;
-      size_t k = 0;
-      while (!(std::abs(value[k] - value[0]) > (1 - 1 / M_E) * change)) ++k;
-      width = std::min(width, angle[k]);
-    }
-  }
-  return width;
+    Evaluate(*model.brdf,
+             {pairs.to_light.size(), VectorsOf(room->normal), VectorsOf(room->to_view),
+              VectorsOf(room->to_light)},
+             ValuesOf(&room->value));
+    for (size_t k = 0; k < values->size(); ++k) (*values)[k] = VectorAt(room->value, k);
+  });
 }
 
 }  // namespace nacre

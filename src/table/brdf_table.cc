@@ -91,6 +91,9 @@ Json WholeMaterialJson(const Material& material) {
   if (material.user) return {{"model", "function"}};
   const MaterialModel& model = *ModelOf(material);
   Json json = {{"model", model.name}};
+  if (const auto* measured = std::get_if<MeasuredMaterial>(&material.model)) {
+    json["file"] = measured->file;
+  }
   for (const MaterialParameter& parameter : model.parameters) {
     json[std::string(parameter.name)] = NumberOrColor(parameter, parameter.get(material));
   }

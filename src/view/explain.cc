@@ -14,6 +14,7 @@
 #include "base/parallel.h"
 #include "base/printable.h"
 #include "brdf/ggx.h"
+#include "brdf/merl.h"
 #include "brdf/phong.h"
 #include "scene/coat.h"
 #include "scene/material_parameters.h"
@@ -139,6 +140,14 @@ Json TermsJson(const ShadingMaterial& material, const Basis<double>& frame, cons
     if (!half) terms["r_dot_v"] = mirrored ^ to_view;
     terms["lobe"] = NumberJson(half ? BlinnLobe(a, phong->shininess)
                                     : PhongLobe(normal, to_light, to_view, phong->shininess));
+  } else if (const auto* measured = std::get_if<MeasuredModel>(&material.model)) {
+    // Where in a table of MERL's form the directions lie; EPFL's has other coordinates.
+    if (std::holds_alternative<MerlTable>(measured->brdf->table)) {
+      const RusinkiewiczAngles at = ComputeRusinkiewicz(normal, to_light, to_view);
+      terms["theta_half"] = NumberJson(at.theta_half * kDegrees);
+      terms["theta_diff"] = NumberJson(at.theta_diff * kDegrees);
+      terms["phi_diff"] = NumberJson(at.phi_diff * kDegrees);
+    }
   }
   return terms;
 }

@@ -110,7 +110,6 @@ TEST_CASE("anisotropic albedos under films agree with the quadrature") {
                                                    return Reflectance(table, vh)[c];
                                                  })[static_cast<size_t>(shadowing)]
                                     .fresnel;
-        const double error = std::abs(albedo[c] - expected);
         worst = std::max(worst, std::abs(albedo[c] - expected));
       }
     }

@@ -193,6 +193,46 @@ def tables():
               struct.pack(letter, *numbers))
 
 
+# ---- Measured BRDFs ----
+
+def tensors(fields):
+    """fields: {name: (shape, type, numbers)}."""
+    kinds = {1: 'B', 10: 'f', 11: 'd'}
+    size = 18 + sum(13 + len(name) + 8 * len(shape) for name, (shape, _, _) in fields.items())
+    head, data = b'tensor_file\0' + struct.pack('<BBI', 1, 0, len(fields)), b''
+    for name, (shape, kind, numbers) in fields.items():
+        head += struct.pack('<H', len(name)) + name.encode()
+        head += struct.pack(f'<HBQ{len(shape)}Q', len(shape), kind, size + len(data), *shape)
+        data += struct.pack(f'<{len(numbers)}{kinds[kind]}', *numbers)
+    return head + data
+
+
+def measured():
+    write('merl', 'table', struct.pack('<3id', 90, 90, 180, 1500))
+    write('merl', 'black', struct.pack('<3id', 90, 90, 180, -1))
+    write('merl', 'whole_circle', struct.pack('<3id', 90, 90, 360, 1))
+    write('merl', 'big_endian', struct.pack('>3id', 90, 90, 180, 1))
+
+    def ramp(*shape):
+        count = 1
+        for n in shape:
+            count *= n
+        return shape, 10, [1 + i % 7 / 7 for i in range(count)]
+
+    angles = {'theta_i': ((2,), 10, [0, 1.5])}
+    squares = {'ndf': ramp(2, 3), 'sigma': ramp(2, 2)}
+    rgb = {**angles, 'phi_i': ((1,), 10, [0]), **squares, 'vndf': ramp(1, 2, 2, 3),
+           'luminance': ramp(1, 2, 2, 2), 'rgb': ramp(1, 2, 3, 2, 2),
+           'jacobian': ((1,), 1, [1]), 'description': ((4,), 1, [110, 111, 110, 101])}
+    write('rgl', 'isotropic', tensors(rgb))
+    write('rgl', 'quarter', tensors({**angles, 'phi_i': ((3,), 10, [-3.1415927, -2.3, -1.5707964]),
+                                     **squares, 'vndf': ramp(3, 2, 2, 2),
+                                     'rgb': ramp(3, 2, 3, 2, 2), 'jacobian': ((1,), 1, [0])}))
+    spectra = {name: value for name, value in rgb.items() if name not in ('rgb', 'luminance')}
+    write('rgl', 'spectra', tensors({**spectra, 'wavelengths': ((4,), 11, [400, 500, 600, 700]),
+                                     'spectra': ramp(1, 2, 4, 2, 2)}))
+
+
 # ---- glTF ----
 
 def png(width=2, height=2, kind=2, filter_type=0, bits=8, extra=b''):
@@ -324,6 +364,7 @@ if __name__ == '__main__':
     materialx()
     meshes()
     tables()
+    measured()
     gltf_files()
     images()
     print(sum(1 for path in CORPUS.rglob('*') if path.is_file()), 'seeds')

@@ -33,6 +33,8 @@ constexpr std::array kTargets = {Target{"scene_json", FuzzSceneJson},
                                  Target{"texture_image", FuzzTextureImage},
                                  Target{"environment_image", FuzzEnvironmentImage},
                                  Target{"compare_image", FuzzCompareImage},
+                                 Target{"merl", FuzzMerl},
+                                 Target{"rgl", FuzzRgl},
                                  Target{"table", FuzzBrdfTable}};
 
 void Replay(const Target& target, const fs::path& file) {

@@ -21,6 +21,8 @@ void FuzzMaterialX(std::string_view bytes);  // a .mtlx; after a line "<!-- incl
 void FuzzTextureImage(std::string_view bytes);
 void FuzzEnvironmentImage(std::string_view bytes);
 void FuzzCompareImage(std::string_view bytes);
+void FuzzMerl(std::string_view bytes);       // the header and the first number of a MERL table
+void FuzzRgl(std::string_view bytes);        // a .bsdf of EPFL's
 void FuzzBrdfTable(std::string_view bytes);  // a .csv, .json or .npy of another program
 
 }  // namespace nacre

@@ -307,9 +307,18 @@ constexpr std::pair<std::string_view, std::string_view> kOthers[] = {
     {"fuzz_roughness_map", "fuzz_weight"}};
 
 // Whether a choice is one of a base or a lobe beside the mapped ones, of which each is walked. What
-// the base is does not ask for the lobe; presets set parameters.
+// the base is does not ask for the lobe; presets set parameters; films have a material of their
+// own.
 bool IsWalked(const MaterialChoice& choice) {
-  return choice.get != nullptr && choice.name != "diffuse";
+  return choice.get != nullptr && choice.name != "diffuse" && choice.name != "iridescence_model" &&
+         !choice.name.starts_with("film");
+}
+
+bool HasFilm(const Material& material) {
+  const auto* const metallic = std::get_if<MetallicRoughnessMaterial>(&material.model);
+  const auto* const open_pbr = std::get_if<OpenPbrMaterial>(&material.model);
+  return (metallic != nullptr && metallic->iridescence > 0) ||
+         (open_pbr != nullptr && open_pbr->thin_film_weight > 0);
 }
 
 // OpenPBR with everything on, and each option by itself: all of them together are 4 million.
@@ -330,6 +339,10 @@ std::vector<Material> WithEachOption(const MaterialModel& model) {
       choice.set(made.emplace_back(made[1]), option);
     }
   }
+  const Material without_film = made[1];
+  auto& film = std::get<OpenPbrMaterial>(made.emplace_back(without_film).model);
+  film.base_metalness = 0;
+  film.thin_film_weight = 0.8;
   return made;
 }
 
@@ -347,6 +360,12 @@ std::vector<Material> WithEveryChoice(const MaterialModel& model) {
       }
     }
     made = std::move(more);
+  }
+  if (std::holds_alternative<MetallicRoughnessMaterial>(made[0].model)) {
+    const Material without_film = made[0];
+    auto& film = std::get<MetallicRoughnessMaterial>(made.emplace_back(without_film).model);
+    film.iridescence = 0.8;
+    film.iridescence_model = ThinFilmForm::kSpectral;
   }
   return made;
 }
@@ -384,9 +403,12 @@ TEST_CASE("every map of every model is the constant, from code 0 to 255, under e
             parameter->set(mapped, Rgb(whole));
             parameter->set(constant, Rgb(whole * value));
           }
-          // The exact dielectric's albedo is a blend of those at some roughnesses.
+          // The albedo of an exact dielectric, and below a film, is a blend of those at some
+          // roughnesses. A metal's film has no map.
           const bool blended =
               map.name == "specular_roughness_map" ||
+              (HasFilm(factors) &&
+               (map.name == "metallic_roughness_map" || map.name == "specular_color_map")) ||
               (model.name == "dielectric" && map.name == "roughness_map" &&
                std::get<DielectricMaterial>(factors.model).fresnel == DielectricFresnel::kExact);
           if (blended) continue;
@@ -402,9 +424,11 @@ TEST_CASE("every map of every model is the constant, from code 0 to 255, under e
   CHECK(walked > 400);
 }
 
-// Holds a roughness map to the constant, for a model whose albedo of a map's roughness is a blend.
+// Holds a roughness map to the constant, for a model whose albedo of a map's roughness is a blend
+// of this error.
 template <class Model>
-void CheckRoughnessMap(const Model& model, double Model::*roughness, TextureId Model::*map) {
+void CheckRoughnessMap(const Model& model, double Model::*roughness, TextureId Model::*map,
+                       float error = 3e-4f) {
   for (const int code : {0, 1, 128, 255}) {
     const double value = Held(code / 255.0);
     Material constant, mapped;
@@ -422,7 +446,7 @@ void CheckRoughnessMap(const Model& model, double Model::*roughness, TextureId M
       const auto& b = expected.channels[c].samples;
       // The albedo's error, as above: of what a base of .5 gives back.
       for (size_t i = 0; i < a.size(); ++i) {
-        if (std::abs(a[i] - b[i]) > 3e-4f * std::max(b[i], 1.0f)) {
+        if (std::abs(a[i] - b[i]) > error * std::max(b[i], 1.0f)) {
           CAPTURE(i, a[i], b[i]);
           FAIL("differs");
         }
@@ -477,6 +501,13 @@ TEST_CASE("an exact dielectric's roughness map is the constant mirror and the co
                       &OpenPbrMaterial::specular_roughness,
                       &OpenPbrMaterial::specular_roughness_map);
   }
+}
+
+TEST_CASE("the roughness map of a dielectric below a film is the constant") {
+  // The error of brdf/table_albedo.h.
+  CheckRoughnessMap(OpenPbrMaterial{.base_color = Rgb(0.5), .thin_film_weight = 1},
+                    &OpenPbrMaterial::specular_roughness, &OpenPbrMaterial::specular_roughness_map,
+                    1e-3f);
 }
 
 TEST_CASE("a level normal map, a flat bump map and a constant emission map change no bit") {

@@ -535,9 +535,8 @@ TEST_CASE("subsurfaces and films are read, transmission is read and told") {
   CHECK(HasMtlxNote(glass, "geometry_opacity: 0.5: not shown: the material is opaque"));
   CHECK(HasMtlxNote(glass, "has no such input; did you mean \"specular_roughness\"?"));
   CHECK(glass.notes.size() == 3);
-  CHECK(glass.material == Json({{"model", "open_pbr"},
-                                {"transmission_weight", 1.0},
-                                {"thin_film_weight", 0.5}}));
+  CHECK(glass.material ==
+        Json({{"model", "open_pbr"}, {"transmission_weight", 1.0}, {"thin_film_weight", 0.5}}));
   const MaterialXMaterial film =
       ReadMtlx(OneMtlx("standard_surface", MtlxIn("thin_film_thickness", "float", "550")));
   CHECK(film.material["thin_film_weight"] == 1.0);

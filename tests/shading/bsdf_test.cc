@@ -15,6 +15,7 @@
 
 #include "catch.h"
 #include "chi_squared.h"
+#include "measured_tables.h"
 #include "shading/scalar_bsdf.h"
 #include "shading/share.h"
 #include "targets.h"
@@ -227,6 +228,24 @@ void AddFilms(std::vector<Stack>* stacks) {
   }
 }
 
+// Measured BRDFs: a table of MERL's form, and tables of EPFL's, of random numbers. They know
+// nothing of reciprocity.
+void AddMeasured(std::vector<Stack>* stacks) {
+  static const auto gold = std::make_shared<const MeasuredBrdf>(AnalyticMerl({.alpha = 0.3}));
+  static const auto isotropic = std::make_shared<const MeasuredBrdf>(MakeRglBrdf(RandomRgl(1)));
+  static const auto quarter =
+      std::make_shared<const MeasuredBrdf>(MakeRglBrdf(RandomRgl(2, 3, 4), 4));
+  const auto add = [&](const char* name, const std::shared_ptr<const MeasuredBrdf>& brdf) {
+    Add(std::string("measured, ") + name, MeasuredMaterial{.brdf = brdf}, stacks);
+    stacks->back().whole = false;  // some half vectors face away
+  };
+  add("MERL", gold);
+  stacks->back().reciprocal = true;
+  add("EPFL", isotropic);
+  add("EPFL, anisotropic", quarter);
+  stacks->back().tangents = {Vec3d(std::cos(1.9), std::sin(1.9), 0)};
+}
+
 // Every kind of lobe, by itself and over and under others. Lobes are wide enough for quadrature.
 std::vector<Stack> Stacks() {
   std::vector<Stack> stacks;
@@ -274,6 +293,7 @@ std::vector<Stack> Stacks() {
   AddOpenPbr(&stacks);
   AddAnisotropic(&stacks);
   AddFilms(&stacks);
+  AddMeasured(&stacks);
   paint.roughness = 0.6;
   paint.coat_normal_map.texture = TextureId{0};
   Add("two tinted coats with normals of their own", paint, &stacks);

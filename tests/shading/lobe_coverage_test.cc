@@ -95,7 +95,8 @@ std::vector<Surfaced> AllCombinations() {
   for (const MaterialModel& model : MaterialModels()) {
     std::vector<Surfaced> made = {{std::string(model.name), model.make()}};
     for (const MaterialChoice& choice : model.choices) {
-      if (choice.get == nullptr) continue;  // a preset
+      if (choice.get == nullptr) continue;               // a preset
+      if (choice.name == "iridescence_model") continue;  // does nothing without a film
       // Of OpenPBR's options, which are millions together, those of the lobe by itself.
       const bool of_lobe = choice.name == "smith" || choice.name == "compensation";
       if (model.name == "open_pbr" && !of_lobe) continue;

@@ -116,6 +116,13 @@ inline FresnelTerms Fresnel(const MicrofacetModel& m, const Angles<double>& a) {
       case FresnelForm::kConductor:
         terms.metal[c] = FresnelConductor(VDotH(a), OneMinusVDotH(a), m.eta[c], m.k[c]);
         break;
+      case FresnelForm::kThinFilm: {
+        const auto at = static_cast<size_t>(c);
+        terms.dielectric[c] =
+            m.dielectric_scale[c] * (1 - FresnelTableLoss(m.film->dielectric, VDotH(a))[at]);
+        terms.metal[c] = m.metal_scale * (1 - FresnelTableLoss(m.film->metal, VDotH(a))[at]);
+        break;
+      }
       case FresnelForm::kOpenPbr:
         terms.dielectric[c] = m.dielectric_scale[c] *
                               FresnelCoatedDielectric(VDotH(a), OneMinusVDotH(a), m.dielectric);

@@ -182,7 +182,7 @@ std::vector<Material> MicrofacetMaterials(double roughness) {
     set("eta", {0.15, 0.4, 1.4});
     set("k", {4, 2.4, 1.6});
     for (const MaterialChoice& choice : model.choices) {
-      if (choice.name == "preset") continue;
+      if (choice.name == "preset" || choice.name == "iridescence_model") continue;
       std::vector<Material> more;
       for (const Material& material : some) {
         for (size_t option = 0; option < choice.options.size(); ++option) {

@@ -41,7 +41,7 @@ class Explanation {
     const rows = [row('state', l => l.state),
                   row('distance', l => l.distance === null ? '∞' : l.distance === undefined ? '' : show(l.distance, 4)), row('irradiance', l => l.irradiance ? three(l.irradiance) : ''),
                   angle('n_dot_l', 'n·l'), angle('n_dot_v', 'n·v'), angle('n_dot_h', 'n·h'), angle('v_dot_h', 'v·h'),
-                  ...terms('alpha', 'α'), ...terms('D'), ...terms('G'), ...terms('F'), ...terms('shininess', 'exponent'), ...terms('r_dot_v', 'r·v'), ...terms('lobe'),
+                  ...terms('alpha', 'α'), ...terms('D'), ...terms('G'), ...terms('F'), ...terms('shininess', 'exponent'), ...terms('r_dot_v', 'r·v'), ...terms('lobe'), ...terms('theta_half', 'θ half'), ...terms('theta_diff', 'θ difference'), ...terms('phi_diff', 'φ difference'),
                   ...this.covers(lights, row),
                   row('diffuse radiance', l => l.diffuse ? three(l.diffuse) : ''), row('specular radiance', l => l.specular ? three(l.specular) : ''),
                   row('rendered, diffuse', l => three(l.rendered_diffuse)), row('rendered, specular', l => three(l.rendered_specular)),
