@@ -17,11 +17,9 @@ OpenPbrOptions OptionsOf(OpenPbrRules rules) {
               .coat_absorption = CoatAbsorption::kNormal,
               .coat_partial = CoatPartial::kLerpThenExponent,
               .compensation = Compensation::kTurquin,
-              .emission_through = EmissionThrough::kMaterialX,
               .film = ThinFilmForm::kBelcourBarla,
               .film_metal = FilmMetal::kRealIndex,
-              .film_outside = FilmOutside::kAir,
-              .f82_clamp = false};
+              .film_outside = FilmOutside::kAir};
     case OpenPbrRules::kAdobe:
       return {.coat_fresnel = CoatFresnel::kIndexLerp,
               .coat_roughening = CoatRoughening::kAdobe,
@@ -29,7 +27,6 @@ OpenPbrOptions OptionsOf(OpenPbrRules rules) {
               .coat_partial = CoatPartial::kPerCrossing,
               .layering = Layering::kReciprocal,
               .smith = Shadowing::kSeparable,
-              .emission_through = EmissionThrough::kBaseFactors,
               .alpha_max = AlphaLimit::kNone,
               .film = ThinFilmForm::kLines,
               .film_metal = FilmMetal::kGulbrandsenTint,

@@ -78,14 +78,6 @@ enum class SpecularTintBelow : uint8_t {
   kMaxChannel,
 };
 
-// What coat and fuzz do to emission.
-enum class EmissionThrough : uint8_t {
-  kCoatPath,     // one crossing of the coat
-  kCoatColor,    // coat_color
-  kBaseFactors,  // all factors by which the base is seen
-  kMaterialX,    // coat_color (1 - F0) (1 - (1 - n.v)^5)
-};
-
 // The complex index of a metal below a film, of which F0 and the tint at 81.8 degrees are given.
 enum class FilmMetal : uint8_t {
   kGulbrandsenF82,   // Gulbrandsen 2014 of F0 and the reflectance at 81.8 degrees
@@ -111,13 +103,11 @@ struct OpenPbrOptions {
   Shadowing smith = Shadowing::kHeightCorrelated;
   Compensation compensation = Compensation::kKullaConty;
   SpecularTintBelow specular_tint_below = SpecularTintBelow::kUntinted;
-  EmissionThrough emission_through = EmissionThrough::kCoatPath;
   AlphaLimit alpha_max = AlphaLimit::kOne;
   ThinFilmForm film = ThinFilmForm::kSpectral;  // not kGltf
   FilmMetal film_metal = FilmMetal::kGulbrandsenF82;
   FilmOutside film_outside = FilmOutside::kCoat;
   double film_fade_nm = 0;  // thinner films fade to none (ThinFilmShare)
-  bool f82_clamp = true;
   bool base_weight_in_rho = false;
 };
 

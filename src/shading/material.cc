@@ -498,8 +498,8 @@ ShadingMaterial PrepareMaterial(const Material& material, bool in_ambient) {
 
 void DropMaps(ShadingMaterial* material) {
   material->scene_material = nullptr;
-  const bool tangent =
-      material->by_hit.tangent;  // without maps, too, it is read of an anisotropic lobe
+  // Anisotropic lobes read a tangent without maps, too.
+  const bool tangent = material->by_hit.tangent;
   material->by_hit = {};
   material->by_hit.tangent = tangent;
   for (std::shared_ptr<const ShadingMaterial>& coat : material->coats) {
