@@ -4,13 +4,13 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <new>
 #include <set>
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "base/address_space.h"
 #include "base/float_mode.h"
 #include "base/parallel.h"
 
@@ -58,13 +58,10 @@ class AllowThreads {
   int count_;
 };
 
-// Throws std::bad_alloc if there is no memory for an arena and its first worker. TBB's own
-// exception would never arrive: TBB 2022 throws it under a lock that throwing takes again, and
-// waits forever. TBB's controls take that lock, too.
-void RequireMemoryForArena() {
-  constexpr size_t kBytes = size_t{8} << 20;  // a worker's stack alone is 4; never touched
-  ::operator delete(::operator new(kBytes));
-}
+// What an arena and its first worker take; a worker's stack alone is 4 MiB. TBB's own exception
+// would never arrive: TBB 2022 throws it under a lock that throwing takes again, and waits forever.
+// TBB's controls take that lock, too.
+constexpr size_t kArenaBytes = size_t{8} << 20;
 
 // One arena for each number of threads, which is kept: destroying an arena leaks 7 KB in TBB
 // 2021.8, which would add up in a program that renders thousands of pictures.
@@ -72,7 +69,7 @@ tbb::task_arena& ArenaOf(int threads) {
   static std::mutex mutex;
   static std::map<int, tbb::task_arena> arenas;
   const std::lock_guard lock(mutex);
-  if (!arenas.contains(threads)) RequireMemoryForArena();
+  if (!arenas.contains(threads)) RequireAddressSpace(kArenaBytes);
   return arenas.try_emplace(threads, threads).first->second;
 }
 

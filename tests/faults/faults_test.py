@@ -262,8 +262,8 @@ class FaultsTest(unittest.TestCase):
         mesh = SOURCE / 'scenes/mesh_and_spheres.json'
         seen = set()
         # Embree 3's tree of a scene in which TBB found no memory for a task waits for ever as it goes:
-        # a window of 2 MiB and more.
-        for mib in (*range(64, 300, 2), 400, 600, 1000, 2000, 4000):
+        # a window of 2 MiB and more. TBB 2022's first arena: one of less than 1 MiB.
+        for mib in (*(half / 2 for half in range(128, 600)), 400, 600, 1000, 2000, 4000):
             if run_within(mib, '--version').returncode != 0:
                 continue
             result = run_within(mib, 'render', mesh, '-o', self.out / 'a.png', *SMALL, '--threads', '2')
