@@ -14,9 +14,9 @@
 //   packets TARGET COUNT     such rays in packets and one by one, on a SIMD target, by the number
 //   of
 //                            spheres and triangles: the table that src/embree/box_trees.cc is from
-//   clouds SPHERES SAMPLES COUNT
-//       a frame of a cloud of spheres by tiles and by a tree, by how many of them a ray passes on
-//       average: the table that src/render/camera_cost.cc is from
+//   clouds TARGET SPHERES SAMPLES COUNT
+//       a frame of a cloud of spheres by tiles and by a tree on a SIMD target, by how many of them
+//       a ray passes on average: the table that src/render/camera_cost.cc is from
 //   spng FILE COUNT          decodes a PNG file by libspng alone
 //   jpeg IN OUT              writes a picture as JPEG
 //   brdf PAIRS COUNT         evaluates a model at pairs of directions, by the float kernels
@@ -305,14 +305,11 @@ void CompareWithPackets(const char* what, const nacre::Scene& scene, size_t size
   std::fflush(stdout);
 }
 
-void ComparePackets(const std::string& name, int count) {
+void ComparePackets(int count) {
   const nacre::FlushDenormals flush;
   std::minstd_rand random(1);
   std::array<Batches, 2> batches = {MakeBatches(MakeRays(1, &random)),
                                     MakeBatches(MakeRays(64, &random))};
-  for (const nacre::Target target : nacre::SupportedTargets()) {
-    if (nacre::TargetName(target) == name) nacre::PinTarget(target);
-  }
   std::printf(
       "target  shapes                        many  closest:    alone  ratio occluded:   alone  "
       "ratio\n");
@@ -518,6 +515,13 @@ void EvaluateBrdf(size_t pairs, int count) {
   PrintSeconds(Time(count, [&] { brdf.Shade({pairs, vectors(0), vectors(3), vectors(6)}); }));
 }
 
+void UseTarget(const std::string& name) {
+  for (const nacre::Target target : nacre::SupportedTargets()) {
+    if (nacre::TargetName(target) == name) return nacre::PinTarget(target);
+  }
+  throw std::runtime_error("no SIMD target of this machine: " + name);
+}
+
 bool Run(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "";
   if (what == "session" && argc >= 8) {
@@ -529,9 +533,11 @@ bool Run(int argc, char** argv) {
   } else if (what == "rays" && argc == 4) {
     TraceRays(std::atoi(argv[2]), std::atoi(argv[3]));
   } else if (what == "packets" && argc == 4) {
-    ComparePackets(argv[2], std::atoi(argv[3]));
-  } else if (what == "clouds" && argc == 5) {
-    CompareClouds(std::atoi(argv[2]), std::atoi(argv[3]), std::atoi(argv[4]));
+    UseTarget(argv[2]);
+    ComparePackets(std::atoi(argv[3]));
+  } else if (what == "clouds" && argc == 6) {
+    UseTarget(argv[2]);
+    CompareClouds(std::atoi(argv[3]), std::atoi(argv[4]), std::atoi(argv[5]));
   } else if (what == "spng" && argc == 4) {
     DecodePng(argv[2], std::atoi(argv[3]));
   } else if (what == "jpeg" && argc == 4) {
