@@ -425,7 +425,8 @@ nacre::Scene MakeCloud(int count, double depth, int samples) {
 // camera rays take in a frame; once, the tree. Then what TreeSaves says of it all.
 void CompareClouds(int spheres, int samples, int count) {
   std::printf(
-      " spheres   depth  tiles: view  rays   tree: built  view  rays  saves, says the model\n");
+      " spheres   depth  tiles: view   rays  tree: built  view   rays  saves, says the model   "
+      "cells, camera rays\n");
   for (const double depth : {0.1, 1.0, 4.0, 16.0, 64.0, 256.0}) {
     const nacre::Scene scene = MakeCloud(spheres, depth, samples);
     std::array<std::vector<double>, 2> view, rays;
@@ -457,9 +458,10 @@ void CompareClouds(int spheres, int samples, int count) {
         {0, 0, scene.image.width, scene.image.height});
     const double tiles = MedianOf(view[0]) + MedianOf(rays[0]);
     const double tree = MedianOf(view[1]) + MedianOf(rays[1]);
-    std::printf("%8d %7.1f %12.1f %5.0f %13.0f %5.1f %5.0f %6.0f %15.0f\n", spheres, depth,
-                MedianOf(view[0]), MedianOf(rays[0]), built, MedianOf(view[1]), MedianOf(rays[1]),
-                tiles - tree, nacre::TreeSaves(work) / 1e6);
+    std::printf("%8d %7.1f %12.2f %6.1f %12.0f %5.2f %6.1f %6.1f %15.1f %9.0f %11.0f\n", spheres,
+                depth, MedianOf(view[0]), MedianOf(rays[0]), built, MedianOf(view[1]),
+                MedianOf(rays[1]), tiles - tree, nacre::TreeSaves(work) / 1e6, work.in_cells,
+                work.rays);
     std::fflush(stdout);
   }
 }
