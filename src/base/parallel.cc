@@ -121,7 +121,10 @@ Helpers& TheHelpers() {
 }  // namespace
 
 int ThreadCount(int threads) {
-  return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  // Asking reads a file of the system: a hundredth of a frame of 10 ms, where a session asks each
+  // time.
+  static const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return threads > 0 ? threads : cores;
 }
 
 void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& body) {

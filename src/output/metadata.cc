@@ -63,11 +63,19 @@ uint64_t HashPlanned(const FramePlan& plan, PreparedScene* prepared) {
   if (prepared == nullptr) return HashScene(*plan.scene);
   const SceneParts parts = plan.with_lights ? SceneParts(ScenePart::kCamera) : SceneParts();
   const ViewKey key{prepared->shapes_made, prepared->versions.Of(parts), {}};
-  if (!prepared->shapes_hash.IsUpToDate(key)) {
-    prepared->hashes.shapes = HashShapes(*plan.scene);
-    prepared->shapes_hash.Set(key, {});
-  }
   const SceneVersions& versions = prepared->versions;
+  if (!prepared->shapes_hash.IsUpToDate(key)) {
+    // Of a scene with its lights' shapes, spheres are not numbered as in the scene without.
+    const auto spheres = plan.with_lights || !prepared->shapes_hashed
+                             ? std::nullopt
+                             : versions.SpheresSince(*prepared->shapes_hashed);
+    prepared->shapes_hash.Forget();  // in case memory runs out before the key is set again
+    if (!spheres) {
+      prepared->hashes.ForgetShapes();
+    } else {
+      for (const uint32_t i : *spheres) prepared->hashes.ForgetSphere(i);
+    }
+  }
   const ViewKey of_lights{
       plan.with_lights ? prepared->shapes_made : 0,
       versions.Of(plan.with_lights ? SceneParts(ScenePart::kLights) : SceneParts()),
@@ -80,6 +88,8 @@ uint64_t HashPlanned(const FramePlan& plan, PreparedScene* prepared) {
   }
   prepared->material_hashes.Forget();  // in case memory runs out before the key is set again
   const uint64_t hash = HashScene(*plan.scene, &prepared->hashes);
+  prepared->shapes_hash.Set(key, {});
+  prepared->shapes_hashed = plan.with_lights ? std::nullopt : std::optional(versions.shapes());
   prepared->material_hashes.Set(of_lights, {});
   prepared->materials_hashed = versions.materials();
   return hash;

@@ -45,7 +45,9 @@ HitArrays PlanHitArrays(const RenderSettings& settings, const TracePlan& trace,
   }
   const std::vector<LightShadows>& lights = direct.shadows.punctual;
   plan.may_be_shadowed.resize(scene.spheres.size());
-  for (uint32_t sphere = 0; sphere < scene.spheres.size(); ++sphere) {
+  const bool any_rays =
+      std::ranges::any_of(lights, [](const LightShadows& light) { return light.rays; });
+  for (uint32_t sphere = 0; any_rays && sphere < scene.spheres.size(); ++sphere) {
     plan.may_be_shadowed[sphere] = std::ranges::any_of(
         lights, [&](const LightShadows& light) { return !NeverShadowed(light, sphere); });
   }

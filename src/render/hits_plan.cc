@@ -2,12 +2,10 @@
 #include "render/hits_plan.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "base/parallel.h"
 #include "base/target.h"
 #include "render/camera_cost.h"
 #include "render/mesh_windows.h"
@@ -18,33 +16,20 @@
 namespace nacre {
 namespace {
 
-// True only if every camera ray starts outside the sphere. The margins are far larger than the
-// rounding errors of the intersection tests.
-bool IsOutside(const Scene& scene, const Vec3d& forward, const Sphere& sphere) {
-  const Vec3d offset = sphere.center - scene.camera.position;
-  const double clear = sphere.radius * (1 + 1e-9);
-  if (scene.camera.projection == Projection::kPerspective) return offset.length2() > clear * clear;
-  // Orthographic: the whole sphere is in front of the plane in which the rays start, or behind it.
+// True only if every camera ray starts outside every sphere, by far more than the rounding errors
+// of the intersection tests. Then the camera sees spheres from outside only, and a sphere never
+// shadows its own points that face a light.
+bool RaysStartOutside(const Scene& scene, const Intersector& intersector) {
+  if (scene.camera.projection == Projection::kPerspective) return intersector.EyeIsOutside();
+  // Orthographic: each sphere is in front of the plane in which the rays start, or behind it.
+  const Vec3d forward = (scene.camera.look_at - scene.camera.position).normalized();
   const double pixel = scene.camera.height / scene.image.height;
   const double plane = pixel * (scene.image.height + scene.image.width);
-  return std::abs(offset.dot(forward)) > clear + 1e-12 * (offset.length() + plane);
-}
-
-// True only if every camera ray starts outside every sphere. Then the camera sees spheres from
-// outside only, and a sphere never shadows its own points that face a light.
-bool EyeIsOutside(const Scene& scene, int threads) {
-  const Vec3d forward = (scene.camera.look_at - scene.camera.position).normalized();
-  constexpr size_t kBlock = size_t{1} << 14;
-  std::atomic<bool> outside = true;
-  ParallelFor((scene.spheres.size() + kBlock - 1) / kBlock, threads, [&](size_t block) {
-    const Sphere* const spheres = scene.spheres.data();
-    const size_t end = std::min((block + 1) * kBlock, scene.spheres.size());
-    const bool all =
-        std::all_of(spheres + block * kBlock, spheres + end,
-                    [&](const Sphere& sphere) { return IsOutside(scene, forward, sphere); });
-    if (!all) outside = false;
+  return std::ranges::all_of(scene.spheres, [&](const Sphere& sphere) {
+    const Vec3d offset = sphere.center - scene.camera.position;
+    return std::abs(offset.dot(forward)) >
+           sphere.radius * (1 + 1e-9) + 1e-12 * (offset.length() + plane);
   });
-  return outside;
 }
 
 std::string DescribeShapes(const Scene& scene) {
@@ -125,10 +110,10 @@ TracedShapes PrepareShapes(const Scene& scene, const RenderSettings& settings,
   shapes.camera = camera;
   shapes.camera_extent = SumOfAbs(scene.camera.position);
   if (scene.spheres.empty() && CountTriangles(scene) == 0) return shapes;
+  shapes.intersector = FindIntersector(scene, settings, prepared);
   shapes.eye_outside =
       prepared->eye_outside.Get(KeyOfView(*prepared, prepared->shapes_made, {}),
-                                [&] { return EyeIsOutside(scene, settings.threads); });
-  shapes.intersector = FindIntersector(scene, settings, prepared);
+                                [&] { return RaysStartOutside(scene, *shapes.intersector); });
   Report(settings, 0.15);
   return shapes;
 }

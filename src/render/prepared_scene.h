@@ -103,7 +103,8 @@ struct PreparedScene {
   Kept<ViewKey, std::monostate> lights;  // whether the intersector has the lights' occluders
 
   KeptHashes hashes;
-  Kept<ViewKey, std::monostate> shapes_hash;      // whether `hashes` has the shapes' hash
+  Kept<ViewKey, std::monostate> shapes_hash;      // whether `hashes` has the shapes' hashes
+  std::optional<uint64_t> shapes_hashed;          // versions.shapes() of those, without lights
   Kept<ViewKey, std::monostate> material_hashes;  // whether `hashes` has the materials' hashes
   uint64_t materials_hashed = 0;                  // versions.materials() of those hashes
 

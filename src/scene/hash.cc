@@ -70,8 +70,6 @@ uint64_t HashPiece(std::span<const unsigned char> bytes) {
   return all.state();
 }
 
-constexpr size_t kSpheresAtATime = size_t{1} << 14;
-
 // Splits `count` items into pieces, computes hash_piece(first, end) of each on several threads, and
 // adds the results to `hash`.
 template <class HashPieceOf>
@@ -274,9 +272,9 @@ uint64_t HashSphere(const Sphere& sphere) {
   return hash.state();
 }
 
-// Hashes of materials are combined in groups, so that after a change of one material few of them
-// need be combined again.
-constexpr size_t kMaterialGroup = 256;
+// Hashes of materials and of spheres are combined in groups, so that after a change of one of them
+// few need be combined again.
+constexpr size_t kMaterialGroup = 256, kSphereGroup = 1024;
 
 void AddMaterials(const std::vector<Material>& materials, KeptHashes* kept, Hasher* hash) {
   const size_t count = materials.size();
@@ -298,51 +296,28 @@ void AddMaterials(const std::vector<Material>& materials, KeptHashes* kept, Hash
   }
 }
 
-}  // namespace
-
-void KeptHashes::ForgetMaterials() {
-  materials.clear();
-  material_groups.clear();
-}
-
-void KeptHashes::ForgetMaterial(size_t material) {
-  materials[material].reset();
-  material_groups[material / kMaterialGroup].reset();
-}
-
-uint64_t HashScene(const Scene& scene, KeptHashes* kept) {
-  Hasher hash;
-  SharedHashes shared(kept);
-  AddKeys(scene.camera, &hash);
-  AddKeys(scene.image, &hash);
-  hash.Add(scene.background);
-  for (const SceneImage& image : scene.images) Add(image, &shared, &hash);
-  for (const Texture& texture : scene.textures) Add(texture, &hash);
-  hash.Word(scene.materials.size());  // sizes, so that no value can pass for one of the next array
-  KeptHashes own;
-  AddMaterials(scene.materials, kept != nullptr ? kept : &own, &hash);
-  hash.Word(scene.lights.size());
-  for (const Light& light : scene.lights) {
-    hash.Word(light.kind.index());
-    hash.Add(std::string_view(light.name));
-    hash.Word(light.shadows);
-    std::visit(AddLightKind{&shared, &hash}, light.kind);
+void AddSpheres(std::span<const Sphere> spheres, std::vector<std::optional<uint64_t>>* groups,
+                Hasher* hash) {
+  hash->Word(spheres.size());
+  groups->resize((spheres.size() + kSphereGroup - 1) / kSphereGroup);
+  std::vector<size_t> missing;
+  for (size_t group = 0; group < groups->size(); ++group) {
+    if (!(*groups)[group]) missing.push_back(group);
   }
-  hash.Word(kept != nullptr && kept->shapes ? *kept->shapes : HashShapes(scene));
-  if (kept != nullptr) kept->shared = std::move(shared).used();
-  return hash.state();
-}
-
-uint64_t HashShapes(std::span<const Sphere> spheres, std::span<const Mesh> meshes) {
-  Hasher hash;
-  hash.Word(spheres.size());
-  AddPieces(spheres.size(), kSpheresAtATime, &hash, [&](size_t first, size_t end) {
+  ParallelFor(missing.size(), 0, [&](size_t i) {
     // Each sphere is hashed by itself: in one chain each multiplication would wait for the one
     // before.
-    Hasher piece;
-    for (size_t i = first; i < end; ++i) piece.Word(HashSphere(spheres[i]));
-    return piece.state();
+    Hasher of_group;
+    const size_t first = missing[i] * kSphereGroup;
+    const size_t end = std::min(spheres.size(), first + kSphereGroup);
+    for (size_t sphere = first; sphere < end; ++sphere) of_group.Word(HashSphere(spheres[sphere]));
+    (*groups)[missing[i]] = of_group.state();
   });
+  for (const std::optional<uint64_t>& group : *groups) hash->Word(*group);
+}
+
+uint64_t HashMeshes(std::span<const Mesh> meshes) {
+  Hasher hash;
   hash.Word(meshes.size());
   const auto add_sizes = [&](const auto&... arrays) { hash.AddWords(arrays.size()...); };
   const auto add_arrays = [&](const auto&... arrays) { (AddArray(arrays, &hash), ...); };
@@ -355,6 +330,65 @@ uint64_t HashShapes(std::span<const Sphere> spheres, std::span<const Mesh> meshe
     hash.Add(mesh.material);
   }
   return hash.state();
+}
+
+uint64_t HashShapes(std::span<const Sphere> spheres, std::span<const Mesh> meshes,
+                    KeptHashes* kept) {
+  Hasher hash;
+  AddSpheres(spheres, &kept->sphere_groups, &hash);
+  if (!kept->meshes) kept->meshes = HashMeshes(meshes);
+  hash.Word(*kept->meshes);
+  return hash.state();
+}
+
+}  // namespace
+
+void KeptHashes::ForgetMaterials() {
+  materials.clear();
+  material_groups.clear();
+}
+
+void KeptHashes::ForgetMaterial(size_t material) {
+  materials[material].reset();
+  material_groups[material / kMaterialGroup].reset();
+}
+
+void KeptHashes::ForgetShapes() {
+  sphere_groups.clear();
+  meshes.reset();
+}
+
+void KeptHashes::ForgetSphere(size_t sphere) {
+  if (sphere / kSphereGroup < sphere_groups.size()) sphere_groups[sphere / kSphereGroup].reset();
+}
+
+uint64_t HashScene(const Scene& scene, KeptHashes* kept) {
+  Hasher hash;
+  SharedHashes shared(kept);
+  AddKeys(scene.camera, &hash);
+  AddKeys(scene.image, &hash);
+  hash.Add(scene.background);
+  for (const SceneImage& image : scene.images) Add(image, &shared, &hash);
+  for (const Texture& texture : scene.textures) Add(texture, &hash);
+  hash.Word(scene.materials.size());  // sizes, so that no value can pass for one of the next array
+  KeptHashes own;
+  KeptHashes* const known = kept != nullptr ? kept : &own;
+  AddMaterials(scene.materials, known, &hash);
+  hash.Word(scene.lights.size());
+  for (const Light& light : scene.lights) {
+    hash.Word(light.kind.index());
+    hash.Add(std::string_view(light.name));
+    hash.Word(light.shadows);
+    std::visit(AddLightKind{&shared, &hash}, light.kind);
+  }
+  hash.Word(HashShapes(scene.spheres, scene.meshes, known));
+  if (kept != nullptr) kept->shared = std::move(shared).used();
+  return hash.state();
+}
+
+uint64_t HashShapes(std::span<const Sphere> spheres, std::span<const Mesh> meshes) {
+  KeptHashes own;
+  return HashShapes(spheres, meshes, &own);
 }
 
 }  // namespace nacre

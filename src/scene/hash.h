@@ -13,20 +13,23 @@
 namespace nacre {
 
 // Hashes that are costly to compute, kept from one call to the next: those of pictures and meshes
-// that scenes share, which never change, and those of shapes and materials, if the caller knows
-// that these have not changed.
+// that scenes share, which never change, and those of shapes and materials. The caller forgets
+// those of what has changed.
 struct KeptHashes {
   struct Entry {
     std::shared_ptr<const void> source;  // owned, so that no other object can get its address
     uint64_t hash;
   };
-  std::vector<Entry> shared;       // used by the scene that was hashed last
-  std::optional<uint64_t> shapes;  // HashShapes()
-  // The hashes of materials and of groups of them. Those that are set are up to date.
-  std::vector<std::optional<uint64_t>> materials, material_groups;
+  std::vector<Entry> shared;  // used by the scene that was hashed last
+  // The hashes of materials, of groups of them and of groups of spheres. Those that are set are up
+  // to date.
+  std::vector<std::optional<uint64_t>> materials, material_groups, sphere_groups;
+  std::optional<uint64_t> meshes;  // of all of them
 
   void ForgetMaterials();
   void ForgetMaterial(size_t material);
+  void ForgetShapes();  // also where their number has changed
+  void ForgetSphere(size_t sphere);
 };
 
 // A hash of all values that determine the picture, which is equal for scenes with equal values. It

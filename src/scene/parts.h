@@ -56,7 +56,8 @@ class SceneParts {
 
 constexpr SceneParts operator|(ScenePart a, ScenePart b) { return SceneParts(a) | SceneParts(b); }
 
-// What a change of the scene may have affected: some parts, and of the materials perhaps only some.
+// What a change of the scene may have affected: some parts, and of the materials and shapes perhaps
+// only some.
 struct SceneChange {
   SceneChange() = default;
   SceneChange(SceneParts all_of)  // NOLINT(google-explicit-constructor): without lists
@@ -65,6 +66,7 @@ struct SceneChange {
 
   SceneParts parts;
   std::vector<uint32_t> materials;  // if not empty, the only materials that have changed
+  std::vector<uint32_t> spheres;    // if not empty, the only shapes that have changed
 };
 
 // Counts the changes of each part. Data derived from some parts is still valid while their counts
@@ -92,13 +94,14 @@ class PartVersions {
   std::array<uint64_t, kSceneParts> numbers_{};
 };
 
-// The versions of a scene that changes, and a log of the materials that the last changes affected,
-// for data that is kept per material.
+// The versions of a scene that changes, and logs of the materials and spheres that the last changes
+// affected, for data that is kept for each of them.
 class SceneVersions {
  public:
   void Change(const SceneChange& change) {
     now_.Change(change.parts);
     if (change.parts.Has(ScenePart::kMaterials)) materials_.Add(change.materials);
+    if (change.parts.Has(ScenePart::kShapes)) shapes_.Add(change.spheres);
   }
 
   PartVersions Of(SceneParts parts) const { return now_.Of(parts); }
@@ -108,6 +111,12 @@ class SceneVersions {
   // The materials that have changed since materials() was `then`; nullopt: any may have.
   std::optional<std::span<const uint32_t>> MaterialsSince(uint64_t then) const {
     return materials_.Since(then);
+  }
+
+  // The same of shapes: the spheres that have changed, or nullopt if any shape may have.
+  uint64_t shapes() const { return shapes_.count; }
+  std::optional<std::span<const uint32_t>> SpheresSince(uint64_t then) const {
+    return shapes_.Since(then);
   }
 
  private:
@@ -138,7 +147,7 @@ class SceneVersions {
   };
 
   PartVersions now_;
-  Log materials_;
+  Log materials_, shapes_;
 };
 
 }  // namespace nacre

@@ -295,12 +295,17 @@ std::optional<SceneChange> ReadShapeAlone(const SceneTree& tree, size_t index, s
   for (size_t i = 0; i < made.materials; ++i) {
     SetWhole(first.materials + i, std::move(whole[i]), members);
   }
-  if (!same_shapes) change.parts |= ScenePart::kShapes;
+  const auto list = [](size_t first_of, size_t count, std::vector<uint32_t>* to) {
+    to->resize(count);
+    std::iota(to->begin(), to->end(), static_cast<uint32_t>(first_of));
+  };
+  if (!same_shapes) {
+    change.parts |= ScenePart::kShapes;
+    if (made.meshes == 0) list(first.spheres, made.spheres, &change.spheres);
+  }
   if (made.materials > 0) {
     change.parts |= ScenePart::kMaterials;
-    change.materials.resize(made.materials);
-    std::iota(change.materials.begin(), change.materials.end(),
-              static_cast<uint32_t>(first.materials));
+    list(first.materials, made.materials, &change.materials);
   }
   return change;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -58,19 +59,35 @@ TraceSphere Traced(const Sphere& sphere, const Vec3d& eye) {
   return {sphere.center - eye + Vec3d(0), sphere.radius};
 }
 
-double ReachOf(const TraceSphere& sphere) { return sphere.center.length() + sphere.radius; }
+// Where spheres are, seen from the camera.
+struct Reach {
+  double farthest = 0;                                   // no point is further away
+  double gap = std::numeric_limits<double>::infinity();  // outside all spheres if above 0
+};
 
-// Calls move(i) for i < count, on several threads; returns the largest result, or 0.
+Reach ReachOf(const TraceSphere& sphere) {
+  constexpr double kRounding = 1e-9;  // far above the rounding errors of hits
+  const double distance = sphere.center.length();
+  return {distance + sphere.radius, distance - sphere.radius * (1 + kRounding)};
+}
+
+// Calls move(i) for i < count, on several threads; returns the reach of all results.
 template <class Move>
-double MoveAll(size_t count, int threads, const Move& move) {
+Reach MoveAll(size_t count, int threads, const Move& move) {
   constexpr size_t kBlock = size_t{1} << 14;
-  std::vector<double> extents((count + kBlock - 1) / kBlock);
+  std::vector<Reach> reaches((count + kBlock - 1) / kBlock);
+  const auto join = [](Reach* all, const Reach& one) {
+    all->farthest = std::max(all->farthest, one.farthest);
+    all->gap = std::min(all->gap, one.gap);
+  };
   ParallelForBlocks(count, kBlock, threads, [&](size_t begin, size_t end) {
-    double extent = 0;
-    for (size_t i = begin; i < end; ++i) extent = std::max(extent, move(i));
-    extents[begin / kBlock] = extent;
+    Reach of_block;
+    for (size_t i = begin; i < end; ++i) join(&of_block, move(i));
+    reaches[begin / kBlock] = of_block;
   });
-  return extents.empty() ? 0 : *std::max_element(extents.begin(), extents.end());
+  Reach all;
+  for (const Reach& reach : reaches) join(&all, reach);
+  return all;
 }
 
 }  // namespace
@@ -106,7 +123,7 @@ std::optional<std::vector<ChangedSphere>> ChangeSpheres(const Scene& scene, size
   std::mutex mutex;
   std::atomic<size_t> count = 0;
   std::vector<ChangedSphere> changed;
-  const double extent = MoveAll(scene.spheres.size(), threads, [&](size_t i) {
+  const Reach reach = MoveAll(scene.spheres.size(), threads, [&](size_t i) {
     const TraceSphere now = Traced(scene.spheres[i], geometry->eye);
     if (!Coincide(now, geometry->spheres[i]) && count.fetch_add(1) < most) {
       const std::lock_guard lock(mutex);
@@ -119,25 +136,29 @@ std::optional<std::vector<ChangedSphere>> ChangeSpheres(const Scene& scene, size
             [](const ChangedSphere& a, const ChangedSphere& b) { return a.index < b.index; });
   for (const ChangedSphere& sphere : changed) geometry->spheres[sphere.index] = sphere.now;
   // With triangles, whose extent is not computed again, the extent must not shrink.
-  geometry->extent = geometry->positions.empty() ? extent : std::max(geometry->extent, extent);
+  geometry->extent =
+      geometry->positions.empty() ? reach.farthest : std::max(geometry->extent, reach.farthest);
+  geometry->eye_outside = reach.gap > 0;
   return changed;
 }
 
 void MoveGeometry(const Scene& scene, const Vec3d& camera_position, int threads,
                   TraceGeometry* geometry) {
   geometry->eye = camera_position;
-  geometry->extent = MoveAll(scene.spheres.size(), threads, [&](size_t i) {
+  const Reach reach = MoveAll(scene.spheres.size(), threads, [&](size_t i) {
     const TraceSphere traced = Traced(scene.spheres[i], camera_position);
     std::construct_at(geometry->spheres.data() + i, traced);
     return ReachOf(traced);
   });
+  geometry->extent = reach.farthest;
+  geometry->eye_outside = reach.gap > 0;
   Vec3d* to = geometry->positions.data();
   for (const Mesh& mesh : scene.meshes) {
-    const double extent = MoveAll(mesh.positions.size(), threads, [&](size_t i) {
+    const Reach of_mesh = MoveAll(mesh.positions.size(), threads, [&](size_t i) {
       to[i] = mesh.positions[i] - camera_position;
-      return to[i].length();
+      return Reach{.farthest = to[i].length()};
     });
-    geometry->extent = std::max(geometry->extent, extent);
+    geometry->extent = std::max(geometry->extent, of_mesh.farthest);
     to += mesh.positions.size();
   }
   for (CutOut& holes : geometry->cut_outs) MoveCutOut(camera_position, &holes);

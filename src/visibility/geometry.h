@@ -34,6 +34,8 @@ struct TraceGeometry {
 
   // No point of any primitive is further than this from the camera.
   double extent = 0;
+  // Whether the camera is outside all spheres; true only by more than all rounding errors.
+  bool eye_outside = true;
 
   Vec3d eye{0, 0, 0};  // the camera's position in the world
   // How far a camera may be from the one that the BVHs were built for.

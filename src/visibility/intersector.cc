@@ -100,6 +100,8 @@ bool Intersector::ChangeSpheres(const Scene& scene, const Vec3d& camera_position
   return !AreNested(s.geometry.spheres);
 }
 
+bool Intersector::EyeIsOutside() const { return state_->geometry.eye_outside; }
+
 bool Intersector::SpheresAreNested() const { return state_->nested; }
 
 bool Intersector::HasTree() const { return state_->tree; }

@@ -74,6 +74,9 @@ class Intersector {
   // be made, because there are BVHs, other shapes or many changes, or because the camera differs.
   bool ChangeSpheres(const Scene& scene, const Vec3d& camera_position);
 
+  // Whether the camera's position is outside all spheres.
+  bool EyeIsOutside() const;
+
   // Whether so many spheres lie within one another that Closest and Occluded are faster than bins
   // (shell_tree.h).
   bool SpheresAreNested() const;

@@ -13,21 +13,21 @@
 namespace nacre {
 namespace {
 
-// Calls emit(cell) for each cell that the box overlaps.
+// Calls emit(cell, row of cells) for each cell that the box overlaps.
 template <class Emit>
 void ForCells(const SphereBins& bins, const SphereBox& box, const Emit& emit) {
   const auto& [columns, rows] = box;
   if (rows.first > rows.last) return;
   for (int row = rows.first / kCellSize; row <= rows.last / kCellSize; ++row) {
     for (int column = columns.first; column <= columns.last; ++column) {
-      emit(bins.Cell(column, row));
+      emit(bins.Cell(column, row), row);
     }
   }
 }
 
 // A cell's pixel rows that lie in the range, as bits.
-uint16_t RowsOfCell(const SphereBox::Range& rows, size_t cell_row) {
-  const int cell_begin = static_cast<int>(cell_row) * kCellSize;
+uint16_t RowsOfCell(const SphereBox::Range& rows, int cell_row) {
+  const int cell_begin = cell_row * kCellSize;
   const int first = std::max(rows.first - cell_begin, 0);
   const int last = std::min(rows.last - cell_begin, kCellSize - 1);
   return static_cast<uint16_t>((0xffffu << first) & (0xffffu >> (kCellSize - 1 - last)));
@@ -109,22 +109,20 @@ bool BinSpheres(const TraceGeometry& geometry, const CameraFrame& frame, const W
   made.rows = (window.height() + kCellSize - 1) / kCellSize;
   made.projector = MakeProjector(frame);
   HugeArray<SphereBox> boxes(geometry.spheres.size());
-  ParallelFor(CellListPieces(boxes.size()), threads, [&](size_t piece) {
-    const auto [begin, end] = CellListPiece(boxes.size(), piece);
+  const auto find_boxes = [&](size_t begin, size_t end) {
     FindBoxes(made, geometry.spheres.data() + begin, end - begin, boxes.data() + begin);
-  });
+  };
   const auto for_cells = [&](size_t i, const auto& emit) { ForCells(made, boxes[i], emit); };
   const size_t cells = static_cast<size_t>(made.columns) * static_cast<size_t>(made.rows);
   const bool fits = SortIntoCells(
-      geometry.spheres.size(), cells, max_entries, threads, for_cells, &made.end,
+      geometry.spheres.size(), cells, max_entries, threads, find_boxes, for_cells, &made.end,
       [&](size_t entries) {
         made.spheres = HugeArray<uint32_t>(entries);
         made.pixel_rows = HugeArray<uint16_t>(entries);
       },
-      [&](size_t i, size_t cell, uint32_t position) {
+      [&](size_t i, size_t, uint32_t position, int row) {
         made.spheres[position] = static_cast<uint32_t>(i);
-        made.pixel_rows[position] =
-            RowsOfCell(boxes[i].rows, cell / static_cast<size_t>(made.columns));
+        made.pixel_rows[position] = RowsOfCell(boxes[i].rows, row);
       });
   if (fits) *bins = std::move(made);
   return fits;
@@ -146,8 +144,7 @@ bool ChangeBins(const std::vector<ChangedSphere>& changed, size_t max_entries, S
   const auto add = [&](const TraceSphere& sphere, uint32_t index, bool comes) {
     SphereBox box;
     FindBoxes(*bins, &sphere, 1, &box);
-    ForCells(*bins, box, [&](size_t cell) {
-      const size_t row = cell / static_cast<size_t>(bins->columns);
+    ForCells(*bins, box, [&](size_t cell, int row) {
       edits.push_back({cell, index, comes, RowsOfCell(box.rows, row)});
     });
   };

@@ -144,7 +144,7 @@ TEST_CASE("hashes that are kept give that of the scene, whatever changes") {
   Scene scene = MakeScene();
   KeptHashes kept;
   const auto check = [&] {
-    kept.shapes = HashShapes(scene);
+    kept.ForgetShapes();
     CHECK(HashScene(scene, &kept) == HashScene(scene));
     CHECK(HashScene(scene, &kept) == HashScene(scene));
   };
@@ -177,16 +177,32 @@ TEST_CASE("of many materials those are hashed that have changed") {
   CHECK(HashScene(scene) != HashScene(scene, &kept));  // the order counts
 }
 
+TEST_CASE("of many spheres those groups are hashed that have changed") {
+  Scene scene = MakeScene();
+  scene.spheres.resize(3000, scene.spheres[0]);
+  KeptHashes kept;
+  HashScene(scene, &kept);
+  for (const size_t changed : {size_t{0}, size_t{1023}, size_t{1024}, size_t{2999}}) {
+    scene.spheres[changed].radius = 0.5 + static_cast<double>(changed);
+    CHECK(HashScene(scene, &kept) != HashScene(scene));
+    kept.ForgetSphere(changed);
+    CHECK(HashScene(scene, &kept) == HashScene(scene));
+  }
+  scene.meshes.push_back(scene.meshes[0]);
+  kept.ForgetShapes();
+  CHECK(HashScene(scene, &kept) == HashScene(scene));
+}
+
 TEST_CASE("what is shared, and shapes that are the same, are hashed once") {
   Scene scene = MakeScene();
   const auto picture = MakePicture(1);
   ShowSky(picture, &scene);
   KeptHashes kept;
-  kept.shapes = HashShapes(scene);
   const uint64_t hash = HashScene(scene, &kept);
   // Against the rules, so that it would show.
   picture->rgb[0] = 2;
-  scene.spheres.pop_back();
+  scene.spheres[0].radius *= 2;
+  scene.meshes.clear();
   CHECK(HashScene(scene, &kept) == hash);
   scene.image.spp = 17;
   CHECK(HashScene(scene, &kept) != hash);

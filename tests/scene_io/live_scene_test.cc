@@ -338,6 +338,7 @@ TEST_CASE("One of many items is read alone", "[live_scene]") {
   CHECK(live.Set("/materials/idle/coat", "0").materials == std::vector<uint32_t>{43});
   change = live.Set("/shapes/20/radius", "0.3");
   CHECK(change.parts == SceneParts(ScenePart::kShapes));
+  CHECK(change.spheres == std::vector<uint32_t>{20});
   CHECK(listed() == before + 1);
   // Sphere 51 is the next but one: the icosphere between them is a mesh.
   live.Set("/shapes/52/radius", "0.3");

@@ -35,7 +35,7 @@ TEST_CASE("bins of spheres that have changed are those that are made anew") {
   TraceGeometry geometry = MakeTraceGeometry(scene, eye);
   SphereBins bins;
   REQUIRE(BinSpheres(geometry, frame, window, margin, 1u << 20, 2, &bins));
-  size_t changes = 0;
+  size_t changes = 0, inside = 0;
   for (int step = 0; step < 60; ++step) {
     // One or more, some of which come in view or leave it, or lie about the camera.
     const int count = step % 4 == 0 ? 5 : 1;
@@ -43,6 +43,9 @@ TEST_CASE("bins of spheres that have changed are those that are made anew") {
       const auto k = static_cast<size_t>(random.Uniform(0, 500));
       scene.spheres[k] = MakeSphere(random.InBox({-6, -4, -7}, {6, 4, 2}),
                                     random.Magnitude(0.01, step % 10 == 0 ? 3 : 0.3));
+    }
+    if (step == 30 || step == 40) {
+      scene.spheres[7] = MakeSphere(eye + Vec3d(0.2, 0, 0), step == 30 ? 0.25 : 0.15);
     }
     const auto changed = ChangeSpheres(scene, 8, 2, &geometry);
     REQUIRE(changed);
@@ -56,8 +59,12 @@ TEST_CASE("bins of spheres that have changed are those that are made anew") {
     REQUIRE(Copy(bins.spheres) == Copy(fresh.spheres));
     REQUIRE(Copy(bins.pixel_rows) == Copy(fresh.pixel_rows));
     REQUIRE(geometry.extent == MakeTraceGeometry(scene, eye).extent);
+    REQUIRE(geometry.eye_outside == MakeTraceGeometry(scene, eye).eye_outside);
+    inside += geometry.eye_outside ? 0 : 1;
   }
   CHECK(changes > 20);
+  CHECK(inside > 0);
+  CHECK(inside < 60);
 }
 
 // What overlaps the bounds of Project: the twin of the kernel.
