@@ -43,7 +43,7 @@ MaterialTraits TraitsOf(const Material& material, const ShadingMaterial& prepare
   };
   add(std::holds_alternative<SplitMaterial>(material.model), MaterialTrait::kSplit);
   add(material.emits_in_front_only, MaterialTrait::kEmitsInFrontOnly);
-  add(!IsBlack(material.emission), MaterialTrait::kEmits);
+  add(!IsBlack(EmissionOf(material)), MaterialTrait::kEmits);
   add(!prepared.coats.empty(), MaterialTrait::kCoated);
   add(prepared.scene_material != nullptr ||
           any_coat([](const ShadingMaterial& coat) { return coat.scene_material != nullptr; }),

@@ -43,7 +43,7 @@ bool IsClassic(const Material& material) {
 double LargestEmission(const Scene& scene) {
   double largest = 0;
   for (const Material& material : scene.materials) {
-    double emission = LargestChannel(material.emission);
+    double emission = LargestChannel(EmissionOf(material));
     if (emission > 0 && material.emission_map.valid()) {
       // Mip levels are means, and so no larger.
       const ImageId image = scene.textures[material.emission_map.index].image;

@@ -189,4 +189,7 @@ struct Material {
   TextureId opacity_map{};
 };
 
+// The radiance that the surface emits, without its map: `emission`, and OpenPBR's.
+Rgb EmissionOf(const Material& material);
+
 }  // namespace nacre

@@ -156,6 +156,15 @@ constexpr auto WithCommon(const Own&... own) {
   return std::array{own..., kEmission, kOpacity, kOpacityCutoff};
 }
 
+// Where `emission` is not all that a map of emission multiplies, the map does not go with it.
+template <size_t kCount>
+constexpr auto KeepEmissionMap(std::array<MaterialParameter, kCount> rows) {
+  for (MaterialParameter& row : rows) {
+    if (row.name == kEmission.name) row.layer = {};
+  }
+  return rows;
+}
+
 constexpr auto kLambertParameters =
     WithCommon(Color<&LambertMaterial::albedo>("albedo", limits::kUnit, "Reflectance."));
 
@@ -265,7 +274,7 @@ constexpr MaterialParameter kFilmFade = {
     "Films thinner than this, in nm, fade to no film. 0: none does; a metal then jumps where its "
     "film gets a thickness of 0 or a weight of 0, because its index is guessed."};
 
-constexpr auto kOpenPbrParameters = WithCommon(
+constexpr auto kOpenPbrParameters = KeepEmissionMap(WithCommon(
     Number<&OpenPbrMaterial::base_weight>("base_weight", limits::kUnit, "Multiplies base_color."),
     Color<&OpenPbrMaterial::base_color>(
         "base_color", limits::kUnit,
@@ -352,10 +361,16 @@ constexpr auto kOpenPbrParameters = WithCommon(
     Number<&OpenPbrMaterial::thin_film_ior>("thin_film_ior", limits::kFilmIor,
                                             "Index of refraction of the film."),
     kFilmFade,
+    Number<&OpenPbrMaterial::emission_luminance>("emission_luminance", limits::kRadiance,
+                                                 "Emitted radiance where emission_color is 1, in "
+                                                 "the unit of the scene's lights. It is added "
+                                                 "to emission."),
+    Color<&OpenPbrMaterial::emission_color>("emission_color", limits::kUnit,
+                                            "Multiplies emission_luminance."),
     Number<&OpenPbrMaterial::geometry_tangent_deg>("geometry_tangent_deg", limits::kAngleDeg,
                                                    kTangentMeaning),
     Number<&OpenPbrMaterial::geometry_coat_tangent_deg>(
-        "geometry_coat_tangent_deg", limits::kAngleDeg, "The same for the coat."));
+        "geometry_coat_tangent_deg", limits::kAngleDeg, "The same for the coat.")));
 
 constexpr auto kMeasuredParameters = WithCommon();
 
@@ -555,7 +570,7 @@ constexpr std::array kMeasuredChoices = {
 
 constexpr MaterialMap kEmissionMap = Map<&Material::emission_map>(
     "emission_map", MapUse::kColor, "Multiplies emission.",
-    Target<&Material::emission>(MappedNumber::kEmission, 0, limits::kRadiance.max));
+    MapTarget{MappedNumber::kEmission, true, 0, &EmissionOf, limits::kRadiance.max});
 constexpr MaterialMap kOpacityMap = Map<&Material::opacity_map>(
     "opacity_map", MapUse::kOpacity,
     "Multiplies opacity: the image's alpha, or its first channel where the texture's encoding is "
@@ -751,6 +766,12 @@ const MaterialModel* ModelOf(const Material& material) {
   const auto found = std::ranges::find_if(
       kModels, [&](const MaterialModel& model) { return model.holds(material); });
   return found != kModels.end() ? &*found : nullptr;
+}
+
+Rgb EmissionOf(const Material& material) {
+  const auto* const open_pbr = std::get_if<OpenPbrMaterial>(&material.model);
+  if (open_pbr == nullptr) return material.emission;
+  return material.emission + open_pbr->emission_color * open_pbr->emission_luminance;
 }
 
 std::vector<TextureId> TexturesOf(const Material& material) {

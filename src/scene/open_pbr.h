@@ -155,6 +155,8 @@ struct OpenPbrMaterial {
   double thin_film_weight = 0;       // in [0, 1]
   double thin_film_thickness = 0.5;  // in micrometres
   double thin_film_ior = 1.4;
+  double emission_luminance = 0;  // >= 0, in the scene's unit of radiance
+  Rgb emission_color{1, 1, 1};    // each in [0, 1]
   // The angles by which the tangents of base and coat are turned about the normal, towards the
   // bitangent: geometry_tangent and geometry_coat_tangent.
   double geometry_tangent_deg = 0, geometry_coat_tangent_deg = 0;

@@ -380,7 +380,7 @@ namespace {
 // Prepares a material without its coat.
 ShadingMaterial PrepareUncoated(const Material& material) {
   ShadingMaterial prepared{};
-  prepared.emission = material.emission;
+  prepared.emission = EmissionOf(material);
   const auto take_shown = [&](const auto& of_channel) {
     for (int c = 0; c < 3; ++c) {
       const ShownColors shown = of_channel(c);

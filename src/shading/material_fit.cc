@@ -264,6 +264,7 @@ void FitDielectric(const Material& original, MaterialFit* fit) {
 
 // The material without its model and without maps.
 Material WithoutModel(Material material) {
+  material.emission = EmissionOf(material);
   material.model = {};
   material.user = nullptr;
   material.emission_map = material.opacity_map = {};

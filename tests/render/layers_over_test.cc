@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/render/layers_over_test.cc: coats and sheen: white surfaces under them stay white, what
 // kernels make of them is what the scalar twin says, and maps of theirs are theirs.
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "pictures.h"
 #include "scene/coat.h"
+#include "scene/idle_layers.h"
 #include "shading/scalar_bsdf.h"
 #include "targets.h"
 #include "textured_scenes.h"
@@ -213,6 +215,21 @@ TEST_CASE("a coat dims what a material emits, by what it reflects") {
   // The pixel's centre is half a pixel from the middle: n.v is 1 - 3e-4 there.
   CHECK(std::abs(image.Find("R")->samples[middle] / (3 * left) - 1) < 1e-4);
   CHECK(std::abs(image.Find("B")->samples[middle] / (1 * left) - 1) < 1e-4);
+}
+
+TEST_CASE("OpenPBR's emission is the common one in two numbers, below its coat and times the map") {
+  OpenPbrMaterial model{.coat_weight = 1, .coat_roughness = 0.3};
+  Scene common = TexturedSpheres(Material{.emission = Rgb(3, 1.5, 0.75), .model = model});
+  common.materials[0].emission_map = AddConstant(&common, Rgb(Held(0.5)));
+  model.emission_luminance = 3;
+  model.emission_color = Rgb(1, 0.5, 0.25);
+  Scene scene = TexturedSpheres(Material{.model = model});
+  scene.materials[0].emission_map = AddConstant(&scene, Rgb(Held(0.5)));
+  CHECK_FALSE(RemoveIdleLayers(scene, &scene.materials[0]));  // though `emission` is 0
+  CheckSameBits(AllLayers(scene), AllLayers(common));
+  const Image image = AllLayers(scene);
+  const auto& emitted = image.Find("emission.R")->samples;
+  CHECK(*std::max_element(emitted.begin(), emitted.end()) > 1);
 }
 
 TEST_CASE("coats and sheen reflect of ambient light what they reflect of a white sky") {
