@@ -112,11 +112,12 @@ function(nacre_fuzzed target)
   endif()
 endfunction()
 
-# nacre_test(FOLDER [TABLES] DEPENDS...): one Catch2 program from tests/<FOLDER>/*_test.cc.
+# nacre_test(FOLDER [TABLES] [LONG] DEPENDS...): one Catch2 program from tests/<FOLDER>/*_test.cc.
 # TABLES: its cases tagged [table] read reference tables and make a ctest of their own,
 # <FOLDER>_table, which can be run on other tables of the same form (tests/tables.h).
+# LONG: so do those tagged [long], <FOLDER>_long, which then run beside the others.
 function(nacre_test folder)
-  cmake_parse_arguments(ARG "TABLES" "" "DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "TABLES;LONG" "" "DEPENDS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*_test.cc)
   add_executable(nacre_${folder}_test ${sources})
   set_target_properties(nacre_${folder}_test PROPERTIES
@@ -140,9 +141,12 @@ function(nacre_test folder)
     # Says of which cases the build refuses what they ask for.
     set(run Python3::Interpreter -B ${CMAKE_SOURCE_DIR}/tests/minimal/run_cases.py ${run})
   endif()
-  add_test(NAME ${folder} COMMAND ${run} ~[table])
+  add_test(NAME ${folder} COMMAND ${run} ~[table]~[long])
   if(ARG_TABLES)
     add_test(NAME ${folder}_table COMMAND ${run} [table])
+  endif()
+  if(ARG_LONG)
+    add_test(NAME ${folder}_long COMMAND ${run} [long])
   endif()
 endfunction()
 

@@ -10,6 +10,7 @@
 #include "brdf/phong.h"
 #include "brdf/quadrature.h"
 #include "sampling/sobol.h"
+#include "shading/layer.h"
 #include "shading/scalar_bsdf.h"
 
 namespace nacre {
@@ -249,6 +250,12 @@ Rgb ShareThroughCoat(const ShadingMaterial& material, ShareOf what, const Rgb& s
   return through;
 }
 
+// Of a narrow lobe the quadrature would have to know the peak.
+bool HasNarrowLayer(const ShadingMaterial& material) {
+  return std::any_of(material.layers.begin(), material.layers.end(),
+                     [](const LayerModel& layer) { return std::isfinite(LayerLobeWidth(layer)); });
+}
+
 // ReflectedShare in a direction in space, as the mean weight of samples. Lobes that are no
 // function of the angle from a peak are integrated along the material's own samples, which are as
 // narrow as they are.
@@ -273,7 +280,7 @@ Rgb SampledShare(const ShadingMaterial& material, ShareOf what, const Vec3d& fix
 }  // namespace
 
 Rgb ReflectedShare(const ShadingMaterial& material, ShareOf what, double cosine, double azimuth) {
-  if (HasAnisotropicLobe(material)) {
+  if (HasAnisotropicLobe(material) || HasNarrowLayer(material)) {
     const double sine = std::sqrt((1 - cosine) * (1 + cosine));
     return SampledShare(material, what,
                         {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine});

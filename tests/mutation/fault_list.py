@@ -7,9 +7,10 @@
     - text of the tree, which occurs in that file exactly once
     + text that takes its place
 
-TESTs are names of ctest, cheapest first: brdf stands for brdf and brdf_table. A text may have
-several lines, and a fault several @ parts: a misunderstanding, unlike a slip, is in both twins of a
-formula. A text begins and ends anywhere in its lines. Lines that begin with # are comments.
+TESTs are names of ctest, cheapest first: brdf stands for brdf and brdf_table, shading for
+shading and shading_long. A text may have several lines, and a fault several @ parts: a
+misunderstanding, unlike a slip, is in both twins of a formula.
+A text begins and ends anywhere in its lines. Lines that begin with # are comments.
 """
 import dataclasses
 import pathlib

@@ -124,7 +124,7 @@ class Workshop:
     def commands(self, test):
         """What ctest runs for a test, the quick comparison with a table first, up to the first
         failure."""
-        listing = self.run(["ctest", "--test-dir", self.build, "-R", f"^{test}(_table)?$",
+        listing = self.run(["ctest", "--test-dir", self.build, "-R", f"^{test}(_table|_long)?$",
                             "--show-only=json-v1"])[1]
         commands = [entry["command"] for entry in json.loads(listing)["tests"]]
         if not commands:
@@ -132,7 +132,7 @@ class Workshop:
         fast = []
         for command in commands:
             if command[0].endswith("_test"):
-                if test in self.fast and "[table]" not in command:
+                if test in self.fast and not {"[table]", "[long]"} & set(command):
                     fast += [[command[0], "--abort", "--input-file", names] for names in self.fast[test]]
                 command += ["--abort", "--durations", "yes"]
             elif "pytest" in command:
