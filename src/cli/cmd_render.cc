@@ -82,7 +82,7 @@ void AddRenderCommand(CLI::App* app, int* exit_code) {
   struct RenderArguments {
     std::string scene;
     std::string preset;
-    std::string environment;
+    std::string environment, variant;
     bool watch = false;
     RenderOptions options;
   };
@@ -108,6 +108,11 @@ void AddRenderCommand(CLI::App* app, int* exit_code) {
       ->type_name("FILE")
       ->group("Picture");
   command
+      ->add_option("--variant", arguments->variant,
+                   "Show a glTF model in this variant of its materials; `nacre info` lists them")
+      ->type_name("NAME")
+      ->group("Picture");
+  command
       ->add_flag("--watch", arguments->watch,
                  "Render again whenever the scene, its textures or models change on disk, until "
                  "Ctrl-C. A file that is wrong is reported in one line, and the old picture stays")
@@ -130,11 +135,13 @@ void AddRenderCommand(CLI::App* app, int* exit_code) {
       return;
     }
     if (arguments->watch) {
-      *exit_code = RunWatchJob(arguments->options, arguments->scene, arguments->environment);
+      *exit_code = RunWatchJob(arguments->options, arguments->scene, arguments->environment,
+                               arguments->variant);
       return;
     }
     RunRenderJob(arguments->options, {arguments->scene}, [&](LoadOptions load) {
       load.environment = arguments->environment;
+      load.variant = arguments->variant;
       return LoadScene(arguments->scene, load);
     });
   });

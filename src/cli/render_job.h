@@ -58,10 +58,10 @@ void RunRenderJob(const RenderOptions& options, const std::vector<std::string>& 
                   const std::vector<TextItem>& captions = {});
 
 // nacre render --watch: renders the scene at `path`, and again whenever its files have changed,
-// until a stop signal comes; returns the exit code for that signal. `environment` is
-// LoadOptions::environment. Throws Error for errors before the first picture is written; later
+// until a stop signal comes; returns the exit code for that signal. `environment` and `variant` are
+// those of LoadOptions. Throws Error for errors before the first picture is written; later
 // errors are printed.
 int RunWatchJob(const RenderOptions& options, const std::filesystem::path& path,
-                const std::filesystem::path& environment);
+                const std::filesystem::path& environment, const std::string& variant);
 
 }  // namespace nacre

@@ -90,7 +90,7 @@ bool RenderUnlessChanged(RenderJob* job, LiveScene* live, PreparedScene* prepare
 }  // namespace
 
 int RunWatchJob(const RenderOptions& options, const std::filesystem::path& path,
-                const std::filesystem::path& environment) {
+                const std::filesystem::path& environment, const std::string& variant) {
   if (options.dry_run) {
     throw Error(ExitCode::kUsage, "--watch", "cannot be used with --dry-run",
                 "leave one of them out");
@@ -101,6 +101,7 @@ int RunWatchJob(const RenderOptions& options, const std::filesystem::path& path,
   job.Load([&] {
     LoadOptions load = job.load_options();
     load.environment = environment;
+    load.variant = variant;
     live.emplace(path, std::move(load));
   });
   bool changed = RenderUnlessChanged(&job, &*live, &prepared);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // image_io/format_readers.h: readers of one format each, in exr_reader.cc, png_reader.cc,
-// jpeg_reader.cc, hdr_reader.cc, pnm_reader.cc, tga_reader.cc and oiio.cc.
+// jpeg_reader.cc, webp_reader.cc, hdr_reader.cc, pnm_reader.cc, tga_reader.cc and oiio.cc.
 #pragma once
 
 #include <string>
@@ -42,6 +42,12 @@ ImageFile OpenPng(const std::string& path);
 // each. Throws Error (kBadInput) for broken files: pixels that the library would make up are
 // refused.
 ImageFile OpenJpeg(const std::string& path);
+
+// With libwebp, opens lossy and lossless WebP files; channels R G B, and A if the file says that it
+// has alpha. Animations are refused. EXIF's orientation is honoured; metadata: "icc_profile" and
+// "not_srgb" as of JPEG. Besides the caller's samples, reading takes memory for the file and for
+// the whole image in bytes. Throws Error (kBadInput) for broken files.
+ImageFile OpenWebp(const std::string& path);
 
 // Opens a Radiance file of RGBE or XYZE pixels, whose rows may be plain, run-length encoded, or use
 // the repetitions of the oldest files (Ward 1991, "Real Pixels", and RADIANCE's

@@ -26,6 +26,7 @@ Opener OpenerOf(const std::string& path) {
   const std::string_view head(bytes.data(), bytes.size());
   if (head.starts_with("\x89PNG")) return OpenPng;
   if (head.starts_with("\xff\xd8")) return OpenJpeg;
+  if (head.starts_with("RIFF") && head.substr(8, 4) == "WEBP") return OpenWebp;
   if (head[0] == 'P' && std::string_view("123456Ff").find(head[1]) != std::string_view::npos) {
     return OpenPnm;
   }
@@ -42,7 +43,7 @@ Opener OpenerOf(const std::string& path) {
   if (HasExtension(path, ".exr")) return nullptr;
   return [](const std::string& other) -> ImageFile {
     throw Error(ExitCode::kBadInput, other,
-                "cannot be read: not EXR, PNG, JPEG, TIFF, Radiance HDR, PNM or TGA");
+                "cannot be read: not EXR, PNG, JPEG, WebP, TIFF, Radiance HDR, PNM or TGA");
   };
 }
 

@@ -9,9 +9,11 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -29,14 +31,22 @@ namespace {
 constexpr uint64_t kMaxBytes = 0xffffffffu;  // the largest length in a GLB header
 
 // Extensions that nacre supports, at least in part, or that do not change the picture.
-constexpr std::array<std::string_view, 14> kKnownExtensions = {
-    "KHR_materials_anisotropy",  "KHR_materials_clearcoat",
-    "KHR_materials_iridescence", "KHR_materials_sheen",
-    "KHR_lights_punctual",       "KHR_materials_emissive_strength",
-    "KHR_materials_ior",         "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_specular",    "KHR_materials_unlit",
-    "KHR_mesh_quantization",     "KHR_xmp_json_ld",
-    "KHR_texture_transform",     "KHR_materials_variants"};
+constexpr std::array<std::string_view, 15> kKnownExtensions = {
+    "EXT_texture_webp",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
+    "KHR_materials_iridescence",
+    "KHR_materials_sheen",
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_specular",
+    "KHR_materials_unlit",
+    "KHR_mesh_quantization",
+    "KHR_xmp_json_ld",
+    "KHR_texture_transform",
+    "KHR_materials_variants"};
 
 bool IsKnown(const std::string& extension) {
   return std::ranges::find(kKnownExtensions, extension) != kKnownExtensions.end();
@@ -231,7 +241,7 @@ void CheckVersionAndExtensions(GltfDocument* document) {
         "/extensionsRequired",
         fmt::format("the extension {} is required and not known here", Excerpt(extension)),
         extension.find("_texture_") != std::string::npos
-            ? "export the model with PNG or JPEG textures"
+            ? "export the model with PNG, JPEG or WebP textures"
             : "export the model without it");
   }
   std::set<std::string> used(model.extensionsUsed.begin(), model.extensionsUsed.end());
@@ -241,6 +251,33 @@ void CheckVersionAndExtensions(GltfDocument* document) {
     document->Warn(
         fmt::format("the extension {} is not known here and left out", Excerpt(extension)));
   }
+}
+
+// The variant of this name. If none is asked for, tells which there are.
+std::optional<int> FindVariant(const std::string& name, GltfDocument* document) {
+  std::vector<std::string> names;
+  for (const gltf::Variant& variant : document->model.variants) names.push_back(variant.name);
+  const auto quoted = [&] {
+    std::vector<std::string> all;
+    for (const std::string& each : names) all.push_back(fmt::format("\"{}\"", Excerpt(each)));
+    return fmt::format("{}", fmt::join(all, ", "));
+  };
+  if (name.empty()) {
+    if (!names.empty()) {
+      document->Warn(
+          fmt::format("its materials have variants, and it is shown without one; --variant names "
+                      "one: {}",
+                      quoted()));
+    }
+    return std::nullopt;
+  }
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end()) {
+    throw Error(ExitCode::kUsage, "--variant",
+                fmt::format("{} has no variant \"{}\"", document->file, Excerpt(name)),
+                names.empty() ? "it has none" : "one of " + quoted());
+  }
+  return static_cast<int>(found - names.begin());
 }
 
 }  // namespace
@@ -292,6 +329,7 @@ GltfDocument ReadGltfDocument(const std::filesystem::path& path, const LoadOptio
   document.model = gltf::ReadModel(document.root, &faults);
   ThrowFaults(faults, document.file);
   CheckVersionAndExtensions(&document);
+  document.variant = FindVariant(options.variant, &document);
   std::shared_ptr<const std::string> binary_chunk;
   if (chunks.data) {
     binary_chunk = std::make_shared<const std::string>(Keep(*chunks.data, std::move(bytes)));

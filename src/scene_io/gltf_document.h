@@ -31,7 +31,8 @@ struct GltfDocument {
   uint64_t bytes = 0;  // size of the file and its buffers together
   std::function<void(const std::string&)> on_warning;
   std::unordered_set<std::string> warned;
-  int threads = 0;  // LoadOptions::threads
+  int threads = 0;             // LoadOptions::threads
+  std::optional<int> variant;  // of the file's variants, the one to show
 
   // Reports `text` as a warning, once however often it is called.
   void Warn(const std::string& text) {

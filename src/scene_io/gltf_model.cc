@@ -166,6 +166,7 @@ void ForEachMember(Skin* skin, const auto& use) {
 void ForEachMember(Texture* texture, const auto& use) {
   use("sampler", &texture->sampler);
   use("source", &texture->source);
+  use("extensions", &texture->extensions);
 }
 
 void ForEachMember(Light::Spot* spot, const auto& use) {
@@ -180,6 +181,13 @@ void ForEachMember(Light* light, const auto& use) {
   use("intensity", &light->intensity);
   use("range", &light->range);
   use("spot", &light->spot);
+}
+
+void ForEachMember(Variant* variant, const auto& use) { use("name", &variant->name, kRequired); }
+
+void ForEachMember(VariantMapping* mapping, const auto& use) {
+  use("variants", &mapping->variants, kRequired);
+  use("material", &mapping->material, kRequired);
 }
 
 void ForEachMember(Model* model, const auto& use) {
@@ -208,12 +216,20 @@ void ForEachMember(Model* model, const auto& use) {
 struct Extension {
   std::string_view name;
   std::vector<Light> lights{};
+  std::vector<Variant> variants{};
+  std::vector<VariantMapping> mappings{};
+  int source = -1;
 };
 
 void ForEachMember(Extension* extension, const auto& use) {
   if (extension->name == "KHR_lights_punctual") {
     use("light", kUnread<int>);
     use("lights", &extension->lights);
+  } else if (extension->name == "KHR_materials_variants") {
+    use("variants", &extension->variants);
+    use("mappings", &extension->mappings);
+  } else if (extension->name == "EXT_texture_webp") {
+    use("source", &extension->source);
   } else if (extension->name == "KHR_texture_transform") {
     use("offset", Numbers{nullptr, 2});
     use("scale", Numbers{nullptr, 2});
@@ -384,10 +400,27 @@ Model ReadModel(const Json& root, FaultList* faults) {
   }
   ReadObject(root, {}, faults, &model);
   if (faults->count() > 0) return model;
-  if (const Json* const json = FindExtension(model.extensions, "KHR_lights_punctual")) {
-    Extension extension{"KHR_lights_punctual"};
-    ReadObject(*json, {}, faults, &extension);
-    model.lights = std::move(extension.lights);
+  // Their types have been checked.
+  const auto extension = [&](Extensions extensions, const char* name) {
+    Extension read{name};
+    if (const Json* const json = FindExtension(extensions, name)) {
+      ReadObject(*json, {}, faults, &read);
+    }
+    return read;
+  };
+  constexpr const char* kVariants = "KHR_materials_variants";
+  model.lights = extension(model.extensions, "KHR_lights_punctual").lights;
+  model.variants = extension(model.extensions, kVariants).variants;
+  for (Texture& texture : model.textures) {
+    // Where there is another file, too, it is the same picture.
+    if (texture.source < 0) {
+      texture.source = extension(texture.extensions, "EXT_texture_webp").source;
+    }
+  }
+  for (Mesh& mesh : model.meshes) {
+    for (Primitive& primitive : mesh.primitives) {
+      primitive.mappings = extension(primitive.extensions, kVariants).mappings;
+    }
   }
   return model;
 }

@@ -67,11 +67,21 @@ struct Accessor {
   std::optional<Sparse> sparse;
 };
 
+// KHR_materials_variants: what a primitive has in some variants of the file's materials.
+struct Variant {
+  std::string name;
+};
+struct VariantMapping {
+  std::vector<int> variants;
+  int material = -1;
+};
+
 struct Primitive {
   std::map<std::string, int> attributes;  // accessors by name
   int indices = -1, material = -1, mode = kTriangles;
   const Json* targets = nullptr;  // morph targets, of any form
   Extensions extensions = nullptr;
+  std::vector<VariantMapping> mappings;
 };
 
 // The accessor of an attribute; below 0 if the primitive does not have it.
@@ -98,7 +108,8 @@ struct Image {
 };
 
 struct Texture {
-  int sampler = -1, source = -1;
+  int sampler = -1, source = -1;  // also the source that EXT_texture_webp names
+  Extensions extensions = nullptr;
 };
 
 struct Sampler {
@@ -183,6 +194,7 @@ struct Model {
   std::vector<Material> materials;
   std::vector<Camera> cameras;
   std::vector<Light> lights;
+  std::vector<Variant> variants;
   std::vector<Skin> skins;
 };
 

@@ -27,6 +27,12 @@ Scene LoadModel(const std::filesystem::path& path, const LoadOptions& options) {
   return scene;
 }
 
+void RefuseVariant(const LoadOptions& options, bool may_have, const std::string& file) {
+  if (options.variant.empty() || may_have) return;
+  throw Error(ExitCode::kUsage, "--variant", file + " has no variants: only glTF models do",
+              "leave it out");
+}
+
 }  // namespace
 
 bool IsModelFile(const std::filesystem::path& path) {
@@ -75,6 +81,7 @@ void RefuseOtherModels(const std::filesystem::path& path) {
 
 Scene ReadModel(const std::filesystem::path& path, const LoadOptions& options, bool* has_camera) {
   const std::string file = path.string();
+  RefuseVariant(options, HasExtension(file, ".gltf") || HasExtension(file, ".glb"), file);
   if (HasExtension(file, ".obj")) return ReadObjScene(path, options);
   if (HasExtension(file, ".ply")) return ReadPlyScene(path, options);
   return ReadGltf(path, options, has_camera);
@@ -88,6 +95,7 @@ std::string ReadSceneText(const std::filesystem::path& path) {
 Scene LoadScene(const std::filesystem::path& path, const LoadOptions& options) {
   RefuseOtherModels(path);
   if (IsModelFile(path)) return LoadModel(path, options);
+  RefuseVariant(options, false, path.string());
   const std::string text = ReadSceneText(path);
   return LoadSceneText(text, path.string(), path.parent_path(), options);
 }

@@ -320,7 +320,8 @@ TEST_CASE("the first bytes choose the reader, among few") {
       WriteText(folder / name, head + std::string(200, '\1'));
       const Caught caught = Catching([&] { ReadImage(folder / name); });
       CHECK(caught.code == ExitCode::kBadInput);
-      CHECK(caught.Says("cannot be read: not EXR, PNG, JPEG, TIFF, Radiance HDR, PNM or TGA"));
+      CHECK(
+          caught.Says("cannot be read: not EXR, PNG, JPEG, WebP, TIFF, Radiance HDR, PNM or TGA"));
     }
   }
 }

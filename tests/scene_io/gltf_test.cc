@@ -675,6 +675,56 @@ TEST_CASE("what is left out may be anything, and is told once") {
   CHECK(warnings.size() == 1);  // a mesh without an area
 }
 
+TEST_CASE("a variant of the materials is shown by its name, also where the extension is required") {
+  GltfFile file = MakeSquare();
+  file.json["materials"] = Json::parse(R"([{"name": "a"}, {"name": "b"}, {"name": "c"}])");
+  file.json["extensionsRequired"] = {"KHR_materials_variants"};
+  file.json["extensions"]["KHR_materials_variants"] = Json::parse(
+      R"({"variants": [{"name": "beach"}, {"name": "street \u00e9"}, {"name": "bare"}]})");
+  Json& primitive = file.json["meshes"][0]["primitives"][0];
+  primitive["material"] = 0;
+  primitive["extensions"]["KHR_materials_variants"] = Json::parse(
+      R"({"mappings": [{"variants": [0], "material": 1}, {"variants": [1.0], "material": 2}]})");
+  const ModelFolder folder;
+  std::vector<std::string> warnings;
+  const auto shown = [&](const std::string& variant) {
+    LoadOptions options{.variant = variant};
+    options.on_warning = [&](const std::string& text) { warnings.push_back(text); };
+    const Scene scene = LoadScene(folder.Write("model.glb", file.Binary()), options);
+    return scene.materials[scene.meshes.at(0).material.index].name;
+  };
+  CHECK(shown("beach") == "b");
+  CHECK(shown("street \u00e9") == "c");
+  CHECK(shown("bare") == "a");  // which this primitive does not know
+  CHECK(warnings.empty());
+  CHECK(shown("") == "a");
+  REQUIRE(warnings.size() == 1);
+  Tells(warnings[0], "--variant names one: \"beach\"");
+  const std::string sea = ErrorOf([&] { shown("sea"); }, ExitCode::kUsage);
+  Tells(sea, "has no variant \"sea\"");
+  Tells(sea, "one of \"beach\"");
+  Json& mappings = primitive["extensions"]["KHR_materials_variants"]["mappings"];
+  mappings[0]["material"] = 3;
+  Tells(ErrorOf([&] { shown("beach"); }), "/mappings/0/material: there is no material 3");
+  CHECK(shown("bare") == "a");
+  mappings[0]["material"] = "b";
+  Tells(ErrorOf([&] { shown(""); }), "/mappings/0/material");
+  mappings = 3;
+  Tells(ErrorOf([&] { shown(""); }), "/mappings");
+  primitive.erase("extensions");
+  file.json["extensions"]["KHR_materials_variants"]["variants"][1].erase("name");
+  Tells(ErrorOf([&] { shown(""); }), "/variants/1: has no \"name\"");
+  file.json.erase("extensions");
+  file.json.erase("extensionsRequired");
+  Tells(ErrorOf([&] { shown("beach"); }, ExitCode::kUsage), "it has none");
+  const auto ply = folder.Write("model.ply", "ply\n");
+  Tells(ErrorOf([&] { LoadScene(ply, {.variant = "beach"}); }, ExitCode::kUsage),
+        "only glTF models");
+  const auto json = folder.Write("scene.json", "{}");
+  Tells(ErrorOf([&] { LoadScene(json, {.variant = "beach"}); }, ExitCode::kUsage),
+        "only glTF models");
+}
+
 TEST_CASE("--set replaces a material of a model whole, and takes its maps away") {
   GltfFile file = MakeSquare();
   file.json["materials"] = Json::parse(R"([{"name": "a", "pbrMetallicRoughness":

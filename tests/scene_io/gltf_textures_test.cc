@@ -21,6 +21,12 @@ const std::vector<unsigned char> kPng = {
     68,  65,  84,  120, 218, 99,  248, 207, 192, 192, 0,   194, 12,  255, 129, 0,  0,  31, 238,
     5,   251, 241, 171, 186, 119, 0,   0,   0,   0,   73,  69,  78,  68,  174, 66, 96, 130};
 
+// The same as a lossless WebP file.
+const std::vector<unsigned char> kWebp = {
+    82, 73,  70, 70,  44,  0,  0,   0,  87,  69, 66, 80,  86,  80, 56,  76,  31, 0,
+    0,  0,   47, 1,   64,  0,  0,   31, 32,  16, 72, 222, 31,  58, 141, 249, 23, 16,
+    20, 252, 31, 221, 252, 71, 100, 15, 224, 6,  12, 17,  253, 15, 1,   0};
+
 // The same with the alphas 1 and 0 above 51/255 and 128/255.
 const std::vector<unsigned char> kPngWithAlpha = {
     137, 80,  78,  71,  13,  10,  26,  10,  0,  0,   0,   13,  73,  72,  68,  82,  0,   0,  0,  2,
@@ -52,6 +58,30 @@ bool Mentions(const std::vector<std::string>& warnings, const std::string& what)
   return std::any_of(warnings.begin(), warnings.end(), [&](const std::string& warning) {
     return warning.find(what) != std::string::npos;
   });
+}
+
+TEST_CASE("a texture's image may be WebP, where the extension alone names it") {
+  GltfFile file = MakeTexturedSquare(kWebp);
+  file.json["images"][0]["mimeType"] = "image/webp";
+  file.json["extensionsRequired"] = {"EXT_texture_webp"};
+  Json& texture = file.json["textures"][0];
+  texture = {{"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}};
+  const auto texels_of = [](const GltfFile& of) {
+    std::vector<std::string> warnings;
+    const Scene scene = LoadFile(of, &warnings);
+    CHECK(warnings.empty());
+    std::vector<float> values(12);
+    scene.images.at(0).texels->Level(0).Read(0, values);
+    return values;
+  };
+  CHECK(texels_of(file) == texels_of(MakeTexturedSquare()));
+  texture["source"] = 0;
+  texture["extensions"]["EXT_texture_webp"]["source"] = 7;  // the core's is read
+  CHECK(texels_of(file) == texels_of(MakeTexturedSquare()));
+  texture.erase("source");
+  CHECK_THROWS_AS(LoadFile(file), Error);
+  texture["extensions"]["EXT_texture_webp"]["source"] = "a";
+  CHECK_THROWS_AS(LoadFile(file), Error);
 }
 
 TEST_CASE("an image inside the file") {
