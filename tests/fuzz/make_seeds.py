@@ -329,6 +329,9 @@ def images():
         for filter_type in (0, 4) if kind == 2 else (1 + kind % 3,):
             write('texture_image', f'kind{kind}_filter{filter_type}.png', png(5, 3, kind, filter_type))
     write('texture_image', 'words.png', png(3, 2, 2, 2, 16))
+    write('texture_image', 'lossless.webp', bytes.fromhex(  # 2 x 2 pixels
+        '524946462c000000574542505650384c1f0000002f014000001f201048de1f3a8df9171014fc1fddfc47640fe0060c'
+        '11fd0f0100'))
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         base = [NACRE, 'render', SCENES / 'first_scene.json', '--spp', '1', '--reproducible', '--quiet']

@@ -322,7 +322,7 @@ size_t CellOf(const Vec3d& direction) {
          std::min(static_cast<size_t>(turn * kTurns), kTurns - 1);
 }
 
-TEST_CASE("samples of a stack follow its pdf") {
+TEST_CASE("samples of a stack follow its pdf", "[long]") {
   constexpr int kSamples = 40000;
   constexpr size_t kSteps = 30;  // of the midpoint rule, each way in a cell
   for (const Stack& stack : Stacks()) {
@@ -464,7 +464,8 @@ double MappedAlbedo(const Stack& stack, const ShadingMaterial& material, const V
   return sum * 2 * M_PI / (kRings * kRings);
 }
 
-TEST_CASE("the mean weight of samples is the albedo, and kernels agree with the scalar twin") {
+TEST_CASE("the mean weight of samples is the albedo, and kernels agree with the scalar twin",
+          "[long]") {
   const auto batch = std::make_unique<StackBatch>();
   // The same on every target, and as costly as a target's samples.
   std::map<std::pair<size_t, double>, double> albedos;

@@ -150,7 +150,7 @@ std::vector<Surfaced> AllCombinations() {
 // Angles of view: straight, slanted, grazing, and where rounding leaves n.v at or below 0.
 constexpr double kViews[] = {1, 0.6, 0.1, 1e-3, 0, -1e-7};
 
-TEST_CASE("wherever a model reflects light there is a strategy that looks") {
+TEST_CASE("wherever a model reflects light there is a strategy that looks", "[long]") {
   const FlushDenormals flush;
   ForEachTarget([](Target) {
     // Drawn once, and taken from another place on by each material and view.
@@ -234,7 +234,8 @@ double AlbedoOfLobe(const MicrofacetModel& model, double roughness, double n_dot
   return single;
 }
 
-TEST_CASE("samples of every lobe have its albedo for their mean, and none is out of proportion") {
+TEST_CASE("samples of every lobe have its albedo for their mean, and none is out of proportion",
+          "[long]") {
   const FlushDenormals flush;
   std::mt19937 random(1);
   std::uniform_real_distribution<float> unit(0, 1);
