@@ -48,6 +48,7 @@ namespace {
 
 struct ViewArguments {
   std::vector<std::string> inputs;
+  std::string variant;
   bool no_open = false;
   ServerOptions server;
   RenderOptions options;
@@ -297,7 +298,8 @@ void RunView(const ViewArguments& arguments, const CLI::App& command, int* exit_
                 "nacre report renders several scenes into one page");
   }
   const std::string scene = inputs.empty() ? "" : inputs[0];
-  const LoadOptions load = MakeViewLoadOptions(options);
+  LoadOptions load = MakeViewLoadOptions(options);
+  load.variant = arguments.variant;
   const auto open = [&]() -> std::unique_ptr<ViewDocument> {
     if (scene.empty()) return std::make_unique<ViewDocument>(load);
     return std::make_unique<ViewDocument>(scene, load);
@@ -313,6 +315,9 @@ void RunView(const ViewArguments& arguments, const CLI::App& command, int* exit_
     return PicturesPage({{"B", b, {}}, {"A", a, {}}}, ShownAs(display));
   };
   if (!options.size.empty()) work.given = {"--size", options.size};
+  if (!arguments.variant.empty()) {
+    work.given.insert(work.given.end(), {"--variant", arguments.variant});
+  }
   for (const std::string& set : options.sets) {
     work.given.emplace_back("--set");
     work.given.push_back(set);
@@ -365,6 +370,10 @@ void AddViewCommand(CLI::App* app, int* exit_code) {
   command->add_option("--set", o->sets, "Change a value of the scene, as render does; repeatable")
       ->type_name("/POINTER=JSON")
       ->allow_extra_args(false);
+  command
+      ->add_option("--variant", arguments->variant,
+                   "Show a glTF model in this variant of its materials; `nacre info` lists them")
+      ->type_name("NAME");
   command
       ->add_option(
           "--listen", arguments->server.address,

@@ -10,6 +10,7 @@
 #include "scene/validate.h"
 #include "scene_io/model_files.h"
 #include "scene_io/model_scene.h"
+#include "scene_io/overrides.h"
 #include "scene_io/read_scene.h"
 #include "scene_io/text_file.h"
 
@@ -25,12 +26,6 @@ Scene LoadModel(const std::filesystem::path& path, const LoadOptions& options) {
   CompleteModelScene({&overrides, &options, file, has_camera, nullptr}, SceneParts::All(), &scene);
   ThrowFaults(Validate(scene), file);
   return scene;
-}
-
-void RefuseVariant(const LoadOptions& options, bool may_have, const std::string& file) {
-  if (options.variant.empty() || may_have) return;
-  throw Error(ExitCode::kUsage, "--variant", file + " has no variants: only glTF models do",
-              "leave it out");
 }
 
 }  // namespace
@@ -81,7 +76,7 @@ void RefuseOtherModels(const std::filesystem::path& path) {
 
 Scene ReadModel(const std::filesystem::path& path, const LoadOptions& options, bool* has_camera) {
   const std::string file = path.string();
-  RefuseVariant(options, HasExtension(file, ".gltf") || HasExtension(file, ".glb"), file);
+  if (!HasExtension(file, ".gltf") && !HasExtension(file, ".glb")) RefuseVariant(options);
   if (HasExtension(file, ".obj")) return ReadObjScene(path, options);
   if (HasExtension(file, ".ply")) return ReadPlyScene(path, options);
   return ReadGltf(path, options, has_camera);
@@ -95,7 +90,6 @@ std::string ReadSceneText(const std::filesystem::path& path) {
 Scene LoadScene(const std::filesystem::path& path, const LoadOptions& options) {
   RefuseOtherModels(path);
   if (IsModelFile(path)) return LoadModel(path, options);
-  RefuseVariant(options, false, path.string());
   const std::string text = ReadSceneText(path);
   return LoadSceneText(text, path.string(), path.parent_path(), options);
 }

@@ -236,7 +236,13 @@ void ApplyOptions(const LoadOptions& options, Json* root) {
   for (const auto& [pointer, value] : options.overrides) ReplaceValue(pointer, value, root);
 }
 
+void RefuseVariant(const LoadOptions& options) {
+  if (options.variant.empty()) return;
+  throw Error(ExitCode::kUsage, "--variant", "only glTF models have variants", "leave it out");
+}
+
 void ApplyOptionsToFile(const LoadOptions& options, Json* root) {
+  RefuseVariant(options);
   std::array<std::vector<std::string>, kNamedParts.size()> names;
   for (size_t i = 0; i < names.size(); ++i) names[i] = NamesIn(*root, kNamedParts[i].part);
   ApplyOptions(options, root);

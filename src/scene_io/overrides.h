@@ -58,9 +58,12 @@ Replaced ReplaceInFile(const std::string& pointer, const std::string& text, Json
 // does.
 void ApplyOptions(const LoadOptions& options, Json* root);
 
+// Throws Error (kUsage) if the options name a variant: scene files, OBJ and PLY models have none.
+void RefuseVariant(const LoadOptions& options);
+
 // ApplyOptions for the tree of a whole scene file, which has all the materials, lights and textures
 // that exist. Also throws Error (kUsage) for an override of one that does not exist, as when its
-// name is mistyped; an override may make a complete new one.
+// name is mistyped; an override may make a complete new one. So does a variant.
 void ApplyOptionsToFile(const LoadOptions& options, Json* root);
 
 // Which files the scene may refer to: those that the options permit, and those that they name.
