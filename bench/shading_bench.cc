@@ -6,6 +6,8 @@
 // C++ in the textbook's form, x^5 by multiplication, -O3 -march=native (scalar_baseline.h).
 //   ggx_plain_*            glTF's form: no compensation, diffuse 1 - F; the baseline's formula
 //   ggx_default            with Turquin's compensation and a base scaled by the lobe's albedo
+//   open_pbr_*             by the specification's text: Kulla and Conty's compensation; and with a
+//   film
 //   *_double_terms         lobes so narrow that their half vector is formed in double
 //   *_in_lobe              hits that have Phong's lobe; everywhere else three of four have none, of
 //                          which plain C++ knows the power at once
@@ -242,6 +244,9 @@ std::vector<ModelBench> MakeModels() {
   rough.model = OrenNayarMaterial{.albedo = color};
   burley.model = BurleyMaterial{.albedo = color};
   std::get<MetallicRoughnessMaterial>(rough_base.model).diffuse = DiffuseForm::kOrenNayar;
+  Material open_pbr, film;
+  open_pbr.model = OpenPbrMaterial{.base_color = color, .base_metalness = 0.5};
+  film.model = OpenPbrMaterial{.base_color = color, .base_metalness = 0.5, .thin_film_weight = 1};
   const BaselineKernel scalar_phong = [=](const auto& hits, const auto& light) {
     baseline::ShadePhong(hits, kHits, light, kColor, 0.5f, shininess);
   };
@@ -284,6 +289,8 @@ std::vector<ModelBench> MakeModels() {
       {"oren_nayar", rough, nullptr},
       {"burley", burley, nullptr},
       {"ggx_default_oren_nayar_base", rough_base, nullptr},
+      {"open_pbr_default", open_pbr, nullptr},
+      {"open_pbr_film", film, nullptr},
   };
 }
 
