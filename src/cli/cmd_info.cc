@@ -82,7 +82,9 @@ std::string CountAndNames(const std::vector<Item>& items) {
   return fmt::format("{}{}{}", items.size(), names.empty() ? "" : ": ", fmt::join(names, ", "));
 }
 
-void PrintScene(const std::string& path, const LoadOptions& options) {
+void PrintScene(const std::string& path, LoadOptions options) {
+  std::vector<std::string> notes;  // what is not shown as the file has it, and its variants
+  options.on_warning = [&](const std::string& text) { notes.push_back(text); };
   const Scene scene = LoadScene(path, options);
   PrintOut("{}\n", path);
   PrintOut("  image       {}x{}, {} sample{} a pixel\n", scene.image.width, scene.image.height,
@@ -95,6 +97,7 @@ void PrintScene(const std::string& path, const LoadOptions& options) {
   for (const Material& material : scene.materials) traits |= ShadowingTrait(material);
   PrintOut("  shadowing   {}\n", ShadowingForms(traits));
   PrintOut("  hash        {:016x}\n", HashScene(scene));
+  for (const std::string& note : notes) PrintError("note: {}\n", note);
 }
 
 void PrintBuild() {

@@ -82,7 +82,8 @@ void AddRenderCommand(CLI::App* app, int* exit_code) {
   struct RenderArguments {
     std::string scene;
     std::string preset;
-    std::string environment, variant;
+    std::string environment;
+    std::optional<std::string> variant;
     bool watch = false;
     RenderOptions options;
   };

@@ -48,7 +48,7 @@ namespace {
 
 struct ViewArguments {
   std::vector<std::string> inputs;
-  std::string variant;
+  std::optional<std::string> variant;
   bool no_open = false;
   ServerOptions server;
   RenderOptions options;
@@ -212,7 +212,7 @@ ServerOptions MakeServerOptions(const ViewArguments& arguments) {
 // Shows images in the report's page, without a scene. When files change, the page is made again.
 void RunImages(const ViewArguments& arguments, const CLI::App& command, int* exit_code) {
   const RenderOptions& options = arguments.options;
-  std::set<std::string> of_scenes = {"--size", "--spp", "--set", "--allow-paths"};
+  std::set<std::string> of_scenes = {"--size", "--spp", "--set", "--allow-paths", "--variant"};
   for (const SettingKey& key : SettingKeys()) {
     // As --target, these two are accepted: they do not change what is seen.
     if (key.name != "intersector" && key.name != "tile_size") of_scenes.insert(OptionOf(key));
@@ -315,8 +315,8 @@ void RunView(const ViewArguments& arguments, const CLI::App& command, int* exit_
     return PicturesPage({{"B", b, {}}, {"A", a, {}}}, ShownAs(display));
   };
   if (!options.size.empty()) work.given = {"--size", options.size};
-  if (!arguments.variant.empty()) {
-    work.given.insert(work.given.end(), {"--variant", arguments.variant});
+  if (arguments.variant) {
+    work.given.insert(work.given.end(), {"--variant", *arguments.variant});
   }
   for (const std::string& set : options.sets) {
     work.given.emplace_back("--set");

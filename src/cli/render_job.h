@@ -62,6 +62,7 @@ void RunRenderJob(const RenderOptions& options, const std::vector<std::string>& 
 // those of LoadOptions. Throws Error for errors before the first picture is written; later
 // errors are printed.
 int RunWatchJob(const RenderOptions& options, const std::filesystem::path& path,
-                const std::filesystem::path& environment, const std::string& variant);
+                const std::filesystem::path& environment,
+                const std::optional<std::string>& variant);
 
 }  // namespace nacre

@@ -90,7 +90,8 @@ bool RenderUnlessChanged(RenderJob* job, LiveScene* live, PreparedScene* prepare
 }  // namespace
 
 int RunWatchJob(const RenderOptions& options, const std::filesystem::path& path,
-                const std::filesystem::path& environment, const std::string& variant) {
+                const std::filesystem::path& environment,
+                const std::optional<std::string>& variant) {
   if (options.dry_run) {
     throw Error(ExitCode::kUsage, "--watch", "cannot be used with --dry-run",
                 "leave one of them out");

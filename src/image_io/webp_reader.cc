@@ -88,6 +88,8 @@ ImageFile OpenWebp(const std::string& path) {
                              placer.stored_height() == found.height &&
                              has_alpha == (found.has_alpha != 0));
     const size_t channels = has_alpha ? 4 : 3;
+    // All of it is decoded at once, also for one row.
+    CheckSampleCount(path, again.size(), found.width, found.height, channels);
     const auto row_codes = static_cast<size_t>(found.width) * channels;
     std::vector<uint8_t> codes(row_codes * static_cast<size_t>(found.height));
     const auto decode = has_alpha ? &WebPDecodeRGBAInto : &WebPDecodeRGBInto;

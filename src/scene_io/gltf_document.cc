@@ -20,6 +20,7 @@
 #include "base/error.h"
 #include "base/excerpt.h"
 #include "base/path.h"
+#include "base/printable.h"
 #include "scene/fault_list.h"
 #include "scene_io/text_file.h"
 #include "scene_io/text_lines.h"
@@ -253,31 +254,62 @@ void CheckVersionAndExtensions(GltfDocument* document) {
   }
 }
 
+// Refuses mappings of variants or materials that do not exist, whichever variant is shown.
+void CheckMappings(const GltfDocument& document) {
+  const gltf::Model& model = document.model;
+  for (size_t m = 0; m < model.meshes.size(); ++m) {
+    for (size_t p = 0; p < model.meshes[m].primitives.size(); ++p) {
+      const std::vector<gltf::VariantMapping>& mappings = model.meshes[m].primitives[p].mappings;
+      for (size_t i = 0; i < mappings.size(); ++i) {
+        const std::string place = fmt::format(
+            "/meshes/{}/primitives/{}/extensions/KHR_materials_variants/mappings/{}", m, p, i);
+        document.At(model.materials, mappings[i].material, place + "/material",
+                    fmt::format("there is no material {}", mappings[i].material));
+        for (const int variant : mappings[i].variants) {
+          document.At(model.variants, variant, place + "/variants",
+                      fmt::format("there is no variant {}", variant));
+        }
+      }
+    }
+  }
+}
+
+std::string VariantInQuotes(const std::string& name) {
+  return fmt::format("\"{}\"", Excerpt(Printable(name), 40));
+}
+
 // The variant of this name. If none is asked for, tells which there are.
-std::optional<int> FindVariant(const std::string& name, GltfDocument* document) {
-  std::vector<std::string> names;
-  for (const gltf::Variant& variant : document->model.variants) names.push_back(variant.name);
-  const auto quoted = [&] {
-    std::vector<std::string> all;
-    for (const std::string& each : names) all.push_back(fmt::format("\"{}\"", Excerpt(each)));
-    return fmt::format("{}", fmt::join(all, ", "));
+std::optional<int> FindVariant(const std::optional<std::string>& name, GltfDocument* document) {
+  const std::vector<gltf::Variant>& variants = document->model.variants;
+  const auto names = [&] {
+    constexpr size_t kMost = 8;
+    std::string all;
+    for (size_t i = 0; i < std::min(variants.size(), kMost); ++i) {
+      all += (i == 0 ? "" : ", ") + VariantInQuotes(variants[i].name);
+    }
+    if (variants.size() > kMost) all += fmt::format(" and {} more", variants.size() - kMost);
+    return all;
   };
-  if (name.empty()) {
-    if (!names.empty()) {
+  if (!name) {
+    if (!variants.empty()) {
       document->Warn(
-          fmt::format("its materials have variants, and it is shown without one; --variant names "
-                      "one: {}",
-                      quoted()));
+          "its materials have variants, and it is shown without one; --variant names "
+          "one: " +
+          names());
     }
     return std::nullopt;
   }
-  const auto found = std::ranges::find(names, name);
-  if (found == names.end()) {
+  const auto found = std::ranges::find(variants, *name, &gltf::Variant::name);
+  if (found == variants.end()) {
     throw Error(ExitCode::kUsage, "--variant",
-                fmt::format("{} has no variant \"{}\"", document->file, Excerpt(name)),
-                names.empty() ? "it has none" : "one of " + quoted());
+                fmt::format("{} has no variant {}", document->file, VariantInQuotes(*name)),
+                variants.empty() ? "it has none" : "one of " + names());
   }
-  return static_cast<int>(found - names.begin());
+  if (std::ranges::count(variants, *name, &gltf::Variant::name) > 1) {
+    document->Warn(
+        fmt::format("several variants are called {}: the first is shown", VariantInQuotes(*name)));
+  }
+  return static_cast<int>(found - variants.begin());
 }
 
 }  // namespace
@@ -329,6 +361,7 @@ GltfDocument ReadGltfDocument(const std::filesystem::path& path, const LoadOptio
   document.model = gltf::ReadModel(document.root, &faults);
   ThrowFaults(faults, document.file);
   CheckVersionAndExtensions(&document);
+  CheckMappings(document);
   document.variant = FindVariant(options.variant, &document);
   std::shared_ptr<const std::string> binary_chunk;
   if (chunks.data) {

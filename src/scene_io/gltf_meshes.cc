@@ -299,18 +299,18 @@ bool UsesSecondUvs(const Scene& scene, MaterialId id) {
 }
 
 MaterialId MaterialOf(const GltfDocument& document, const Primitive& primitive) {
-  const auto& materials = document.model.materials;
-  int index = primitive.source.material;
-  std::string place = primitive.place + "/material";
-  for (size_t i = 0; document.variant && i < primitive.source.mappings.size(); ++i) {
-    const gltf::VariantMapping& mapping = primitive.source.mappings[i];
-    if (std::ranges::find(mapping.variants, *document.variant) == mapping.variants.end()) continue;
-    index = mapping.material;
-    place = fmt::format("{}/extensions/KHR_materials_variants/mappings/{}/material",
-                        primitive.place, i);
+  if (document.variant) {
+    for (const gltf::VariantMapping& mapping : primitive.source.mappings) {
+      if (std::ranges::find(mapping.variants, *document.variant) != mapping.variants.end()) {
+        return {static_cast<uint32_t>(mapping.material)};
+      }
+    }
   }
+  const auto& materials = document.model.materials;
+  const int index = primitive.source.material;
   if (index < 0) return {static_cast<uint32_t>(materials.size())};  // the default comes last
-  document.At(materials, index, place, fmt::format("there is no material {}", index));
+  document.At(materials, index, primitive.place + "/material",
+              fmt::format("there is no material {}", index));
   return {static_cast<uint32_t>(index)};
 }
 

@@ -412,10 +412,9 @@ Model ReadModel(const Json& root, FaultList* faults) {
   model.lights = extension(model.extensions, "KHR_lights_punctual").lights;
   model.variants = extension(model.extensions, kVariants).variants;
   for (Texture& texture : model.textures) {
-    // Where there is another file, too, it is the same picture.
-    if (texture.source < 0) {
-      texture.source = extension(texture.extensions, "EXT_texture_webp").source;
-    }
+    // The core's source is for programs that do not read WebP.
+    const int webp = extension(texture.extensions, "EXT_texture_webp").source;
+    if (webp >= 0) texture.source = webp;
   }
   for (Mesh& mesh : model.meshes) {
     for (Primitive& primitive : mesh.primitives) {

@@ -108,7 +108,7 @@ struct Image {
 };
 
 struct Texture {
-  int sampler = -1, source = -1;  // also the source that EXT_texture_webp names
+  int sampler = -1, source = -1;  // that of EXT_texture_webp, if there is one
   Extensions extensions = nullptr;
 };
 

@@ -29,8 +29,8 @@ struct LoadOptions {
   std::filesystem::path environment = {};
 
   // The variant of its materials in which a glTF model is shown (KHR_materials_variants,
-  // "--variant"). Empty: the materials that it has without one.
-  std::string variant = {};
+  // "--variant"). nullopt: the materials that it has without one.
+  std::optional<std::string> variant = {};
 
   // Reflection models implemented by the caller, by the name of the material that they replace.
   UserBrdfs user_brdfs = {};

@@ -237,7 +237,7 @@ void ApplyOptions(const LoadOptions& options, Json* root) {
 }
 
 void RefuseVariant(const LoadOptions& options) {
-  if (options.variant.empty()) return;
+  if (!options.variant) return;
   throw Error(ExitCode::kUsage, "--variant", "only glTF models have variants", "leave it out");
 }
 

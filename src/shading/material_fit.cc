@@ -264,7 +264,10 @@ void FitDielectric(const Material& original, MaterialFit* fit) {
 
 // The material without its model and without maps.
 Material WithoutModel(Material material) {
-  material.emission = EmissionOf(material);
+  const Rgb emission = EmissionOf(material);
+  for (int c = 0; c < 3; ++c) {
+    material.emission[c] = std::min(emission[c], limits::kRadiance.max);
+  }
   material.model = {};
   material.user = nullptr;
   material.emission_map = material.opacity_map = {};

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -687,7 +690,7 @@ TEST_CASE("a variant of the materials is shown by its name, also where the exten
       R"({"mappings": [{"variants": [0], "material": 1}, {"variants": [1.0], "material": 2}]})");
   const ModelFolder folder;
   std::vector<std::string> warnings;
-  const auto shown = [&](const std::string& variant) {
+  const auto shown = [&](const std::optional<std::string>& variant) {
     LoadOptions options{.variant = variant};
     options.on_warning = [&](const std::string& text) { warnings.push_back(text); };
     const Scene scene = LoadScene(folder.Write("model.glb", file.Binary()), options);
@@ -697,23 +700,42 @@ TEST_CASE("a variant of the materials is shown by its name, also where the exten
   CHECK(shown("street \u00e9") == "c");
   CHECK(shown("bare") == "a");  // which this primitive does not know
   CHECK(warnings.empty());
-  CHECK(shown("") == "a");
+  CHECK(shown(std::nullopt) == "a");
   REQUIRE(warnings.size() == 1);
   Tells(warnings[0], "--variant names one: \"beach\"");
   const std::string sea = ErrorOf([&] { shown("sea"); }, ExitCode::kUsage);
   Tells(sea, "has no variant \"sea\"");
   Tells(sea, "one of \"beach\"");
+  // Any name may be one, also none, and one may be there twice.
+  Json& names = file.json["extensions"]["KHR_materials_variants"]["variants"];
+  const Json few = names;
+  names[1]["name"] = "";
+  CHECK(shown("") == "c");
+  names[1]["name"] = "a\nb";
+  CHECK(shown("a\nb") == "c");
+  Tells(ErrorOf([&] { shown(""); }, ExitCode::kUsage), R"("a\nb")");
+  names[1]["name"] = "beach";
+  warnings.clear();
+  CHECK(shown("beach") == "b");
+  REQUIRE(warnings.size() == 1);
+  Tells(warnings[0], "several variants are called \"beach\"");
+  for (int k = 3; k < 1000; ++k) names.push_back({{"name", std::to_string(k)}});
+  Tells(ErrorOf([&] { shown("sea"); }, ExitCode::kUsage), "\"7\" and 992 more");
+  names = few;
   Json& mappings = primitive["extensions"]["KHR_materials_variants"]["mappings"];
   mappings[0]["material"] = 3;
   Tells(ErrorOf([&] { shown("beach"); }), "/mappings/0/material: there is no material 3");
-  CHECK(shown("bare") == "a");
+  Tells(ErrorOf([&] { shown("bare"); }), "there is no material 3");  // whichever is shown
+  mappings[0]["material"] = 1;
+  mappings[0]["variants"][0] = 3;
+  Tells(ErrorOf([&] { shown(std::nullopt); }), "/mappings/0/variants: there is no variant 3");
   mappings[0]["material"] = "b";
-  Tells(ErrorOf([&] { shown(""); }), "/mappings/0/material");
+  Tells(ErrorOf([&] { shown(std::nullopt); }), "/mappings/0/material");
   mappings = 3;
-  Tells(ErrorOf([&] { shown(""); }), "/mappings");
+  Tells(ErrorOf([&] { shown(std::nullopt); }), "/mappings");
   primitive.erase("extensions");
   file.json["extensions"]["KHR_materials_variants"]["variants"][1].erase("name");
-  Tells(ErrorOf([&] { shown(""); }), "/variants/1: has no \"name\"");
+  Tells(ErrorOf([&] { shown(std::nullopt); }), "/variants/1: has no \"name\"");
   file.json.erase("extensions");
   file.json.erase("extensionsRequired");
   Tells(ErrorOf([&] { shown("beach"); }, ExitCode::kUsage), "it has none");
