@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Fits the costs of src/render/camera_cost.cc to what this machine takes, for each SIMD target.
 
-  bench/camera_cost.py WAITING_BENCH [TABLE]   measures (half an hour, nothing beside it), or reads a
-                                               TABLE that an earlier run left
+  bench/camera_cost.py WAITING_BENCH [TABLE]   measures (half an hour, nothing beside it) and leaves
+                                               out/camera_cost.txt, or reads the TABLE of an earlier run
 
 Prints a row of costs for each target, and where the faster method would not be chosen.
 """
@@ -66,8 +66,9 @@ def fit(rows):
 
 def main():
     program, *rest = sys.argv[1:]
-    table = pathlib.Path(rest[0] if rest else "camera_cost.txt")
+    table = pathlib.Path(rest[0] if rest else "out/camera_cost.txt")
     if not rest:
+        table.parent.mkdir(exist_ok=True)
         measure(program, table)
     print("target   bin  gather  fetch  descend  overlap  build")
     for target, rows in rows_of(table).items():

@@ -63,4 +63,12 @@ IccProfile ReadIccProfile(std::span<const uint8_t> bytes) {
   return {is_srgb ? "sRGB" : DescriptionOf(profile.get()), is_srgb};
 }
 
+void NoteIccProfile(std::span<const uint8_t> profile,
+                    std::map<std::string, std::string>* metadata) {
+  const IccProfile read = ReadIccProfile(profile);
+  (*metadata)["icc_profile"] = read.name;
+  metadata->erase("not_srgb");
+  if (!read.is_srgb) (*metadata)["not_srgb"] = "the ICC profile \"" + read.name + "\"";
+}
+
 }  // namespace nacre

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 
@@ -17,5 +18,9 @@ struct IccProfile {
 // Judges a profile by what it does to colours, not by its name: there are hundreds of sRGB
 // profiles, and "Linear sRGB" is none of them. A grey profile is judged by its curve.
 IccProfile ReadIccProfile(std::span<const uint8_t> profile);
+
+// Sets "icc_profile", the name, and "not_srgb", why the image is none in words, or removes the
+// latter.
+void NoteIccProfile(std::span<const uint8_t> profile, std::map<std::string, std::string>* metadata);
 
 }  // namespace nacre

@@ -186,9 +186,7 @@ ImageFile OpenJpeg(const std::string& path) {
   if (orientation.transpose) std::swap(width, height);
   std::map<std::string, std::string> metadata = {{"transfer", "display"}};
   if (const std::vector<uint8_t> embedded = jpeg.profile(); !embedded.empty()) {
-    const IccProfile profile = ReadIccProfile(embedded);
-    metadata["icc_profile"] = profile.name;
-    if (!profile.is_srgb) metadata["not_srgb"] = "the ICC profile \"" + profile.name + "\"";
+    NoteIccProfile(embedded, &metadata);
   }
   ImageFile image =
       MakeImageFile(path, width, height, !jpeg.is_grey(), /*has_alpha=*/false, metadata);

@@ -203,11 +203,8 @@ void AddProfile(const PngFile& png, Metadata* metadata) {
   }
   spng_iccp profile{};
   if (spng_get_iccp(png.get(), &profile) != 0) return;
-  metadata->erase("not_srgb");
-  const IccProfile read =
-      ReadIccProfile({reinterpret_cast<const uint8_t*>(profile.profile), profile.profile_len});
-  (*metadata)["icc_profile"] = read.name;
-  if (!read.is_srgb) (*metadata)["not_srgb"] = "the ICC profile \"" + read.name + "\"";
+  NoteIccProfile({reinterpret_cast<const uint8_t*>(profile.profile), profile.profile_len},
+                 metadata);
 }
 
 // cICP overrides all others. By ITU-T H.273, primaries 1 are Rec. 709's, transfer 13 is sRGB's,

@@ -69,9 +69,7 @@ ImageFile OpenWebp(const std::string& path) {
   const std::unique_ptr<WebPDemuxer, DeleteDemuxer> demuxer(WebPDemux(&data));
   if (!demuxer) FailToRead(path, "it is damaged or cut off");
   if (const auto embedded = ChunkOf(demuxer.get(), "ICCP"); !embedded.empty()) {
-    const IccProfile profile = ReadIccProfile(embedded);
-    metadata["icc_profile"] = profile.name;
-    if (!profile.is_srgb) metadata["not_srgb"] = "the ICC profile \"" + profile.name + "\"";
+    NoteIccProfile(embedded, &metadata);
   }
   const Orientation orientation = OrientationOfTag(ExifOrientation(ChunkOf(demuxer.get(), "EXIF")));
   const bool has_alpha = features.has_alpha != 0;

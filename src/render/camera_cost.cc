@@ -20,8 +20,9 @@ constexpr double kLargest = 128;  // pixels
 
 // Nanoseconds of one thread, as bench/camera_cost.py fits them to frames of clouds: 1e4 to 1e6
 // spheres, of which a ray passes 0.1 to 256 on average, at 1, 4 and 16 samples per pixel
-// (1280x720). They choose the faster method wherever it takes a tenth less time, but for clouds of
-// 1e6 spheres of which a ray passes 16, on SSE4 (a quarter) and without SIMD (a third).
+// (1280x720); without SIMD at 1 sample, and 4 for 1e4 spheres. They choose the faster method
+// wherever it takes a tenth less time, but for clouds of 1e6 spheres of which a ray passes 16, on
+// SSE4 (a quarter) and without SIMD (a third).
 struct Costs {
   double bin;     // per sphere, once for each view
   double gather;  // per sphere in a cell, in each frame

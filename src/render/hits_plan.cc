@@ -2,10 +2,12 @@
 #include "render/hits_plan.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "base/parallel.h"
 #include "base/target.h"
 #include "render/camera_cost.h"
 #include "render/mesh_windows.h"
@@ -19,17 +21,23 @@ namespace {
 // True only if every camera ray starts outside every sphere, by far more than the rounding errors
 // of the intersection tests. Then the camera sees spheres from outside only, and a sphere never
 // shadows its own points that face a light.
-bool RaysStartOutside(const Scene& scene, const Intersector& intersector) {
+bool RaysStartOutside(const Scene& scene, const Intersector& intersector, int threads) {
   if (scene.camera.projection == Projection::kPerspective) return intersector.EyeIsOutside();
   // Orthographic: each sphere is in front of the plane in which the rays start, or behind it.
   const Vec3d forward = (scene.camera.look_at - scene.camera.position).normalized();
   const double pixel = scene.camera.height / scene.image.height;
   const double plane = pixel * (scene.image.height + scene.image.width);
-  return std::ranges::all_of(scene.spheres, [&](const Sphere& sphere) {
-    const Vec3d offset = sphere.center - scene.camera.position;
-    return std::abs(offset.dot(forward)) >
-           sphere.radius * (1 + 1e-9) + 1e-12 * (offset.length() + plane);
+  constexpr size_t kBlock = size_t{1} << 14;
+  std::atomic<bool> outside = true;
+  ParallelForBlocks(scene.spheres.size(), kBlock, threads, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      const Sphere& sphere = scene.spheres[i];
+      const Vec3d offset = sphere.center - scene.camera.position;
+      const double margin = sphere.radius * 1e-9 + 1e-12 * (offset.length() + plane);
+      if (!(std::abs(offset.dot(forward)) > sphere.radius + margin)) outside = false;
+    }
   });
+  return outside;
 }
 
 std::string DescribeShapes(const Scene& scene) {
@@ -111,9 +119,9 @@ TracedShapes PrepareShapes(const Scene& scene, const RenderSettings& settings,
   shapes.camera_extent = SumOfAbs(scene.camera.position);
   if (scene.spheres.empty() && CountTriangles(scene) == 0) return shapes;
   shapes.intersector = FindIntersector(scene, settings, prepared);
-  shapes.eye_outside =
-      prepared->eye_outside.Get(KeyOfView(*prepared, prepared->shapes_made, {}),
-                                [&] { return RaysStartOutside(scene, *shapes.intersector); });
+  shapes.eye_outside = prepared->eye_outside.Get(
+      KeyOfView(*prepared, prepared->shapes_made, {}),
+      [&] { return RaysStartOutside(scene, *shapes.intersector, settings.threads); });
   Report(settings, 0.15);
   return shapes;
 }

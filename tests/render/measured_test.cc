@@ -39,14 +39,8 @@ TEST_CASE("pictures of measured spheres are those of the scalar twin") {
       const Image image = RenderImage(scene, {.layers = {"diffuse", "specular"}});
       const Vec3d l = toward.normalized(), v(0, 0, 1);
       size_t lit = 0;
-      for (size_t i = 0; i < image.data.pixel_count(); ++i) {
-        if (image.Find("A")->samples[i] < 1) continue;
-        const int x = static_cast<int>(i) % 64, y = static_cast<int>(i) / 64;
-        const double px = (x + 0.5 - 32) / 64 * 2.2, py = (32 - y - 0.5) / 64 * 2.2;
-        const double z2 = 1 - px * px - py * py;
-        if (z2 < 0.05 * 0.05) continue;
-        const Vec3d normal(px, py, std::sqrt(z2));
-        if ((normal ^ l) < 0.05) continue;
+      ForEachSphereNormal(image, 0.05, [&](size_t i, const Vec3d& normal) {
+        if ((normal ^ l) < 0.05) return;
         ++lit;
         const Rgb expected =
             EvaluateMeasured(*brdf, MeasuredInterpolation::kLinear, BasisAbout(normal), l, v) * 3;
@@ -57,7 +51,7 @@ TEST_CASE("pictures of measured spheres are those of the scalar twin") {
           CHECK(image.Find(std::string("specular.") + names[c])->samples[i] == got);
           CHECK(image.Find(std::string("diffuse.") + names[c])->samples[i] == 0);
         }
-      }
+      });
       CHECK(lit > 300);
     }
   }

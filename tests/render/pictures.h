@@ -40,6 +40,20 @@ inline Scene OrthographicSphere(decltype(Material::model) model, int spp) {
   return scene;
 }
 
+// Calls use(i, normal) for each pixel i of a picture of OrthographicSphere that the sphere covers
+// whole, with the normal at the pixel's centre, where n.v is `least` at least.
+template <class Use>
+void ForEachSphereNormal(const Image& image, double least, const Use& use) {
+  const std::vector<float>& coverage = image.Find("A")->samples;
+  for (size_t i = 0; i < coverage.size(); ++i) {
+    if (coverage[i] < 1) continue;
+    const double x = (static_cast<double>(i % 64) + 0.5 - 32) / 64 * 2.2;
+    const double y = (32 - static_cast<double>(i / 64) - 0.5) / 64 * 2.2;
+    const double z2 = 1 - x * x - y * y;
+    if (z2 >= least * least) use(i, Vec3d(x, y, std::sqrt(z2)));
+  }
+}
+
 // A sky of radiance 1 that is not seen itself, so that shapes stand out.
 inline Light WhiteSky() {
   return Named("sky",

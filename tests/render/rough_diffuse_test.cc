@@ -30,19 +30,13 @@ template <class Brdf>
 void CheckPicture(const Scene& scene, const Vec3d& to_light, const Brdf& brdf) {
   const Image image = RenderImage(scene, {.layers = {"N"}});
   size_t lit = 0;
-  for (size_t i = 0; i < image.data.pixel_count(); ++i) {
-    if (image.Find("A")->samples[i] < 1) continue;
-    const int x = static_cast<int>(i) % 64, y = static_cast<int>(i) / 64;
-    const double px = (x + 0.5 - 32) / 64 * 2.2, py = (32 - y - 0.5) / 64 * 2.2;
-    const double z2 = 1 - px * px - py * py;
-    if (z2 < 0.02 * 0.02) continue;
-    const Vec3d normal(px, py, std::sqrt(z2));
+  ForEachSphereNormal(image, 0.02, [&](size_t i, const Vec3d& normal) {
     const Angles<double> a = ComputeAngles(normal, to_light, Vec3d(0, 0, 1));
-    if (a.n_dot_l < 0.02) continue;
+    if (a.n_dot_l < 0.02) return;
     ++lit;
     const double expected = 3 * a.n_dot_l * brdf(a);
     REQUIRE(std::abs(image.Find("R")->samples[i] - expected) <= 16 * 0x1p-24 / 0.02 * expected);
-  }
+  });
   CHECK(lit > 500);
 }
 
