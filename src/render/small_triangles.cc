@@ -172,8 +172,7 @@ SmallTriangles BinSmallTriangles(const PrimitiveNumbers& numbers, const Projecto
     });
   };
   SortIntoCells(
-      count, cells, std::numeric_limits<uint32_t>::max() - 1, threads, [](size_t, size_t) {},
-      for_cells, &triangles.end,
+      count, cells, std::numeric_limits<uint32_t>::max() - 1, threads, for_cells, &triangles.end,
       [&](size_t entries) { triangles.primitives = HugeArray<uint32_t>(entries); },
       [&](size_t i, size_t, uint32_t position) {
         triangles.primitives[position] = static_cast<uint32_t>(scene.spheres.size() + i);

@@ -25,15 +25,15 @@ inline CellListRange CellListPiece(size_t items, size_t piece) {
   return {items * piece / pieces, items * (piece + 1) / pieces};
 }
 
-// prepare(begin, end) is called once for each piece, before its items are counted. for_cells(item,
-// emit) calls emit(cell, more...) for each cell of the item; it is called twice, and must emit the
-// same cells both times. end[cell] becomes the end of the cell's list. allocate(entries) is called
-// once, and then store(item, cell, position, more...) for each entry, from several threads. Returns
-// false, with nothing allocated, if there would be more than max_entries, which is below 2^32.
-template <class Prepare, class ForCells, class Allocate, class Store>
+// for_cells(item, emit) calls emit(cell, more...) for each cell of the item; it is called twice,
+// and must emit the same cells both times. end[cell] becomes the end of the cell's list.
+// allocate(entries) is called once, and then store(item, cell, position, more...) for each entry,
+// from several threads. Returns false, with nothing allocated, if there would be more than
+// max_entries, which is below 2^32.
+template <class ForCells, class Allocate, class Store>
 bool SortIntoCells(size_t items, size_t cells, size_t max_entries, int threads,
-                   const Prepare& prepare, const ForCells& for_cells, std::vector<uint32_t>* end,
-                   const Allocate& allocate, const Store& store) {
+                   const ForCells& for_cells, std::vector<uint32_t>* end, const Allocate& allocate,
+                   const Store& store) {
   const size_t pieces = CellListPieces(items);
   std::vector<std::vector<uint32_t>> next(pieces);  // first the counts, then the next free position
   std::atomic<size_t> entries{0};
@@ -41,7 +41,6 @@ bool SortIntoCells(size_t items, size_t cells, size_t max_entries, int threads,
     std::vector<uint32_t> count(cells);
     size_t sum = 0;
     const auto [begin, end_of_piece] = CellListPiece(items, piece);
-    prepare(begin, end_of_piece);
     for (size_t item = begin; item < end_of_piece && sum <= max_entries; ++item) {
       for_cells(item, [&](size_t cell, auto...) {
         ++count[cell];

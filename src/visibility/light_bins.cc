@@ -234,7 +234,7 @@ class Binner {
   void SortIntoBlocks() {
     SortIntoCells(
         spheres_.size(), block_count_ + 1, std::numeric_limits<uint32_t>::max(), threads_,
-        [](size_t, size_t) {}, [&](size_t i, const auto& emit) { ForBlocks(i, emit); }, &block_end_,
+        [&](size_t i, const auto& emit) { ForBlocks(i, emit); }, &block_end_,
         [&](size_t entries) {
           block_spheres_ = HugeArray<BinnedSphere>(entries);
           block_numbers_ = HugeArray<uint32_t>(entries);

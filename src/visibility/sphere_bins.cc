@@ -109,13 +109,14 @@ bool BinSpheres(const TraceGeometry& geometry, const CameraFrame& frame, const W
   made.rows = (window.height() + kCellSize - 1) / kCellSize;
   made.projector = MakeProjector(frame);
   HugeArray<SphereBox> boxes(geometry.spheres.size());
-  const auto find_boxes = [&](size_t begin, size_t end) {
+  ParallelFor(CellListPieces(boxes.size()), threads, [&](size_t piece) {
+    const auto [begin, end] = CellListPiece(boxes.size(), piece);
     FindBoxes(made, geometry.spheres.data() + begin, end - begin, boxes.data() + begin);
-  };
+  });
   const auto for_cells = [&](size_t i, const auto& emit) { ForCells(made, boxes[i], emit); };
   const size_t cells = static_cast<size_t>(made.columns) * static_cast<size_t>(made.rows);
   const bool fits = SortIntoCells(
-      geometry.spheres.size(), cells, max_entries, threads, find_boxes, for_cells, &made.end,
+      geometry.spheres.size(), cells, max_entries, threads, for_cells, &made.end,
       [&](size_t entries) {
         made.spheres = HugeArray<uint32_t>(entries);
         made.pixel_rows = HugeArray<uint16_t>(entries);
