@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdlib>
-#include <cstring>
 #include <memory>
 #include <new>
 
@@ -23,21 +22,25 @@ constexpr size_t RoundUp(size_t value, size_t multiple) {
 
 // A fixed-size, zero-initialised array of trivial T, aligned to kVectorBytes. Its allocation is
 // rounded up to whole vectors, plus eight: from any entry below size(), a kernel may load and store
-// as many entries as four vectors have floats.
+// as many entries as four vectors have floats. Fresh memory is not written: of large arrays, only
+// the pages that are used take memory and time.
 template <typename T>
 class AlignedArray {
  public:
   AlignedArray() = default;
   explicit AlignedArray(size_t size) : size_(size) {
-    const size_t bytes = Capacity(size) * sizeof(T);
-    data_.reset(static_cast<T*>(std::aligned_alloc(kVectorBytes, bytes)));
-    if (!data_) throw std::bad_alloc();
-    std::memset(static_cast<void*>(data_.get()), 0, bytes);
+    // std::aligned_alloc does not know whether its memory is zero; std::calloc does.
+    size_t space = Capacity(size) * sizeof(T) + kVectorBytes;
+    void* const allocated = std::calloc(space, 1);
+    if (allocated == nullptr) throw std::bad_alloc();
+    void* aligned = allocated;
+    std::align(kVectorBytes, space - kVectorBytes, aligned, space);
+    data_ = {static_cast<T*>(aligned), Free{allocated}};
   }
 
   // A view of a part of another array, which must outlive it. `begin` must be aligned to a vector.
   AlignedArray(AlignedArray* whole, size_t begin, size_t size)
-      : data_(whole->data() + begin, Free{false}), size_(size) {}
+      : data_(whole->data() + begin, Free{nullptr}), size_(size) {}
 
   // The number of entries that are allocated for an array of this size.
   static constexpr size_t Capacity(size_t size) {
@@ -56,10 +59,8 @@ class AlignedArray {
 
  private:
   struct Free {
-    bool owned = true;
-    void operator()(T* p) const {
-      if (owned) std::free(p);
-    }
+    void* allocated = nullptr;  // null for views
+    void operator()(T*) const { std::free(allocated); }
   };
   std::unique_ptr<T[], Free> data_;
   size_t size_ = 0;
