@@ -102,10 +102,10 @@ void AddRenderCommand(CLI::App* app, int* exit_code) {
                    "textbook")
       ->check(CLI::IsMember({"textbook"}));
   command
-      ->add_option("--environment", arguments->environment,
-                   "Light the scene by this image of its surroundings instead of its own lights "
-                   "(latitude and longitude, EXR or HDR); --set /lights/environment/rotate_deg=90 "
-                   "turns it")
+      ->add_option(
+          "--environment", arguments->environment,
+          "Light the scene by this image (latitude and longitude, EXR or HDR) instead of by "
+          "its lights; --set /lights/environment/rotate_deg=90 turns it")
       ->type_name("FILE")
       ->group("Picture");
   command
