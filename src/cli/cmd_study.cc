@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/cmd_study.cc: nacre study: answers the lesson's exercises with a folder of pictures,
-// diagrams, numbers and explanations.
+// cli/cmd_study.cc: nacre study: answers the lesson's exercises, and questions about materials,
+// with a folder of pictures, diagrams, numbers and explanations.
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -139,7 +139,9 @@ void Run(const StudyArguments& arguments) {
 
 void AddStudyCommand(CLI::App* app, int*) {
   CLI::App* command = app->add_subcommand(
-      "study", "Answer an exercise of the founding lesson with pictures, curves and numbers");
+      "study",
+      "Answer an exercise of the founding lesson, or a question about materials, with pictures, "
+      "curves and numbers");
   const auto arguments = std::make_shared<StudyArguments>();
   std::string names;
   for (const StudyEntry& study : Studies()) names += fmt::format("{}, ", study.name);

@@ -7,6 +7,7 @@
 
 #include "base/image.h"
 #include "scene/shapes.h"
+#include "study/study.h"
 
 namespace nacre {
 
@@ -75,5 +76,15 @@ struct GammaGap {
   double difference = 0, linear = 0;
 };
 GammaGap LargestGammaGap();
+
+// ---- Layers -------------------------------------------------------------------------------------
+
+// How finely the study of layers looks: walks of a surface at each angle and roughness, and numbers
+// of roughnesses and angles, at least 2 each.
+struct LayerEffort {
+  int walks = 20000;
+  int roughnesses = 6, angles = 9;
+};
+StudyResult StudyLayers(const LayerEffort& effort, const StudyProgress& progress);
 
 }  // namespace nacre

@@ -34,6 +34,20 @@ constexpr StudyEntry kStudies[] = {
      StudyPrecision},
     {"tonemap", "Tone operators", "What do the tone operators make of the same HDR picture?",
      StudyTonemap},
+    {"anisotropy", "Brushed metal",
+     "What do formats mean by anisotropy, and what does it do to highlights and to energy?",
+     StudyAnisotropy},
+    {"thin-film", "Thin films",
+     "How far are approximations of thin films from the integral over the spectrum?",
+     StudyThinFilm},
+    {"sheen", "Two kinds of fuzz",
+     "How do Charlie's sheen, which glTF names, and the fuzz of Zeltner et al., which OpenPBR "
+     "names, differ?",
+     StudySheen},
+    {"layers", "Rules for layers",
+     "How far are OpenPBR's rules for coats and layers from light that is followed between them: "
+     "darkening, roughening, partial coats, scaling by albedo?",
+     StudyLayers},
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// study/study.h: studies: answers to the exercises of the founding lesson, as pictures, curves and
-// numbers that are computed on demand.
+// study/study.h: studies: answers to the exercises of the founding lesson, and to questions of
+// those who implement materials, as pictures, curves and numbers that are computed on demand.
 //
 // A study returns its results; it neither writes nor prints.
 #pragma once
@@ -50,7 +50,7 @@ struct StudyEntry {
   StudyResult (*run)(const StudyProgress& progress);
 };
 
-// All studies, in the order of the lesson.
+// All studies: the exercises in the order of the lesson, then the others.
 std::span<const StudyEntry> Studies();
 
 StudyResult StudyComponents(const StudyProgress& progress);
@@ -61,5 +61,9 @@ StudyResult StudyFresnel(const StudyProgress& progress);
 StudyResult StudyEnergy(const StudyProgress& progress);
 StudyResult StudyPrecision(const StudyProgress& progress);
 StudyResult StudyTonemap(const StudyProgress& progress);
+StudyResult StudyAnisotropy(const StudyProgress& progress);
+StudyResult StudyThinFilm(const StudyProgress& progress);
+StudyResult StudySheen(const StudyProgress& progress);
+StudyResult StudyLayers(const StudyProgress& progress);
 
 }  // namespace nacre
