@@ -53,10 +53,12 @@ Real InternalDiffuseReflectance(Real average, Real n) {
 
 // The factor by which a base of the albedo `base` is darkened below a coat that sends the fraction
 // `k` of its light back to it [Coat / Darkening, Delta]. `crossing` is the transmittance of the
-// coat's medium there and back.
+// coat's medium there and back. A white base is not darkened, also where the coat lets nothing
+// through (k = 1).
 template <typename Real>
 Real CoatDarkeningFactor(Real base, Real k, Real crossing = 1) {
-  return (1 - k) / (1 - base * k * crossing);
+  const Real rest = 1 - base * k * crossing;
+  return rest > 0 ? (1 - k) / rest : Real(1);
 }
 
 // The cosine of a direction that is refracted into a coat of index 1 / inverse_eta; 0 where a coat

@@ -2,6 +2,7 @@
 // cli/cmd_table.cc: nacre table: the BRDF of a material as a table, and what differs in the table
 // of another program.
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <set>
 
@@ -102,6 +103,21 @@ bool WithAlbedo(const TableArguments& a, const std::vector<DirectionPair>& pairs
   return false;
 }
 
+// Non-finite values are written as they are, and told.
+void TellNotFinite(const BrdfTable& table) {
+  size_t rows = 0, first = 0;
+  for (size_t i = 0; i < table.values.size(); ++i) {
+    if (std::isfinite(table.values[i])) continue;
+    const size_t row = i / table.columns.size() + 1;
+    if (rows == 0) first = row;
+    rows += 1;
+    i = row * table.columns.size() - 1;
+  }
+  if (rows == 0) return;
+  PrintError("warning: {} of {} rows hold values that are not finite, the first is row {}\n", rows,
+             table.rows(), first);
+}
+
 void WriteTables(const TableArguments& a) {
   std::vector<std::string> files;
   for (const std::string& path : a.outputs) {
@@ -118,6 +134,7 @@ void WriteTables(const TableArguments& a) {
   Progress progress(DefaultProgressForm(), "table", 0, "");
   options.on_progress = [&](double done) { progress.Update(done); };
   BrdfTable table = TabulateBrdf(material, pairs, options);
+  TellNotFinite(table);
   for (const std::string& path : a.outputs) {
     if (path == "-") continue;
     ThrowIfStopped();

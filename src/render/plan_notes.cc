@@ -104,6 +104,13 @@ void NoteMeasuredGain(const NotedMaterials& of, std::vector<std::string>* notes)
       "{}: its measurements reflect up to {:.2f} times the light that they get", names, most));
 }
 
+void NoteMeasuredBlack(const NotedMaterials& of, std::vector<std::string>* notes) {
+  const std::string names = NameMaterials(of, MaterialTrait::kMeasured, [&](size_t i) {
+    return IsBlack(std::get<MeasuredModel>(of.prepared.all[i].model).brdf->mean_albedo);
+  });
+  if (!names.empty()) notes->push_back(names + ": its table has no data, so that it is black");
+}
+
 bool IsBlackSky(const EnvironmentLight& light) {
   return std::visit(
       Overloaded{[](const ConstantSky& sky) { return IsBlack(sky.radiance); },
@@ -230,6 +237,7 @@ void NoteMaterials(const NotedMaterials& of, bool sampled_lights, std::vector<st
   NoteTransmission(of, notes);
   NoteFilms(of, notes);
   NoteMeasuredGain(of, notes);
+  NoteMeasuredBlack(of, notes);
 }
 
 }  // namespace nacre

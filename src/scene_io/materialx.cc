@@ -173,15 +173,30 @@ MaterialXMaterial ReadMaterialX(const std::filesystem::path& folder, const std::
   return result;
 }
 
+namespace {
+
+// Where the name of the document ends, at the end of the text or at the '#' before the material's
+// name, which may have any characters; nothing if the text names no document.
+std::optional<size_t> EndOfDocumentName(const std::string& text) {
+  for (size_t hash = text.find('#'); hash != std::string::npos; hash = text.find('#', hash + 1)) {
+    if (IsMaterialXFile(text.substr(0, hash))) return hash;
+  }
+  if (IsMaterialXFile(text)) return text.size();
+  return std::nullopt;
+}
+
+}  // namespace
+
 bool IsMaterialXReference(const std::string& text) {
-  if (text.find_first_of("{[\"") != std::string::npos) return false;
-  return IsMaterialXFile(text.substr(0, text.rfind('#')));
+  const size_t first = text.find_first_not_of(" \t\r\n");
+  const bool is_json = first != std::string::npos && (text[first] == '{' || text[first] == '[');
+  return !is_json && EndOfDocumentName(text).has_value();
 }
 
 Json MaterialXReference(const std::string& text) {
-  const size_t hash = IsMaterialXFile(text) ? std::string::npos : text.rfind('#');
-  const std::filesystem::path path = text.substr(0, hash);
-  const std::string name = hash == std::string::npos ? "" : text.substr(hash + 1);
+  const size_t end = EndOfDocumentName(text).value();
+  const std::filesystem::path path = text.substr(0, end);
+  const std::string name = end == text.size() ? "" : text.substr(end + 1);
   const MaterialXMaterial material =
       ReadMaterialX(path.parent_path(), path.filename().string(), name, {});
   return {{"name", material.name},

@@ -2,6 +2,7 @@
 #include "scene_io/materialx_document.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdint>
 #include <set>
 
@@ -79,6 +80,26 @@ class DocumentReader {
   }
 
  private:
+  // Refuses references to what is no character (XML 1.0, 4.1), of which pugixml makes other bytes.
+  static void CheckCharacters(std::string_view text, const std::string& shown) {
+    constexpr std::string_view kBegin = "&#";
+    for (size_t at = text.find(kBegin); at != text.npos; at = text.find(kBegin, at + 1)) {
+      const bool is_hex = text.substr(at + kBegin.size()).starts_with('x');
+      const char* const first = text.data() + at + kBegin.size() + (is_hex ? 1 : 0);
+      uint32_t code = 0;
+      const auto [end, error] =
+          std::from_chars(first, text.data() + text.size(), code, is_hex ? 16 : 10);
+      if (error == std::errc::invalid_argument) continue;  // not a reference
+      const bool is_control = code < 0x20 && code != '\t' && code != '\n' && code != '\r';
+      const bool is_surrogate = code >= 0xd800 && code < 0xe000;
+      if (error == std::errc() && code <= 0x10ffff && !is_control && !is_surrogate) continue;
+      throw Error(ExitCode::kBadInput, fmt::format("{}:{}", shown, LineAt(text, at)),
+                  fmt::format("\"{}\" is not a character",
+                              Excerpt(text.substr(at, static_cast<size_t>(end - first) + 4))),
+                  "write the character itself");
+    }
+  }
+
   void Parse(const std::string& file, const std::string& bytes) {
     const size_t index = document_.files.size();
     document_.files.push_back(file);
@@ -91,6 +112,7 @@ class DocumentReader {
           ExitCode::kBadInput, shown, "has more elements than any material",
           fmt::format("up to {} tags and {} attributes are read", kMaxXmlTags, kMaxXmlAttributes));
     }
+    CheckCharacters(text, shown);
     pugi::xml_document xml;
     const pugi::xml_parse_result result = xml.load_buffer(
         text.data(), text.size(), pugi::parse_default | pugi::parse_doctype, pugi::encoding_utf8);

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <utility>
 
+#include "base/error.h"
 #include "base/overloaded.h"
 #include "sampling/hash.h"
 #include "scene_io/merl_file.h"
@@ -46,9 +47,13 @@ std::shared_ptr<const MeasuredBrdf> ReadMeasuredFile(const std::filesystem::path
   // The header is judged before the rest is read.
   const std::string bytes =
       ReadBytes(path, kMaxRglBytes, [&](std::string_view head, uint64_t size) {
-        if (!IsTensorFile(head)) {
-          CheckMerlHeader(head.substr(0, kMerlHeaderBytes), size, path.string());
+        if (IsTensorFile(head)) return size;
+        if (path.extension() == ".bsdf") {
+          throw Error(ExitCode::kBadInput, path.string(),
+                      "is not a list of arrays: it does not begin with \"tensor_file\"",
+                      "download it again, from the database of EPFL");
         }
+        CheckMerlHeader(head.substr(0, kMerlHeaderBytes), size, path.string());
         return size;
       });
   return ReadMeasured(bytes, path.string());

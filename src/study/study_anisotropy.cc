@@ -122,13 +122,18 @@ StudyResult StudyAnisotropy(const StudyProgress& progress) {
   }
   progress(0.6);
   for (const double roughness : {0.3, 0.6, 0.9}) {
+    const double isotropic = WorstLoss(roughness, 0, Compensation::kNone);
     const double none = WorstLoss(roughness, 0.8, Compensation::kNone);
     const double kulla = WorstLoss(roughness, 0.8, Compensation::kKullaConty);
     const std::string name = fmt::format("white metal, anisotropy 0.8, roughness {}", roughness);
+    result.numbers.push_back(
+        {fmt::format("white isotropic metal, roughness {}, one bounce: largest loss in the furnace",
+                     roughness),
+         isotropic, ""});
     result.numbers.push_back({name + ", one bounce: largest loss in the furnace", none, ""});
     result.numbers.push_back({name + ", Kulla-Conty: largest error in the furnace", kulla, ""});
-    losses += fmt::format("{}{:.3f} and {:.4f} at {}", losses.empty() ? "" : ", ", none, kulla,
-                          roughness);
+    losses += fmt::format("- roughness {}: {:.3f}, {:.3f} and {:.4f}\n", roughness, isotropic, none,
+                          kulla);
     progress(0.6 + 0.4 * roughness);
   }
   result.answer = fmt::format(
@@ -138,9 +143,9 @@ StudyResult StudyAnisotropy(const StudyProgress& progress) {
       "alpha across. Compare and convert alphas, never strengths.\n\n"
       "OpenPBR's formula leaves the range of alpha that its text states: above a roughness of {}. "
       "Implementations clamp or do not (`alpha_max`).\n\n"
-      "With one bounce, white brushed metal loses light in the furnace as isotropic metal does; "
-      "compensation needs albedos by azimuth. Largest loss without, and largest error with Kulla "
-      "and Conty's compensation, at anisotropy 0.8: {}.\n",
+      "With one bounce, rough metal loses light in the furnace, and compensation needs albedos by "
+      "azimuth. Largest loss of white metal, isotropic and of anisotropy 0.8, and largest error of "
+      "the latter with Kulla and Conty's compensation:\n\n{}",
       kMiddleRoughness, halves, beyond, losses);
   progress(1);
   return result;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -63,8 +64,12 @@ std::vector<double> AnglesOf(const LayerEffort& effort) { return Steps(5, 85, ef
 struct LayerErrors {
   std::vector<std::vector<double>> by_rule;
 
-  double Rms(size_t rule) const {
-    const std::vector<double>& errors = by_rule[rule];
+  double Rms(size_t rule) const { return RmsOf(by_rule[rule]); }
+  // Of the first row alone, that of roughness 0.
+  double RmsOfSmooth(size_t rule, size_t angles) const {
+    return RmsOf(std::span(by_rule[rule]).first(angles));
+  }
+  static double RmsOf(std::span<const double> errors) {
     return std::sqrt(std::inner_product(errors.begin(), errors.end(), errors.begin(), 0.0) /
                      static_cast<double>(errors.size()));
   }
@@ -188,17 +193,20 @@ std::string TryRules(
     const LayerErrors errors =
         MeasureLayers(trial.rules, base.color, effort,
                       [&](double roughness) { return surface_of(base.material, roughness); });
-    std::vector<double> rms;
+    std::vector<double> rms, of_smooth;
     for (size_t k = 0; k < trial.rules.size(); ++k) {
       figure.panels.push_back(ErrorMap(fmt::format("{}: {}", base.name, trial.rules[k].name),
                                        trial.roughness_of, effort, errors.by_rule[k]));
       rms.push_back(errors.Rms(k));
+      of_smooth.push_back(errors.RmsOfSmooth(k, static_cast<size_t>(effort.angles)));
       const std::string quantity =
           fmt::format("{}, {}, {}", trial.what, base.name, trial.rules[k].name);
       result->numbers.push_back({quantity + ": rms error of the reflected share", rms.back(), ""});
+      result->numbers.push_back({quantity + ": rms error at roughness 0", of_smooth.back(), ""});
       result->numbers.push_back({quantity + ": largest error", errors.Largest(k), ""});
     }
-    text += fmt::format("- {}: {}\n", base.name, Ranking(trial.rules, rms));
+    text += fmt::format("- {}: {}. At roughness 0: {}\n", base.name, Ranking(trial.rules, rms),
+                        Ranking(trial.rules, of_smooth));
   }
   result->figures.push_back(
       {trial.name, "Dark: near to light that is followed between the layers.", std::move(figure)});
@@ -387,18 +395,30 @@ StudyResult StudyLayers(const LayerEffort& effort, const StudyProgress& progress
   progress(0.8);
   const std::string by_roughening = TryRoughening(effort, &result);
   result.answer = fmt::format(
-      "Each surface is also walked: light is followed from layer to layer, and at rough interfaces "
-      "from microfacet to microfacet (Heitz et al. 2016), {} times at each angle and roughness, so "
-      "that a share is known within {:.4f} (one standard deviation at most). Errors below are rms "
-      "differences of the share of light that is reflected, over angles of 5 to 85 degrees and "
-      "roughnesses of 0 to 1; the coat's index is 1.6, the dielectric's 1.5. From the nearest:\n\n"
-      "**Sets of rules**, clear coat of weight 1:\n\n{}\n"
+      "The truth is light that is followed from layer to layer, and at rough interfaces from "
+      "microfacet to microfacet (Heitz et al. 2016), {} times at each angle and roughness, so that "
+      "a "
+      "share is known within {:.4f} (one standard deviation at most).\n\n"
+      "The bases: *diffuse* is Lambertian, of albedo 0.8, without an interface of its own. "
+      "*Glossy* "
+      "is a dielectric of roughness 0.3 over a diffuse inside of albedo 0.8. *Glossy, colour as "
+      "seen bare* has a lighter inside, which looks as 0.8 through its interface, as OpenPBR's "
+      "bare "
+      "base does. The *metals* reflect 0.9 along the normal, with roughness 0 and 0.6. Coats have "
+      "the index 1.6, dielectrics 1.5. Errors are rms differences of the share of light that is "
+      "reflected, over angles of 5 to 85 degrees and over the roughness of the coat, or of the "
+      "dielectric where there is no coat, from 0 to 1. The nearest rule comes first.\n\n"
+      "**Sets of rules**, clear coat of weight 1 (where spec_1_2 absorbs nothing, it is "
+      "spec_1_1):\n\n{}\n"
+      "No rule can be right for both glossy bases: which one base_color means is not said. By the "
+      "text, the bare base is the second, whose interface darkens nothing, and under a coat it is "
+      "darkened as if it had been the first.\n\n"
       "**Darkening** (`coat_darkening_rule`), all else as spec_1_1:\n\n{}\n"
       "**Partial coats** (`coat_partial`), weight 0.5, colour 0.3:\n\n{}\n"
       "**Scaling by albedo itself** (`layering`), without a coat:\n\n{}\n"
       "**Roughening** (`coat_roughening`), mean error of the roughness of a white metal's "
-      "highlight: "
-      "{}.\n",
+      "highlight, "
+      "over roughnesses of metal and coat from 0 to 1: {}.\n",
       effort.walks, 0.5 / std::sqrt(effort.walks), by_bundle, by_darkening, by_partial, by_layering,
       by_roughening);
   progress(1);

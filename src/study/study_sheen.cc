@@ -156,8 +156,10 @@ StudyResult StudySheen(const StudyProgress& progress) {
   result.numbers.push_back({"furnace, white under white sheen, reciprocal", reciprocal, ""});
   result.numbers.push_back({"furnace, white under white sheen, conserving", conserving, ""});
   result.answer = fmt::format(
-      "Both models are fuzz, and no number of one is a number of the other. The largest share of "
-      "light that they reflect, Charlie's and Zeltner's: {}. Where Charlie's exceeds 1, next to "
+      "Both models are fuzz, but the same roughness means different fuzz in each. The largest "
+      "share "
+      "of light that they reflect, over angles of up to 89.9 degrees, Charlie's and Zeltner's: {}. "
+      "Where Charlie's exceeds 1, next to "
       "the "
       "horizon, glTF does not say what to do: nacre divides by it.\n\n"
       "The roughness of fuzz that reflects most like Charlie's sheen, with the rms difference of "

@@ -611,6 +611,10 @@ TableCheck CheckTable(const Material& material, const BrdfTable& table, const st
                                PlaceOf(table, check.f.worst_row), Degrees(worst.to_light.z),
                                Degrees(worst.to_view.z), AzimuthOf(worst));
   if (check.f.largest <= tolerance) return check;
+  if (std::ranges::all_of(theirs.f, [](const Rgb& f) { return IsBlack(f); })) {
+    check.notes.emplace_back("f is 0 in all rows: was anything evaluated?");
+    return check;
+  }
   const Evidence evidence(theirs, chosen, ours);
   check.diagnosed_rows = evidence.size();
   FitLobes(evidence, ours, &check);

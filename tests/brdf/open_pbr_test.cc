@@ -93,6 +93,9 @@ TEST_CASE("a coat darkens a base of albedo 1/2 by what it reflects back to it") 
     CHECK(CoatDarkeningFactor(0.5, FresnelF0(row.index, 0.0)) == Approx(row.smooth).margin(5.1e-5));
     CHECK(CoatDarkeningFactor(1.0, rough) == 1);  // a white base loses nothing
   }
+  // Below a coat that lets nothing through.
+  CHECK(CoatDarkeningFactor(1.0, 1.0) == 1);
+  CHECK(CoatDarkeningFactor(0.5, 1.0) == 0);
 }
 
 TEST_CASE("a coat absorbs along the paths that it refracts") {

@@ -100,7 +100,7 @@ TEST_CASE("pictures of measured materials keep to --max-error") {
   CHECK(static_cast<double>(within) >= 0.95 * static_cast<double>(got.size()));
 }
 
-TEST_CASE("measurements that reflect more than they get are noted") {
+TEST_CASE("measurements that reflect more than they get, or nothing, are noted") {
   const auto notes = [](const std::shared_ptr<const MeasuredBrdf>& brdf) {
     Scene scene = OneSphere(MeasuredMaterial{.brdf = brdf});
     scene.lights = {WhiteSky()};
@@ -113,6 +113,11 @@ TEST_CASE("measurements that reflect more than they get are noted") {
   const std::vector<std::string> told = notes(std::make_shared<const MeasuredBrdf>(bright));
   REQUIRE(told.size() == 1);
   CHECK(told[0].find("its measurements reflect up to 1.") != std::string::npos);
+  for (float& value : std::get<MerlTable>(bright.table).rgb) value = 0;
+  FinishMeasured(&bright);
+  const std::vector<std::string> black = notes(std::make_shared<const MeasuredBrdf>(bright));
+  REQUIRE(black.size() == 1);
+  CHECK(black[0].find("its table has no data") != std::string::npos);
 }
 
 TEST_CASE("a measured material without a table is black") {

@@ -821,6 +821,13 @@ TEST_CASE("what is wrong with a document is told in one line, with its place") {
   std::string many;
   for (int i = 0; i < 500'000; ++i) many += "<a/>";
   has(MtlxText(many), "more elements than any material");
+  for (const char* character : {"&#0;", "&#8;", "&#xD800;", "&#x110000;", "&#x10FFFFFFFF;"}) {
+    const std::string name = "a" + std::string(character);
+    has(MtlxText("\n<a name=\"" + name + "\"/>"),
+        "a.mtlx:2: \"" + std::string(character).substr(0, 3));
+    has(MtlxText("<a name=\"" + name + "\"/>"), "is not a character");
+  }
+  MtlxRefusalOf(MtlxText("<a name=\"&#65;&#x1F600;&#; &#x;\"/>"));
 }
 
 // ---- Scenes and the command line ----------------------------------------------------------------
@@ -901,6 +908,14 @@ TEST_CASE("the command line names a document and a material in it") {
         }).find("has no material") != std::string::npos);
   CHECK(MtlxRefusal([&] { ParseMaterialText("--material", "/no/such.mtlx"); }).find("no file") !=
         std::string::npos);
+  // Names may have any characters, those that separate names and begin JSON, too.
+  folder.Write("odd.mtlx", MtlxText(R"(<gltf_pbr name="s" type="surfaceshader"/>
+<surfacematerial name="a#2 {&quot;" type="material">
+  <input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>)"));
+  const std::string odd = (folder.path / "odd.mtlx").string();
+  CHECK(ParseMaterialText("--material", odd + "#a#2 {\"").at("material") == "a#2 {\"");
+  CHECK(ParseMaterialText("--material", R"( {"model": "phong", "name": "a.mtlx#b"})")["model"] ==
+        "phong");
   // Such a file may be anywhere, once it is trusted.
   Json material = json;
   material.erase("name");

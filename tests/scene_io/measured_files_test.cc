@@ -247,6 +247,8 @@ TEST_CASE("materials name measured files in the scene's folder") {
   refuses(R"(, "file": "a.bsdf", "interpolation": "cubic")", "interpolation");
   folder.Write("bad.binary", MerlFile().substr(0, 1000));
   refuses(R"(, "file": "bad.binary")", "has 1000 bytes instead of 34992012");
+  folder.Write("bad.bsdf", MerlFile().substr(0, 1000));
+  refuses(R"(, "file": "bad.bsdf")", "is not a list of arrays");
 }
 
 TEST_CASE("a measured file that is written again is read again") {
