@@ -824,7 +824,7 @@ TEST_CASE("what is wrong with a document is told in one line, with its place") {
   for (const char* character : {"&#0;", "&#8;", "&#xD800;", "&#x110000;", "&#x10FFFFFFFF;"}) {
     const std::string name = "a" + std::string(character);
     has(MtlxText("\n<a name=\"" + name + "\"/>"),
-        "a.mtlx:2: \"" + std::string(character).substr(0, 3));
+        "a.mtlx:3: \"" + std::string(character).substr(0, 3));
     has(MtlxText("<a name=\"" + name + "\"/>"), "is not a character");
   }
   MtlxRefusalOf(MtlxText("<a name=\"&#65;&#x1F600;&#; &#x;\"/>"));
