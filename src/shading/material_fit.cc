@@ -206,28 +206,33 @@ void FitMetallic(const Material& original, MaterialFit* fit) {
   MetallicRoughnessMaterial material = GuessMetallic(summary, LobeAlpha(original));
   fit->guess.model = material;
   const FittedLobe free = FitGgxLobe(original);
-  if (LargestChannel(free.strength) < kDielectricF0) {
-    material.roughness = std::sqrt(free.width);
+  // The colour of a lobe that is about as weak as a dielectric's, such as a film's, is not that of
+  // a metal, which would take a brighter base away.
+  const bool is_dielectric = LargestChannel(free.strength) < 2 * kDielectricF0 &&
+                             Mean(summary.base) > LargestChannel(free.strength);
+  const Rgb strength = is_dielectric ? Rgb(Mean(free.strength)) : free.strength;
+  const bool is_weak = LargestChannel(strength) < kDielectricF0;
+  if ((is_dielectric || is_weak) && IsTinted(free.strength)) fit->notes.emplace_back(kColoredLobe);
+  material.roughness = std::sqrt(free.width);
+  if (is_weak) {
     fit->fitted.model = material;
     FitWeakLobe(original, summary, fit);
-    if (IsTinted(free.strength)) fit->notes.emplace_back(kColoredLobe);
     return;
   }
-  material.roughness = std::sqrt(free.width);
   const double guess_rms = MeasureResidual(original, fit->guess).rms;
   MetallicBase base;
   // One colour determines both lobe and base. The fit keeps as much of the base's colour as leaves
   // the lobe's residual no larger than that of the guess.
   for (double weight = 1; weight < 1e6; weight *= 2) {
-    base = SolveMetallic(free.strength, weight, summary.base, material.roughness);
+    base = SolveMetallic(strength, weight, summary.base, material.roughness);
     material.base_color = base.base_color;
     material.metallic = base.metallic;
     fit->fitted.model = material;
     if (MeasureResidual(original, fit->fitted).rms <= guess_rms) break;
   }
   const Rgb f0 = Rgb(kDielectricF0) * (1 - base.metallic) + base.base_color * base.metallic;
-  if (base.metallic > 0 && base.metallic < 1) NoteStrength(Mean(free.strength), fit);
-  const Rgb gap = free.strength - f0;
+  if (base.metallic > 0 && base.metallic < 1) NoteStrength(Mean(strength), fit);
+  const Rgb gap = strength - f0;
   const double worst = std::max({std::abs(gap.x), std::abs(gap.y), std::abs(gap.z)});
   if (worst > 0.005) {
     fit->notes.push_back(fmt::format(

@@ -269,6 +269,20 @@ TEST_CASE("surfaces without a lobe, or with a weak one, stay as dark as they are
   }
 }
 
+// The colours of a film are those of no metal, for which its base would be given up.
+TEST_CASE("light surfaces under films stay light") {
+  for (const double thickness : {0.3, 0.45, 0.5, 0.6, 0.7, 1.0}) {
+    CAPTURE(thickness);
+    OpenPbrMaterial filmed;
+    filmed.thin_film_weight = 1;
+    filmed.thin_film_thickness = thickness;
+    const Material original{.model = filmed};
+    const MaterialFit fit = FitMaterial(original, "metallic_roughness");
+    CHECK(LargestDifference(DiffuseAlbedo(fit.fitted), DiffuseAlbedo(original)) < 0.03);
+    CHECK(MetalOf(fit.fitted).metallic < 0.05);
+  }
+}
+
 // Where the other model has no lobe that is strong enough, what is fitted is not what is measured.
 TEST_CASE("a fit is nearer than where it starts, at the limits of models as well") {
   const std::vector<Material> originals = {
