@@ -612,8 +612,8 @@ TableCheck CheckTable(const Material& material, const BrdfTable& table, const st
                                Degrees(worst.to_view.z), AzimuthOf(worst));
   if (check.f.largest <= tolerance) return check;
   if (std::ranges::all_of(theirs.f, [](const Rgb& f) { return IsBlack(f); })) {
-    check.notes.emplace_back("f is 0 in all rows: was anything evaluated?");
-    return check;
+    check.notes.emplace_back(
+        "f is 0 in all rows: nothing was evaluated, or light or view lie below the surface");
   }
   const Evidence evidence(theirs, chosen, ours);
   check.diagnosed_rows = evidence.size();

@@ -367,10 +367,9 @@ TEST_CASE("nothing is made up for what no mistake explains") {
   CHECK_FALSE(noise.ok);
   CHECK(noise.explanation.empty());
   CHECK(PageOf(noise).find("no mistake that is known explains it") != std::string::npos);
-  // Every direction that is turned below the surface leaves as little of a table of zeros.
+  // What is turned below the surface, in one of several ways, or was not evaluated.
   const TableCheck zeros = CheckOf(material, [](const Vec3d&, const Vec3d&) { return Rgb(0); });
   CHECK_FALSE(zeros.ok);
-  CHECK(zeros.explanation.empty());
   CHECK(PageOf(zeros).find("f is 0 in all rows") != std::string::npos);
 }
 
