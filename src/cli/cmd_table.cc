@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <set>
+#include <span>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -105,13 +106,14 @@ bool WithAlbedo(const TableArguments& a, const std::vector<DirectionPair>& pairs
 
 // Non-finite values are written as they are, and told.
 void TellNotFinite(const BrdfTable& table) {
+  const auto is_finite = [](double value) { return std::isfinite(value); };
   size_t rows = 0, first = 0;
-  for (size_t i = 0; i < table.values.size(); ++i) {
-    if (std::isfinite(table.values[i])) continue;
-    const size_t row = i / table.columns.size() + 1;
-    if (rows == 0) first = row;
-    rows += 1;
-    i = row * table.columns.size() - 1;
+  for (size_t row = 0; row < table.rows(); ++row) {
+    const auto values =
+        std::span(table.values).subspan(row * table.columns.size(), table.columns.size());
+    if (std::ranges::all_of(values, is_finite)) continue;
+    if (rows == 0) first = row + 1;
+    ++rows;
   }
   if (rows == 0) return;
   PrintError("warning: {} of {} rows hold values that are not finite, the first is row {}\n", rows,
