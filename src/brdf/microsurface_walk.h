@@ -2,7 +2,7 @@
 // brdf/microsurface_walk.h: light at a rough GGX interface, followed from microfacet to microfacet
 // until it leaves: Heitz et al. 2016, "Multiple-Scattering Microfacet BSDFs with the Smith Model".
 // No light is lost, so that models of a single reflection, and what compensates for the others, can
-// be measured by it. In double, without SIMD twin: a walk takes about a microsecond.
+// be measured by it. In double, without SIMD twin.
 //
 // Directions are unit vectors along the light's travel; the normal of the interface is +z. `Random`
 // is called without arguments and returns numbers in [0, 1).

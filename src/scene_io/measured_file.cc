@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/overloaded.h"
+#include "base/path.h"
 #include "sampling/hash.h"
 #include "scene_io/merl_file.h"
 #include "scene_io/rgl_file.h"
@@ -48,7 +49,7 @@ std::shared_ptr<const MeasuredBrdf> ReadMeasuredFile(const std::filesystem::path
   const std::string bytes =
       ReadBytes(path, kMaxRglBytes, [&](std::string_view head, uint64_t size) {
         if (IsTensorFile(head)) return size;
-        if (path.extension() == ".bsdf") {
+        if (HasExtension(path, ".bsdf")) {
           throw Error(ExitCode::kBadInput, path.string(),
                       "is not a list of arrays: it does not begin with \"tensor_file\"",
                       "download it again, from the database of EPFL");

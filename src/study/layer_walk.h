@@ -41,8 +41,7 @@ struct LayerExit {
 Rgb InsideAlbedo(const OpenPbrMaterial& surface, InsideColor color);
 
 // Follows light that comes from the direction `from`, a unit vector above the surface. The normal
-// is +z, `inside` the diffuse inside's albedo. Half a microsecond to ten, by the number of
-// interfaces.
+// is +z, `inside` the diffuse inside's albedo.
 LayerExit WalkLayers(const OpenPbrMaterial& surface, const Rgb& inside, const Vec3d& from,
                      WalkRandom* random);
 

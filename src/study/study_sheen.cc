@@ -157,11 +157,10 @@ StudyResult StudySheen(const StudyProgress& progress) {
   result.numbers.push_back({"furnace, white under white sheen, conserving", conserving, ""});
   result.answer = fmt::format(
       "Both models are fuzz, but the same roughness means different fuzz in each. The largest "
-      "share "
-      "of light that they reflect, over angles of up to 89.9 degrees, Charlie's and Zeltner's: {}. "
-      "Where Charlie's exceeds 1, next to "
-      "the "
-      "horizon, glTF does not say what to do: nacre divides by it.\n\n"
+      "share of light that they reflect, over angles of up to 89.9 degrees, Charlie's and "
+      "Zeltner's: {}. Where Charlie's exceeds 1, next to the horizon, glTF does not say what to "
+      "do: "
+      "nacre divides by it.\n\n"
       "The roughness of fuzz that reflects most like Charlie's sheen, with the rms difference of "
       "the shares over angles of 0 to 85 degrees: {}.\n\n"
       "White under white sheen, in the furnace: {:+.3f} at worst where what is below is scaled by "

@@ -205,8 +205,8 @@ StudyResult StudyThinFilm(const StudyProgress& progress) {
       "Barla's series, of which metals need more. glTF's formula has no complex index: it takes a "
       "metal for a dielectric.\n\n"
       "A metal has no index in these models: it is guessed from the metal's colours "
-      "(`film_metal`). "
-      "Rms differences of the spectral reflectance of gold from that of the first guess, and blue "
+      "(`film_metal`). Rms differences of the spectral reflectance of gold from that of the first "
+      "guess, and blue "
       "along the normal under a film of 400 nm:\n\n{}",
       errors, guesses);
   progress(1);
