@@ -5,20 +5,21 @@
 #include <zlib.h>
 
 #include "base/error.h"
+#include "base/pool.h"
 
 namespace nacre {
 namespace {
 
-// Buffers for the result and for ISA-L's tables, kept by each thread: a strip needs half a
+// Buffers for the result and for ISA-L's tables, kept for the next strip: one needs half a
 // megabyte, and allocating that anew costs as much as deflating into it.
 struct Scratch {
   std::vector<uint8_t> result;
   std::vector<uint8_t> tables = std::vector<uint8_t>(ISAL_DEF_LVL1_DEFAULT);
 };
 
-Scratch& ThreadScratch() {
-  thread_local Scratch scratch;
-  return scratch;
+Pool<Scratch>::Borrowed BorrowScratch() {
+  static Pool<Scratch> pool;
+  return pool.Borrow();
 }
 
 [[noreturn]] void Fail() { throw Error(ExitCode::kInternal, "deflate", "did not fit its bound"); }
@@ -66,11 +67,12 @@ size_t SmallDeflate(std::span<const uint8_t> bytes, DeflateForm form, int level,
 std::vector<uint8_t> Deflate(std::span<const uint8_t> bytes, DeflateForm form, int level) {
   // Incompressible bytes are stored in blocks, each with a header, plus the header of the stream.
   const size_t bound = compressBound(bytes.size()) + 512;
-  Scratch& scratch = ThreadScratch();
-  if (scratch.result.size() < bound) scratch.result.resize(bound);
-  const size_t size = level == kFastDeflate ? FastDeflate(bytes, form, &scratch)
-                                            : SmallDeflate(bytes, form, level, &scratch);
-  return {scratch.result.begin(), scratch.result.begin() + static_cast<ptrdiff_t>(size)};
+  const Pool<Scratch>::Borrowed scratch = BorrowScratch();
+  std::vector<uint8_t>& result = scratch->result;
+  if (result.size() < bound) result.resize(bound);
+  const size_t size = level == kFastDeflate ? FastDeflate(bytes, form, scratch.get())
+                                            : SmallDeflate(bytes, form, level, scratch.get());
+  return {result.begin(), result.begin() + static_cast<ptrdiff_t>(size)};
 }
 
 }  // namespace nacre

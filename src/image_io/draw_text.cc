@@ -15,6 +15,7 @@
 #include FT_FREETYPE_H
 
 #include "base/error.h"
+#include "base/pool.h"
 #include "base/printable.h"
 
 namespace nacre {
@@ -260,12 +261,16 @@ std::unique_ptr<Font> OpenFontIfInstalled() {
 // The advance of a letter beyond ASCII, in pixels. If the font is not installed, the font size:
 // sheets are also laid out for EXR files, into which no text is drawn.
 int AdvanceBeyondAscii(char32_t character, int size_px) {
-  static thread_local const std::unique_ptr<Font> font = OpenFontIfInstalled();
-  static thread_local std::map<std::pair<int, char32_t>, int> known;  // FreeType is slow to ask
-  const auto [at, is_new] = known.try_emplace({size_px, character}, size_px);
-  if (is_new && font) {
-    font->SetSize(size_px);
-    at->second = font->Advance(character);
+  struct Advances {  // of a font, of which one thread at a time may ask
+    std::unique_ptr<Font> font = OpenFontIfInstalled();
+    std::map<std::pair<int, char32_t>, int> known;  // FreeType is slow to ask
+  };
+  static Pool<Advances> pool;
+  const Pool<Advances>::Borrowed advances = pool.Borrow();
+  const auto [at, is_new] = advances->known.try_emplace({size_px, character}, size_px);
+  if (is_new && advances->font) {
+    advances->font->SetSize(size_px);
+    at->second = advances->font->Advance(character);
   }
   return at->second;
 }

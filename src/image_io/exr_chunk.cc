@@ -9,6 +9,7 @@
 #include <OpenEXR/ImfStdIO.h>
 
 #include "base/error.h"
+#include "base/pool.h"
 #include "image_io/deflate.h"
 #include "image_io/exr_types.h"
 
@@ -20,11 +21,13 @@ std::vector<uint8_t> StoreWords(std::span<const uint16_t> words) {
 }
 
 std::vector<uint8_t> CompressZip(std::span<const uint16_t> words, int deflate_level) {
-  thread_local std::vector<uint8_t> predicted;
+  static Pool<std::vector<uint8_t>> buffers;
+  const auto predicted = buffers.Borrow();
   const size_t size = words.size_bytes();
-  if (predicted.size() < size) predicted.resize(size);
-  SplitAndPredict(words.data(), words.size(), predicted.data());
-  std::vector<uint8_t> chunk = Deflate({predicted.data(), size}, DeflateForm::kZlib, deflate_level);
+  if (predicted->size() < size) predicted->resize(size);
+  SplitAndPredict(words.data(), words.size(), predicted->data());
+  std::vector<uint8_t> chunk =
+      Deflate({predicted->data(), size}, DeflateForm::kZlib, deflate_level);
   if (chunk.size() < size) return chunk;
   return StoreWords(words);
 }

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/pool.h"
 #include "image_io/deflate.h"
 #include "image_io/exr_chunk.h"
 #include "image_io/exr_container.h"
@@ -115,6 +116,7 @@ struct ExrWriter::State {
   const ExrLayout layout;
   ExrContainer container;
   InOrder<Chunks> in_order;
+  Pool<std::vector<uint16_t>> scratch;  // packed strips
   std::mutex gather_mutex;
   std::map<size_t, Gathered> gathered;  // by unit
   std::atomic<uint64_t> clamped = 0, infinite = 0, nan = 0;
@@ -131,10 +133,10 @@ ExrWriter::~ExrWriter() = default;
 
 void ExrWriter::WriteStrip(const StripView& strip) {
   state_->CheckStrip(strip);
-  thread_local std::vector<uint16_t> scratch;
+  const auto scratch = state_->scratch.Borrow();
   const size_t size = static_cast<size_t>(strip.rows) * state_->layout.row_words;
-  if (scratch.size() < size) scratch.resize(size);
-  const std::span words(scratch.data(), size);
+  if (scratch->size() < size) scratch->resize(size);
+  const std::span words(scratch->data(), size);
   const SampleCounts counts = PackRows(state_->layout, strip, words.data());
   state_->clamped += counts.clamped;
   state_->infinite += counts.infinite;

@@ -14,6 +14,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/pool.h"
 #include "base/version.h"
 #include "image_io/deflate.h"
 #include "image_io/in_order.h"
@@ -154,21 +155,21 @@ struct PngWriter::State {
   }
   size_t strip_count() const { return static_cast<size_t>(StripCount(header.height)); }
 
-  PngStrip MakeStrip(size_t index, size_t rows, const uint8_t* rgb8) const {
-    thread_local Bytes filtered;
+  PngStrip MakeStrip(size_t index, size_t rows, const uint8_t* rgb8) {
+    const Pool<Bytes>::Borrowed filtered = buffers.Borrow();
     const size_t row_bytes = kPixelBytes * static_cast<size_t>(header.width);
     const size_t filtered_size = rows * (1 + row_bytes);
-    if (filtered.size() < filtered_size) filtered.resize(filtered_size);
-    FilterStrip(rgb8, rows, row_bytes, filtered.data());
+    if (filtered->size() < filtered_size) filtered->resize(filtered_size);
+    FilterStrip(rgb8, rows, row_bytes, filtered->data());
     const bool last = index + 1 == strip_count();
-    Bytes deflated = Deflate({filtered.data(), filtered_size},
+    Bytes deflated = Deflate({filtered->data(), filtered_size},
                              last ? DeflateForm::kLastPart : DeflateForm::kPart,
                              options.small          ? kSmallPngLevel
                              : options.reproducible ? kReproducibleDeflate
                                                     : kFastDeflate);
     // The zlib header: deflate with a window of 32 KiB, and check bits.
     if (index == 0) deflated.insert(deflated.begin(), {0x78, 0x01});
-    return {MakeChunk("IDAT", deflated), isal_adler32(1, filtered.data(), filtered_size),
+    return {MakeChunk("IDAT", deflated), isal_adler32(1, filtered->data(), filtered_size),
             filtered_size};
   }
 
@@ -179,6 +180,7 @@ struct PngWriter::State {
   std::optional<OutputFile> file;  // to this file
   uint64_t size = 0;               // bytes written so far
   uint32_t adler = 1;
+  Pool<Bytes> buffers;  // filtered strips
   InOrder<PngStrip> in_order;
 };
 

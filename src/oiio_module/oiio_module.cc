@@ -50,14 +50,15 @@ char* Copy(const std::string& strings) {
 // The first message of libtiff on this thread, even if it is only a warning: after a warning,
 // libtiff continues with made-up pixels (for a missing end of a fax or JPEG), and so does
 // OpenImageIO.
-thread_local std::string g_complaint;
+thread_local std::array<char, 600> g_complaint;  // "": none
 
 void TakeComplaint(const char* module, const char* format, va_list arguments) {
-  if (!g_complaint.empty()) return;  // the first message tells the cause
+  if (g_complaint[0] != '\0') return;  // the first message tells the cause
   std::array<char, 512> text{};
   std::vsnprintf(text.data(), text.size(), format, arguments);
-  g_complaint = std::string(module == nullptr ? "libtiff" : module) + ": " + text.data();
-  g_complaint.erase(g_complaint.find_last_not_of(": ") + 1);  // left if zlib gives no reason
+  std::string complaint = std::string(module == nullptr ? "libtiff" : module) + ": " + text.data();
+  complaint.erase(complaint.find_last_not_of(": ") + 1);  // left if zlib gives no reason
+  std::snprintf(g_complaint.data(), g_complaint.size(), "%s", complaint.c_str());
 }
 
 void DescribeImage(const OIIO::ImageSpec& spec, NacreOiioFile* file) {
@@ -134,7 +135,7 @@ std::string ReadAs(OIIO::TypeDesc type, NacreOiioFile* file, int32_t y0, int32_t
   auto* const input = static_cast<OIIO::ImageInput*>(file->input);
   const OIIO::ImageSpec spec = input->spec();
   const int first = spec.y + y0, end = spec.y + y1;
-  g_complaint.clear();
+  g_complaint[0] = '\0';
   bool read = true;
   if (spec.tile_height > 0) {
     read = input->read_tiles(0, 0, spec.x, spec.x + spec.width, first, end, 0, 1, 0, spec.nchannels,
@@ -153,7 +154,7 @@ std::string ReadAs(OIIO::TypeDesc type, NacreOiioFile* file, int32_t y0, int32_t
     read = input->read_scanlines(0, 0, first, end, 0, 0, spec.nchannels, type, to);
   }
   const std::string error = input->geterror();
-  if (!g_complaint.empty()) return g_complaint;
+  if (g_complaint[0] != '\0') return g_complaint.data();
   return read && error.empty() ? std::string() : error.empty() ? kNoReason : error;
 }
 

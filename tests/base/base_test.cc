@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/base/base_test.cc: errors, arrays, parallel loops, SIMD targets.
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <limits>
@@ -10,6 +11,7 @@
 #include "base/aligned.h"
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/pool.h"
 #include "base/target.h"
 #include "catch.h"
 
@@ -31,6 +33,33 @@ TEST_CASE("the nearest name is a likely slip or nothing") {
   CHECK(NearestName("basecolor", names) == "base_color");
   CHECK(NearestName("shininess", names).empty());
   CHECK(NearestName("", names).empty());
+}
+
+TEST_CASE("a pool lends what was given back, and never one object twice") {
+  Pool<std::vector<int>> pool;
+  const std::vector<int>* first = nullptr;
+  {
+    const auto borrowed = pool.Borrow();
+    first = borrowed.get();
+    borrowed->push_back(7);
+  }
+  const auto again = pool.Borrow();
+  CHECK(again.get() == first);
+  CHECK(*again == std::vector<int>{7});  // as it was left
+  const auto other = pool.Borrow();
+  CHECK(other.get() != first);
+  CHECK(other->empty());
+}
+
+TEST_CASE("a pool serves many threads") {
+  Pool<std::array<size_t, 64>> pool;
+  std::atomic<int> torn = 0;
+  ParallelFor(2000, 4, [&](size_t i) {
+    const auto borrowed = pool.Borrow();
+    borrowed->fill(i);
+    for (const size_t value : *borrowed) torn += value == i ? 0 : 1;
+  });
+  CHECK(torn == 0);
 }
 
 TEST_CASE("aligned arrays start on a vector, zeroed, with room for a vector at the last entry") {

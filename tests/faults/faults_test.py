@@ -225,6 +225,14 @@ class FaultsTest(unittest.TestCase):
         if run_within(4000, '--version').returncode != 0:
             self.skipTest('a sanitizer reserves more address space than any limit here')
 
+    @unittest.skipIf(SANITIZED, 'a sanitizer brings its own')
+    def test_no_thread_local_object_has_a_destructor(self):
+        """glibc aborts where it has no memory to remember one: base/pool.h is used instead."""
+        symbols = subprocess.run(['nm', '--dynamic', '--undefined-only', PROGRAM],
+                                 capture_output=True, text=True, check=True).stdout
+        self.assertIn('malloc', symbols)  # the symbols are there
+        self.assertNotIn('__cxa_thread_atexit', symbols)
+
     def test_out_of_memory(self):
         """Address space from too little to enough: done, or 70 with words.
 
