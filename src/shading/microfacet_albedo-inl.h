@@ -44,14 +44,15 @@ HWY_INLINE RgbV DielectricAlbedo(FloatTag d, const MicrofacetModel& model,
   return GreyOf(AlbedoNearMirror(d, fit, fit.schlick, mirror, one, x));
 }
 
+// `with_curve`: whether scale and bias are read.
 template <class Fit>
 HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model, const Fit& fit,
-                                  FloatV f90, const AlbedoVariablesV<FloatV>& x) {
+                                  FloatV f90, bool with_curve, const AlbedoVariablesV<FloatV>& x) {
   const FloatV one = AlbedoOne(d, fit, x);
   // The branch selects vectors, not structs, because GCC would pass a struct through memory.
-  FloatV scale, red, green, blue;
-  if (HasExactCurve(model.fresnel)) {
-    scale = hn::Zero(d);
+  FloatV scale = hn::Zero(d), red = scale, green = scale, blue = scale;
+  if (!with_curve) {
+  } else if (HasExactCurve(model.fresnel)) {
     const RgbV exact = DielectricAlbedo(d, model, fit, one, x);
     red = exact.x, green = exact.y, blue = exact.z;
   } else {
@@ -108,13 +109,6 @@ HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model,
   return {one, lost, hn::Sub(one, of_curve.x), GreyOf(hn::Mul(f90, of_curve.x))};
 }
 
-// EvaluateAlbedo from n.v, or n.l, alone.
-template <class Fit>
-HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model, const Fit& fit,
-                                  FloatV f90, FloatV cosine) {
-  return EvaluateAlbedo(d, model, fit, f90, ComputeAlbedoVariables(d, fit.shape, cosine));
-}
-
 // The fits of hits i..., where HitParameters::fit begins at `fits`. Their second curve is Schlick's
 // or the dielectric's.
 HWY_INLINE AlbedoFitLanes FitAt(const float* fits, size_t i, Shadowing shadowing) {
@@ -125,6 +119,88 @@ HWY_INLINE AlbedoFitLanes FitAt(const float* fits, size_t i, Shadowing shadowing
   lanes.one = {fit + 4 * stride, stride};
   lanes.schlick = {fit + (4 + kAlbedoTerms) * stride, stride};
   return lanes;
+}
+
+// The variables and the albedo of hits i..., by the model's fit or by that of each hit.
+template <class Number>
+HWY_INLINE AlbedoVariablesV<FloatV> VariablesAt(FloatTag d,
+                                                const MicrofacetNumbers<Number>& numbers, size_t i,
+                                                FloatV cosine) {
+  const MicrofacetModel& model = numbers.model;
+  if (numbers.fit == nullptr) return ComputeAlbedoVariables(d, model.albedo.lobe.shape, cosine);
+  return ComputeAlbedoVariables(d, FitAt(numbers.fit, i, model.shadowing).shape, cosine);
+}
+template <class Number>
+HWY_INLINE AlbedoV AlbedoAt(FloatTag d, const MicrofacetNumbers<Number>& numbers, size_t i,
+                            bool with_curve, const AlbedoVariablesV<FloatV>& x) {
+  const MicrofacetModel& model = numbers.model;
+  const FloatV f90 = NumberAt(d, numbers.dielectric_f90, i);
+  if (numbers.fit == nullptr) {
+    return EvaluateAlbedo(d, model, model.albedo.lobe, f90, with_curve, x);
+  }
+  return EvaluateAlbedo(d, model, FitAt(numbers.fit, i, model.shadowing), f90, with_curve, x);
+}
+
+// The albedos of a block of hits in a direction of each, to view or to light. An albedo is a long
+// chain of dependent operations, which is cut into several loops as shading is (packets-inl.h).
+struct AlbedoBlock {
+  static constexpr size_t kHits = 256;  // a multiple of every target's lanes
+  alignas(64) float z[kHits], cosine[kHits], factor[kHits];
+  alignas(64) float one[kHits], loss[kHits], scale[kHits], bias[3][kHits];
+  bool with_curve;  // whether scale and bias are stored; else they are read as 0
+
+  HWY_INLINE void Store(FloatTag d, size_t at, const AlbedoVariablesV<FloatV>& x) {
+    hn::Store(x.z, d, z + at);
+    hn::Store(x.n_dot_v, d, cosine + at);
+    hn::Store(x.factor, d, factor + at);
+  }
+  HWY_INLINE AlbedoVariablesV<FloatV> Variables(FloatTag d, size_t at) const {
+    return {hn::Load(d, z + at), hn::Load(d, cosine + at), hn::Load(d, factor + at)};
+  }
+  HWY_INLINE void Store(FloatTag d, size_t at, const AlbedoV& albedo) {
+    hn::Store(albedo.one, d, one + at);
+    hn::Store(albedo.loss, d, loss + at);
+    if (!with_curve) return;
+    hn::Store(albedo.scale, d, scale + at);
+    hn::Store(albedo.bias.x, d, bias[0] + at);
+    hn::Store(albedo.bias.y, d, bias[1] + at);
+    hn::Store(albedo.bias.z, d, bias[2] + at);
+  }
+  HWY_INLINE AlbedoV Albedo(FloatTag d, size_t at) const {
+    FloatV of_f0 = hn::Zero(d), red = of_f0, green = of_f0, blue = of_f0;
+    if (with_curve) {
+      of_f0 = hn::Load(d, scale + at);
+      red = hn::Load(d, bias[0] + at), green = hn::Load(d, bias[1] + at);
+      blue = hn::Load(d, bias[2] + at);
+    }
+    return {hn::Load(d, one + at), hn::Load(d, loss + at), of_f0, {red, green, blue}};
+  }
+};
+
+// Fills a block with the albedos of isotropic lobes of hits [begin, end); cosine_at(i) is the angle
+// of the directions of hits i...
+template <class Number, class CosineAt>
+HWY_INLINE void FillAlbedos(const MicrofacetNumbers<Number>& numbers, size_t begin, size_t end,
+                            const CosineAt& cosine_at, AlbedoBlock* block) {
+  const FloatTag d;
+  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
+    block->Store(d, i - begin, VariablesAt(d, numbers, i, cosine_at(i)));
+  }
+  const bool with_curve = block->with_curve;
+  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
+    block->Store(d, i - begin, AlbedoAt(d, numbers, i, with_curve, block->Variables(d, i - begin)));
+  }
+}
+
+// The same of anisotropic lobes, which are few; at(i) are LobeCosinesV.
+template <class Number, class CosinesAt>
+HWY_INLINE void FillAnisotropic(const MicrofacetNumbers<Number>& numbers, size_t begin, size_t end,
+                                const CosinesAt& at, AlbedoBlock* block) {
+  const FloatTag d;
+  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
+    const FloatV f90 = NumberAt(d, numbers.dielectric_f90, i);
+    block->Store(d, i - begin, EvaluateAlbedo(d, numbers.model, numbers.lobes, i, f90, at(i)));
+  }
 }
 
 // 1 minus the albedo of the whole lobe, including Kulla and Conty's lobe: the fraction of the light

@@ -29,6 +29,7 @@ struct Microfacet {
   MicrofacetUniforms<Number> uniforms;  // a copy, which no store can alias
   const MicrofacetModel& model;
   const Surface& surface;
+  AlbedoBlock* from_light;  // scratch: the albedos from the light of a block of hits
 
   // The denominator of the visibility times `scale`.
   HWY_INLINE FloatV Masking(FloatTag d, const PacketV& p, const Incident& in, FloatV scale) const {
@@ -141,24 +142,26 @@ struct Microfacet {
     return MulAdd3(RgbAt(d, uniforms.base.ratio, i), multiple, {single, single, single});
   }
 
-  // The albedo, from the light, of the lobe that covers the base.
-  HWY_INLINE AlbedoV AlbedoFromLight(FloatTag d, size_t i, const IncidentV& in) const {
-    const FloatV f90 = NumberAt(d, uniforms.dielectric_f90, i);
-    const FloatV cosine = hn::Max(in.n_dot_l, hn::Zero(d));
-    if (uniforms.light_root != nullptr) {
-      const LobeCosinesV to_light{cosine, hn::LoadU(d, uniforms.t_dot_l + i),
-                                  hn::LoadU(d, uniforms.b_dot_l + i)};
-      return EvaluateAlbedo(d, model, uniforms.lobes, i, f90, to_light);
+  // Whether the albedos from the light are read, by Kulla and Conty's lobe or by the base.
+  HWY_INLINE bool ReadsAlbedos() const {
+    return model.compensation == Compensation::kKullaConty || model.reciprocal;
+  }
+
+  // Stores the albedos from the light of the lobes of hits [begin, end), whose light `block` holds.
+  HWY_INLINE void FillAlbedos(size_t begin, size_t end, const IncidentBlock& block) const {
+    if (!ReadsAlbedos()) return;
+    const FloatTag d;
+    from_light->with_curve = model.reciprocal;
+    const auto n_dot_l = [&](size_t i)
+                             HWY_ATTR { return hn::Max(block.NDotL(d, i - begin), hn::Zero(d)); };
+    if (uniforms.light_root == nullptr) {
+      return HWY_NAMESPACE::FillAlbedos(uniforms, begin, end, n_dot_l, from_light);
     }
-    if constexpr (kSame) {
-      return EvaluateAlbedo(d, model, model.albedo.lobe, f90, cosine);
-    } else {
-      if (uniforms.fit == nullptr) {
-        return EvaluateAlbedo(d, model, model.albedo.lobe, f90, cosine);
-      }
-      const AlbedoFitLanes fit = FitAt(uniforms.fit, i, model.shadowing);
-      return EvaluateAlbedo(d, model, fit, f90, cosine);
-    }
+    const auto cosines = [&](size_t i) HWY_ATTR {
+      return LobeCosinesV{n_dot_l(i), hn::LoadU(d, uniforms.t_dot_l + i),
+                          hn::LoadU(d, uniforms.b_dot_l + i)};
+    };
+    FillAnisotropic(uniforms, begin, end, cosines, from_light);
   }
 
   HWY_INLINE FloatV CoverAt(FloatTag d, int c, size_t i) const {
@@ -168,36 +171,38 @@ struct Microfacet {
 
   // Adds Kulla and Conty's lobe, and, if kAlbedoScaled, scales the base by 1 - the albedo of the
   // lobe that covers it.
-  HWY_INLINE void Complete(FloatTag d, size_t i, const IncidentV& in,
+  HWY_INLINE void Complete(FloatTag d, size_t i, const Incident& in,
                            const MicrofacetLight<Number>& light, PartV* reflected,
                            RgbV* base) const {
     const bool scaled = model.coupling == DiffuseCoupling::kAlbedoScaled;
     if (scaled) *base = Mul3(*base, LoadSoa(d, surface.transmittance, i));
-    const bool kulla_conty = model.compensation == Compensation::kKullaConty;
-    if (!kulla_conty && !model.reciprocal) return;
-    const AlbedoV from_light = AlbedoFromLight(d, i, in);
-    if (kulla_conty) {
+    if (!ReadsAlbedos()) return;
+    const AlbedoV albedo = from_light->Albedo(d, in.at);
+    if (model.compensation == Compensation::kKullaConty) {
       const FloatV multiple = hn::LoadU(d, surface.multiple.data() + i);
       const FloatV largest = hn::Set(d, std::numeric_limits<float>::max());
-      const FloatV amount = hn::Mul(hn::Mul(multiple, from_light.loss), in.weight);
+      const FloatV amount = hn::Mul(hn::Mul(multiple, albedo.loss), in.weight);
       const RgbV more = Scale(RgbAt(d, light.multiple, i), hn::Min(amount, largest));
       *reflected = WholePart(d, Add(RgbOf(*reflected), more));
     }
     if (model.reciprocal) {
       const RgbV f0 = RgbAt(d, uniforms.dielectric_f0, i);
       const RgbV f_multiple = RgbAt(d, uniforms.dielectric_f_multiple, i);
-      const RgbV& bias = from_light.bias;
-      *base = Mul3(*base,
-                   {KullaContyBase(d, from_light, bias.x, f0.x, f_multiple.x, CoverAt(d, 0, i)),
-                    KullaContyBase(d, from_light, bias.y, f0.y, f_multiple.y, CoverAt(d, 1, i)),
-                    KullaContyBase(d, from_light, bias.z, f0.z, f_multiple.z, CoverAt(d, 2, i))});
+      const RgbV& bias = albedo.bias;
+      *base =
+          Mul3(*base, {KullaContyBase(d, albedo, bias.x, f0.x, f_multiple.x, CoverAt(d, 0, i)),
+                       KullaContyBase(d, albedo, bias.y, f0.y, f_multiple.y, CoverAt(d, 1, i)),
+                       KullaContyBase(d, albedo, bias.z, f0.z, f_multiple.z, CoverAt(d, 2, i))});
     }
   }
 };
 
 template <FresnelForm kFresnel, class Number>
 void ShadeByCurve(const MicrofacetUniforms<Number>& uniforms, const LitHits& lit) {
-  ShadePackets(FloatTag(), Microfacet<kFresnel, Number>{uniforms, uniforms.model, lit.surface},
+  static_assert(AlbedoBlock::kHits == kBlockHits);
+  AlbedoBlock from_light;
+  ShadePackets(FloatTag(),
+               Microfacet<kFresnel, Number>{uniforms, uniforms.model, lit.surface, &from_light},
                lit);
 }
 

@@ -87,7 +87,8 @@ class HalfBlock : public IncidentBlock {
             hn::Load(d, n_dot_v_ + at),
             hn::Load(d, twice_u_length_ + at),
             hn::Load(d, one_minus_vh_ + at),
-            any_short_};
+            any_short_,
+            at};
   }
 
  private:
@@ -178,7 +179,8 @@ inline HWY_NOINLINE void FillHalf(const LitHits& lit, size_t begin, size_t end, 
 //   model.Reflect(packet, incident)       the reflected light
 // Model::Incident is IncidentV, HalfIncidentV or LobeIncidentV. The logarithm in the latter is
 // valid only if model.ReadsLobe(); then model.FillLobe(lit, begin, end, block) must store both
-// the light and the lobes' cosines.
+// the light and the lobes' cosines. A model of HalfIncidentV keeps the albedos that it needs of a
+// block (FillAlbedos).
 template <class Model>
 HWY_INLINE void ShadePackets(FloatTag d, const Model& model, const LitHits& lit) {
   constexpr bool kHalf = std::is_same_v<typename Model::Incident, HalfIncidentV>;
@@ -195,7 +197,10 @@ HWY_INLINE void ShadePackets(FloatTag d, const Model& model, const LitHits& lit)
       }
     } else {
       FillLight(lit, begin, end, &block);
-      if constexpr (kHalf) FillHalf(lit, begin, end, &block);
+      if constexpr (kHalf) {
+        FillHalf(lit, begin, end, &block);
+        model.FillAlbedos(begin, end, block);
+      }
     }
     const RangeArrays arrays(lit);
     for (size_t i = begin; i < end; i += hn::Lanes(d)) {

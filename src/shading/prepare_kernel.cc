@@ -41,91 +41,6 @@ HWY_INLINE FloatV Multiple(FloatTag d, Compensation compensation, const AlbedoV&
   return hn::Zero(d);
 }
 
-// The variables and the albedo of hits i..., by the model's fit or by that of each hit.
-template <class Number>
-HWY_INLINE AlbedoVariablesV<FloatV> VariablesAt(FloatTag d,
-                                                const MicrofacetNumbers<Number>& numbers, size_t i,
-                                                FloatV n_dot_v) {
-  const MicrofacetModel& model = numbers.model;
-  if (numbers.fit == nullptr) return ComputeAlbedoVariables(d, model.albedo.lobe.shape, n_dot_v);
-  return ComputeAlbedoVariables(d, FitAt(numbers.fit, i, model.shadowing).shape, n_dot_v);
-}
-template <class Number>
-HWY_INLINE AlbedoV AlbedoAt(FloatTag d, const MicrofacetNumbers<Number>& numbers, size_t i,
-                            const AlbedoVariablesV<FloatV>& x) {
-  const MicrofacetModel& model = numbers.model;
-  const FloatV f90 = NumberAt(d, numbers.dielectric_f90, i);
-  if (numbers.fit == nullptr) return EvaluateAlbedo(d, model, model.albedo.lobe, f90, x);
-  return EvaluateAlbedo(d, model, FitAt(numbers.fit, i, model.shadowing), f90, x);
-}
-
-// The intermediate results of a block of hits: the albedo is a long chain of dependent operations,
-// which is cut into several loops as shading is (packets-inl.h).
-struct AlbedoBlock {
-  static constexpr size_t kHits = 128;  // a multiple of every target's lanes
-  alignas(64) float z[kHits], n_dot_v[kHits], factor[kHits];
-  alignas(64) float one[kHits], loss[kHits], scale[kHits], bias[3][kHits];
-
-  HWY_INLINE void Store(FloatTag d, size_t at, const AlbedoVariablesV<FloatV>& x) {
-    hn::Store(x.z, d, z + at);
-    hn::Store(x.n_dot_v, d, n_dot_v + at);
-    hn::Store(x.factor, d, factor + at);
-  }
-  HWY_INLINE AlbedoVariablesV<FloatV> Variables(FloatTag d, size_t at) const {
-    return {hn::Load(d, z + at), hn::Load(d, n_dot_v + at), hn::Load(d, factor + at)};
-  }
-  HWY_INLINE void Store(FloatTag d, size_t at, const AlbedoV& albedo) {
-    hn::Store(albedo.one, d, one + at);
-    hn::Store(albedo.loss, d, loss + at);
-    hn::Store(albedo.scale, d, scale + at);
-    hn::Store(albedo.bias.x, d, bias[0] + at);
-    hn::Store(albedo.bias.y, d, bias[1] + at);
-    hn::Store(albedo.bias.z, d, bias[2] + at);
-  }
-  HWY_INLINE AlbedoV Albedo(FloatTag d, size_t at) const {
-    return {hn::Load(d, one + at),
-            hn::Load(d, loss + at),
-            hn::Load(d, scale + at),
-            {hn::Load(d, bias[0] + at), hn::Load(d, bias[1] + at), hn::Load(d, bias[2] + at)}};
-  }
-};
-
-template <class Number>
-HWY_INLINE void FillVariables(const MicrofacetNumbers<Number>& numbers, size_t begin, size_t end,
-                              const Surface& surface, AlbedoBlock* block) {
-  const FloatTag d;
-  const auto normal = PointersTo(surface.normal), to_view = PointersTo(surface.to_view);
-  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-    const FloatV n_dot_v = FusedDot(LoadAt(d, normal, i), LoadAt(d, to_view, i));
-    block->Store(d, i - begin, VariablesAt(d, numbers, i, n_dot_v));
-  }
-}
-
-template <class Number>
-HWY_INLINE void FillAlbedos(const MicrofacetNumbers<Number>& numbers, size_t begin, size_t end,
-                            AlbedoBlock* block) {
-  const FloatTag d;
-  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-    block->Store(d, i - begin, AlbedoAt(d, numbers, i, block->Variables(d, i - begin)));
-  }
-}
-
-// Both steps for anisotropic lobes, which are few.
-template <class Number>
-HWY_INLINE void FillAnisotropic(const MicrofacetNumbers<Number>& numbers, size_t begin, size_t end,
-                                const Surface& surface, AlbedoBlock* block) {
-  const FloatTag d;
-  const auto normal = PointersTo(surface.normal), to_view = PointersTo(surface.to_view);
-  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-    const BasisV<FloatV> frame = LobeFrame(d, LoadAt(d, normal, i), LoadSoa(d, surface.tangent, i));
-    const Vec3V<FloatV> view = ToLocal(frame, LoadAt(d, to_view, i));
-    const FloatV f90 = NumberAt(d, numbers.dielectric_f90, i);
-    block->Store(d, i - begin,
-                 EvaluateAlbedo(d, numbers.model, numbers.lobes, i, f90,
-                                LobeCosinesV{view.z, view.x, view.y}));
-  }
-}
-
 // kScaled is true for DiffuseCoupling::kAlbedoScaled; other couplings do not read
 // Surface::transmittance. F0 and F_ms are those of the dielectric, which covers the base.
 template <bool kScaled, class Number>
@@ -160,14 +75,25 @@ template <class Number>
 void PrepareRange(const MicrofacetNumbers<Number>& numbers, size_t begin, size_t end,
                   Surface* surface) {
   const bool scaled = numbers.model.coupling == DiffuseCoupling::kAlbedoScaled;
+  const FloatTag d;
+  const auto normal = PointersTo(surface->normal), to_view = PointersTo(surface->to_view);
   AlbedoBlock block;
+  block.with_curve = scaled;
   for (; begin < end; begin += AlbedoBlock::kHits) {
     const size_t block_end = std::min(begin + AlbedoBlock::kHits, end);
     if (numbers.lobes.first != nullptr) {
-      FillAnisotropic(numbers, begin, block_end, *surface, &block);
+      const auto cosines = [&](size_t i) HWY_ATTR {
+        const BasisV<FloatV> frame =
+            LobeFrame(d, LoadAt(d, normal, i), LoadSoa(d, surface->tangent, i));
+        const Vec3V<FloatV> view = ToLocal(frame, LoadAt(d, to_view, i));
+        return LobeCosinesV{view.z, view.x, view.y};
+      };
+      FillAnisotropic(numbers, begin, block_end, cosines, &block);
     } else {
-      FillVariables(numbers, begin, block_end, *surface, &block);
-      FillAlbedos(numbers, begin, block_end, &block);
+      const auto n_dot_v = [&](size_t i) HWY_ATTR {
+        return FusedDot(LoadAt(d, normal, i), LoadAt(d, to_view, i));
+      };
+      FillAlbedos(numbers, begin, block_end, n_dot_v, &block);
     }
     if (scaled) {
       PrepareBlock<true>(numbers, begin, block_end, block, surface);

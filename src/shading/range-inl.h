@@ -65,6 +65,7 @@ struct HalfIncidentV : IncidentV {
   FloatV n_dot_v;
   FloatV twice_u_length, one_minus_vh;
   bool any_short;  // false: all half vectors of the block are IsUpright
+  size_t at;       // the first lane's place in its block
 };
 
 // IncidentV with LobeLog2 of the cosine of Phong's lobe, or of the squared cosine of Blinn's.
