@@ -88,6 +88,8 @@ struct CoatedDielectric {
   Real eta = 1;
   Real coat = 0;  // in [0, 1]
   Real eta_in_coat = 1, inverse_coat_eta = 1;
+
+  bool operator==(const CoatedDielectric&) const = default;
 };
 
 template <typename Real>

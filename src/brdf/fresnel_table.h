@@ -40,6 +40,8 @@ struct FresnelTable {
   // intervals + 3 rows of coefficients of cubic B-splines: the channels, and a 0.
   static constexpr size_t kRow = 4;
   std::vector<float> coefficients;
+
+  bool operator==(const FresnelTable&) const = default;
 };
 
 // A curve to be tabulated: 1 - R of each channel at a cosine from 0 to 1.

@@ -26,6 +26,8 @@ namespace nacre {
 template <typename Real>
 struct GgxAlphas {
   Real x = 0, y = 0;
+
+  bool operator==(const GgxAlphas&) const = default;
 };
 
 // A delta lobe is narrow in both directions: no picture resolves it.

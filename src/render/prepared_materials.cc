@@ -86,7 +86,7 @@ void PrepareMaterials(const Scene& scene, bool in_ambient, int threads,
   materials->all[count].model = MatteModel{.diffuse = Rgb(0, 0, 0)};
   materials->traits.resize(count);
   materials->phong_gains.resize(count);
-  constexpr size_t kPiece = 256;
+  constexpr size_t kPiece = 16;  // some take a millisecond, of fits (material.cc)
   ParallelFor((count + kPiece - 1) / kPiece, threads, [&](size_t piece) {
     const DefaultFloatMode mode;  // colours may be denormal
     const size_t end = std::min(count, (piece + 1) * kPiece);

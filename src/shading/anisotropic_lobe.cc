@@ -3,6 +3,7 @@
 
 #include <variant>
 
+#include "base/memo.h"
 #include "base/overloaded.h"
 #include "scene/material.h"
 
@@ -37,6 +38,38 @@ GgxAlphas<double> AlphasOf(const Material& material, double roughness, double an
   return GltfAlphas(roughness, anisotropy);
 }
 
+namespace {
+
+// What the fit of a dielectric's curve, or of a film's, depends on.
+template <class Curve>
+struct CurveFitKey {
+  Shadowing shadowing;
+  GgxAlphas<double> alpha;
+  Curve curve;
+  double bend;
+
+  bool operator==(const CurveFitKey&) const = default;
+};
+
+// Fits are kept, as those of isotropic lobes are (material.cc).
+AnisotropicFresnelCurve CurveFitOf(Shadowing shadowing, const GgxAlphas<double>& alpha,
+                                   const CoatedDielectric<double>& curve) {
+  static Memo<CurveFitKey<CoatedDielectric<double>>, AnisotropicFresnelCurve> memo;
+  return *memo.Get({shadowing, alpha, curve, 0},
+                   [&] { return MakeAnisotropicFresnelFit(shadowing, alpha, curve).fresnel; });
+}
+
+std::array<AnisotropicFresnelCurve, 3> AnisotropicTableFitOf(Shadowing shadowing,
+                                                             const GgxAlphas<double>& alpha,
+                                                             const FresnelTable& table,
+                                                             double bend) {
+  static Memo<CurveFitKey<FresnelTable>, std::array<AnisotropicFresnelCurve, 3>> memo;
+  return *memo.Get({shadowing, alpha, table, bend},
+                   [&] { return FitAnisotropicTable(shadowing, alpha, table, bend); });
+}
+
+}  // namespace
+
 AnisotropicLobe MakeAnisotropicLobe(const MicrofacetModel& model, const GgxAlphas<double>& alpha,
                                     double roughness) {
   AnisotropicLobe lobe{alpha, MakeAnisotropicAlbedoFit(model.shadowing, alpha), {}};
@@ -47,9 +80,9 @@ AnisotropicLobe MakeAnisotropicLobe(const MicrofacetModel& model, const GgxAlpha
     }
   } else if (model.film) {
     lobe.fresnel =
-        FitAnisotropicTable(model.shadowing, alpha, model.film->dielectric, model.film->bend);
+        AnisotropicTableFitOf(model.shadowing, alpha, model.film->dielectric, model.film->bend);
   } else {
-    lobe.fresnel[0] = MakeAnisotropicFresnelFit(model.shadowing, alpha, model.albedo.curve).fresnel;
+    lobe.fresnel[0] = CurveFitOf(model.shadowing, alpha, model.albedo.curve);
   }
   return lobe;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/memo.h"
 #include "base/overloaded.h"
 #include "brdf/eon.h"
 #include "brdf/fresnel.h"
@@ -132,6 +133,30 @@ void MakeAnisotropic(const Microfacet& material, double roughness, bool by_hit,
       std::make_shared<const AnisotropicLobe>(MakeAnisotropicLobe(*model, alpha, roughness));
 }
 
+// What a dielectric's fits depend on.
+struct DielectricFitKey {
+  Shadowing shadowing;
+  double roughness;
+  CoatedDielectric<double> curve;
+
+  bool operator==(const DielectricFitKey&) const = default;
+};
+
+// Fits are kept: materials of a scene often share index and roughness, and both stay when a user
+// changes a colour.
+FresnelAlbedoFit DielectricFitOf(Shadowing shadowing, double roughness,
+                                 const CoatedDielectric<double>& curve) {
+  static Memo<DielectricFitKey, FresnelAlbedoFit> memo;
+  return *memo.Get({shadowing, roughness, curve},
+                   [&] { return MakeDielectricAlbedoFit(shadowing, roughness, curve); });
+}
+
+std::shared_ptr<const DielectricCurves> DielectricCurvesOf(Shadowing shadowing,
+                                                           const CoatedDielectric<double>& curve) {
+  static Memo<DielectricFitKey, DielectricCurves> memo;
+  return memo.Get({shadowing, 0, curve}, [&] { return MakeDielectricCurves(shadowing, curve); });
+}
+
 template <class Microfacet>
 FilmUse FilmUseOf(const Microfacet& material, const MicrofacetModel& model, double roughness,
                   bool roughness_by_hit) {
@@ -218,7 +243,7 @@ MicrofacetModel MakeModel(const MetallicRoughnessMaterial& material) {
                             maps_metallic || material.anisotropy_map.valid());
     use.dielectric = material.metallic < 1 || maps_metallic;
     use.metal = material.metallic > 0;
-    TakeFilm(MakeThinFilmLobe(material, model.albedo.lobe, use), &model);
+    TakeFilm(MakeThinFilmLobe(material, use), &model);
   }
   MakeAnisotropic(material, material.roughness, maps_metallic || material.anisotropy_map.valid(),
                   &model);
@@ -273,10 +298,9 @@ MicrofacetModel MakeModel(const DielectricMaterial& material) {
   const double f0 = FresnelF0(material.ior, 0.0);
   model.fresnel = exact ? FresnelForm::kDielectric : FresnelForm::kSchlick;
   if (exact) {
-    model.albedo = MakeDielectricAlbedoFit(material.shadowing, material.roughness, {material.ior});
+    model.albedo = DielectricFitOf(material.shadowing, material.roughness, {material.ior});
     if (material.roughness_map.valid()) {
-      model.curves = std::make_shared<const DielectricCurves>(
-          MakeDielectricCurves(material.shadowing, {material.ior}));
+      model.curves = DielectricCurvesOf(material.shadowing, {material.ior});
     }
   }
   if (model.compensation == Compensation::kKullaConty) {
@@ -312,14 +336,13 @@ MicrofacetModel MakeModel(const OpenPbrMaterial& material) {
     FilmUse use = FilmUseOf(material, model, lobe.roughness, maps_roughness);
     use.dielectric = material.base_metalness < 1 || material.base_metalness_map.valid();
     use.metal = !model.is_dielectric;
-    TakeFilm(MakeThinFilmLobe(material, model.albedo.lobe, use), &model);
+    TakeFilm(MakeThinFilmLobe(material, use), &model);
   }
   if (!model.film) {
-    model.albedo = MakeDielectricAlbedoFit(lobe.shadowing, lobe.roughness, model.dielectric);
+    model.albedo = DielectricFitOf(lobe.shadowing, lobe.roughness, model.dielectric);
   }
   if (maps_roughness && !model.film) {
-    model.curves = std::make_shared<const DielectricCurves>(
-        MakeDielectricCurves(lobe.shadowing, model.dielectric));
+    model.curves = DielectricCurvesOf(lobe.shadowing, model.dielectric);
   }
   MakeAnisotropic(material, lobe.roughness, maps_roughness, &model);
   const double f0 = FresnelCoatedDielectric(1.0, 0.0, model.dielectric);

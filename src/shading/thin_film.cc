@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "base/memo.h"
 #include "brdf/fresnel.h"
 #include "brdf/open_pbr.h"
 #include "brdf/quadrature.h"
@@ -36,10 +37,31 @@ Rgb ReflectedAverage(const FresnelTable& table) {
   });
 }
 
+// What the fits of a table depend on.
+struct TableFitKey {
+  Shadowing shadowing;
+  double roughness;
+  FresnelTable table;
+
+  bool operator==(const TableFitKey&) const = default;
+};
+
+// Fits are kept, as those of dielectrics are (material.cc).
+TableAlbedoFit TableFitOf(Shadowing shadowing, double roughness, const FresnelTable& table) {
+  static Memo<TableFitKey, TableAlbedoFit> memo;
+  return *memo.Get({shadowing, roughness, table}, [&] {
+    return MakeTableAlbedoFit(shadowing, roughness, MakeAlbedoFit(shadowing, roughness), table);
+  });
+}
+
+TableAlbedoCurves TableCurvesOf(Shadowing shadowing, const FresnelTable& table) {
+  static Memo<TableFitKey, TableAlbedoCurves> memo;
+  return *memo.Get({shadowing, 0, table}, [&] { return MakeTableAlbedoCurves(shadowing, table); });
+}
+
 std::shared_ptr<const ThinFilmLobe> MakeFilmLobe(const std::function<FresnelCurve()>& dielectric,
                                                  const std::function<FresnelCurve()>& metal,
-                                                 double film_index, const AlbedoFit& lobe,
-                                                 const FilmUse& use) {
+                                                 double film_index, const FilmUse& use) {
   auto film = std::make_shared<ThinFilmLobe>();
   film->bend = FresnelBend(film_index);
   film->has_dielectric = use.dielectric;
@@ -50,8 +72,8 @@ std::shared_ptr<const ThinFilmLobe> MakeFilmLobe(const std::function<FresnelCurv
   film->dielectric_average = ReflectedAverage(film->dielectric);
   // Hits with a roughness each ask for the albedo of the dielectric even where there is only metal.
   if (use.is_anisotropic || (!use.dielectric && !use.roughness_by_hit)) return film;
-  film->albedo = MakeTableAlbedoFit(use.shadowing, use.roughness, lobe, film->dielectric);
-  if (use.roughness_by_hit) film->curves = MakeTableAlbedoCurves(use.shadowing, film->dielectric);
+  film->albedo = TableFitOf(use.shadowing, use.roughness, film->dielectric);
+  if (use.roughness_by_hit) film->curves = TableCurvesOf(use.shadowing, film->dielectric);
   return film;
 }
 
@@ -111,8 +133,7 @@ FresnelCurve BelowCoat(const OpenPbrMaterial& m, const MakeCurve& make_curve) {
 
 }  // namespace
 
-std::shared_ptr<const ThinFilmLobe> MakeThinFilmLobe(const OpenPbrMaterial& m,
-                                                     const AlbedoFit& lobe, const FilmUse& use) {
+std::shared_ptr<const ThinFilmLobe> MakeThinFilmLobe(const OpenPbrMaterial& m, const FilmUse& use) {
   const double thickness_nm = 1000 * m.thin_film_thickness;
   const double weight = m.thin_film_weight * ThinFilmShare(thickness_nm, m.options.film_fade_nm);
   if (!(weight > 0)) return nullptr;
@@ -147,11 +168,11 @@ std::shared_ptr<const ThinFilmLobe> MakeThinFilmLobe(const OpenPbrMaterial& m,
       return MakeRgb([&](int c) { return 1 - FresnelF82(cosine, 1 - cosine, f0[c], slope[c]); });
     });
   };
-  return MakeFilmLobe(dielectric, metal, m.thin_film_ior, lobe, use);
+  return MakeFilmLobe(dielectric, metal, m.thin_film_ior, use);
 }
 
 std::shared_ptr<const ThinFilmLobe> MakeThinFilmLobe(const MetallicRoughnessMaterial& m,
-                                                     const AlbedoFit& lobe, const FilmUse& use) {
+                                                     const FilmUse& use) {
   if (!(m.iridescence > 0)) return nullptr;
   const ThinFilm film{1, m.iridescence_ior, m.iridescence_thickness_nm};
   // A film over what reflects `f0` at normal incidence and by Schlick's curve, or by F82's,
@@ -179,7 +200,7 @@ std::shared_ptr<const ThinFilmLobe> MakeThinFilmLobe(const MetallicRoughnessMate
       return MetalBelow(FilmMetal::kGulbrandsenF82, m.base_color[c], m.f82_tint[c]);
     });
   };
-  return MakeFilmLobe(dielectric, metal, m.iridescence_ior, lobe, use);
+  return MakeFilmLobe(dielectric, metal, m.iridescence_ior, use);
 }
 
 }  // namespace nacre

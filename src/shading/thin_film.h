@@ -21,8 +21,8 @@ struct FilmUse {
 
 // Null without a film.
 std::shared_ptr<const ThinFilmLobe> MakeThinFilmLobe(const OpenPbrMaterial& material,
-                                                     const AlbedoFit& lobe, const FilmUse& use);
+                                                     const FilmUse& use);
 std::shared_ptr<const ThinFilmLobe> MakeThinFilmLobe(const MetallicRoughnessMaterial& material,
-                                                     const AlbedoFit& lobe, const FilmUse& use);
+                                                     const FilmUse& use);
 
 }  // namespace nacre

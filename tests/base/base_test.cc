@@ -10,6 +10,7 @@
 
 #include "base/aligned.h"
 #include "base/error.h"
+#include "base/memo.h"
 #include "base/parallel.h"
 #include "base/pool.h"
 #include "base/target.h"
@@ -60,6 +61,26 @@ TEST_CASE("a pool serves many threads") {
     for (const size_t value : *borrowed) torn += value == i ? 0 : 1;
   });
   CHECK(torn == 0);
+}
+
+TEST_CASE("a memo computes once what it is asked for again, and forgets the oldest") {
+  Memo<int, int> memo;
+  int made = 0;
+  const auto square = [&](int x) {
+    return *memo.Get(x, [&] {
+      ++made;
+      return x * x;
+    });
+  };
+  CHECK(square(3) == 9);
+  CHECK(square(3) == 9);
+  CHECK(made == 1);
+  for (int x = 10; x < 73; ++x) CHECK(square(x) == x * x);  // 63 others
+  CHECK(square(3) == 9);
+  CHECK(made == 64);
+  for (int x = 100; x < 164; ++x) CHECK(square(x) == x * x);
+  CHECK(square(3) == 9);
+  CHECK(made == 129);
 }
 
 TEST_CASE("aligned arrays start on a vector, zeroed, with room for a vector at the last entry") {
