@@ -224,6 +224,14 @@ void NoteTransmission(const NotedMaterials& of, std::vector<std::string>* notes)
   notes->push_back(names + ": the light that passes through is not rendered; the base is opaque");
 }
 
+void NoteHaze(const NotedMaterials& of, std::vector<std::string>* notes) {
+  const std::string names = NameMaterials(of, MaterialTrait::kHazy, [](size_t) { return true; });
+  if (names.empty()) return;
+  notes->push_back(names +
+                   ": specular_haze and specular_retroreflectivity are not rendered: the lobe is "
+                   "that of specular_roughness alone");
+}
+
 void NoteMaterials(const NotedMaterials& of, bool sampled_lights, std::vector<std::string>* notes) {
   NoteDarkness(of, notes);
   const std::vector<Light>& lights = of.scene.lights;
@@ -235,6 +243,7 @@ void NoteMaterials(const NotedMaterials& of, bool sampled_lights, std::vector<st
   NoteGain(of, notes);
   NotePhongGain(of, notes);
   NoteTransmission(of, notes);
+  NoteHaze(of, notes);
   NoteFilms(of, notes);
   NoteMeasuredGain(of, notes);
   NoteMeasuredBlack(of, notes);

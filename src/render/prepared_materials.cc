@@ -55,6 +55,8 @@ MaterialTraits TraitsOf(const Material& material, const ShadingMaterial& prepare
       MaterialTrait::kFilmWithoutMaps);
   if (const auto* const open_pbr = std::get_if<OpenPbrMaterial>(&material.model)) {
     add(open_pbr->transmission_weight > 0, MaterialTrait::kTransmits);
+    add(open_pbr->specular_haze > 0 || open_pbr->specular_retroreflectivity > 0,
+        MaterialTrait::kHazy);
   }
   add(any_coat(HasDeltaLobe), MaterialTrait::kCoatMirror);
   add(std::holds_alternative<UserModel>(prepared.model), MaterialTrait::kUserModel);

@@ -308,19 +308,20 @@ void ResolveSurfaces(const SurfacePlan& plan, const double* film_x, CameraHits* 
 namespace {
 
 // Attenuates the emission and the reflected ambient light of a hit below a coat, which the radiance
-// of lights does not include, by the coat's transmittance, and adds the ambient light that the coat
-// reflects: its albedo times the radiance.
+// of lights does not include, and adds the ambient light that the coat reflects: its albedo times
+// the radiance.
 void AttenuateByCoat(const Rgb& ambient, const MaterialHits& at, size_t k, HitParameters* below) {
   const CoatHits& coat = at.coats[k];
   for (size_t i = at.begin; i < at.end; ++i) {
     const Rgb albedo = Rgb(1) - Rgb(VectorAt(coat.surface.transmittance, i));
     const Rgb left = TransmittedAt(at, k, i, NDotV(coat.surface, i));
     SetVector(left * Rgb(VectorAt(below->ambient, i)) + albedo * ambient, i, &below->ambient);
-    SetVector(left * Rgb(VectorAt(below->emission, i)), i, &below->emission);
+    SetVector(EmittedThroughCoat(at, k, i) * Rgb(VectorAt(below->emission, i)), i,
+              &below->emission);
   }
 }
 
-// The same of the layers over all coats. Emission comes from below them.
+// The same of the layers over all coats.
 void AttenuateByLayers(const Rgb& ambient, const MaterialHits& at, HitParameters* below) {
   for (const LayerModel& layer : at.material.layers) {
     if (!LiesOverCoats(layer)) continue;
@@ -329,6 +330,7 @@ void AttenuateByLayers(const Rgb& ambient, const MaterialHits& at, HitParameters
           LayerAlbedo(LayerAtHit(layer, at.Maps(), i), NDotV(at.surface, i));
       SetVector(Rgb(VectorAt(below->ambient, i)) * albedo.below + albedo.lobe * ambient, i,
                 &below->ambient);
+      if (at.material.emission_through != EmissionThrough::kBaseFactors) continue;
       SetVector(Rgb(VectorAt(below->emission, i)) * albedo.below, i, &below->emission);
     }
   }

@@ -298,6 +298,16 @@ constexpr auto kOpenPbrParameters = KeepEmissionMap(WithCommon(
         "specular_roughness_anisotropy", limits::kUnit, kOpenPbrAnisotropyMeaning),
     Number<&OpenPbrMaterial::specular_ior>("specular_ior", limits::kOpenPbrIor,
                                            "Index of refraction of the dielectric base."),
+    Number<&OpenPbrMaterial::specular_haze>(
+        "specular_haze", limits::kUnit,
+        "Version 1.2: the share of the lobe that is wider. Kept, but not rendered, which a note "
+        "says."),
+    Number<&OpenPbrMaterial::specular_haze_spread>("specular_haze_spread", limits::kUnit,
+                                                   kNotRendered),
+    Number<&OpenPbrMaterial::specular_retroreflectivity>(
+        "specular_retroreflectivity", limits::kUnit,
+        "Version 1.2: the share that is reflected back to the light. Kept, but not rendered, which "
+        "a note says."),
     Number<&OpenPbrMaterial::coat_weight>("coat_weight", limits::kUnit,
                                           "The fraction of the base that a dielectric coat covers.",
                                           "coat"),
@@ -361,12 +371,14 @@ constexpr auto kOpenPbrParameters = KeepEmissionMap(WithCommon(
     Number<&OpenPbrMaterial::thin_film_ior>("thin_film_ior", limits::kFilmIor,
                                             "Index of refraction of the film."),
     kFilmFade,
+    Number<&OpenPbrMaterial::emission_weight>("emission_weight", limits::kUnit,
+                                              "Multiplies emission_luminance."),
     Number<&OpenPbrMaterial::emission_luminance>("emission_luminance", limits::kRadiance,
                                                  "Emitted radiance where emission_color is 1, in "
                                                  "the unit of the scene's lights. It is added "
                                                  "to emission."),
-    Color<&OpenPbrMaterial::emission_color>("emission_color", limits::kUnit,
-                                            "Multiplies emission_luminance."),
+    Color<&OpenPbrMaterial::emission_color>("emission_color", limits::kRadiance,
+                                            "Multiplies emission_luminance; may exceed 1."),
     Number<&OpenPbrMaterial::geometry_tangent_deg>("geometry_tangent_deg", limits::kAngleDeg,
                                                    kTangentMeaning),
     Number<&OpenPbrMaterial::geometry_coat_tangent_deg>(
@@ -463,7 +475,17 @@ constexpr std::array kDielectricChoices = {
                                          "through their value at normal incidence."),
     kSides};
 
-// Sets all options of OpenPBR (scene/open_pbr.h).
+// Sets all parameters and options of OpenPBR (scene/open_pbr.h).
+constexpr std::array<std::string_view, 2> kVersions = {"1.1", "1.2"};
+constexpr MaterialChoice kVersionChoice = {
+    "version", kVersions, nullptr,
+    [](Material& material, size_t option) {
+      material.model = DefaultsOf(static_cast<OpenPbrVersion>(option));
+    },
+    "The version of the specification that gives rules and defaults. 1.2 is a branch, as of "
+    "2026-04: rules are spec_1_2, emission_weight is 0 and emission_luminance 1000."};
+
+// Sets all options.
 constexpr std::array<std::string_view, 4> kRules = {"spec_1_1", "spec_1_2", "materialx", "adobe"};
 constexpr MaterialChoice kRulesChoice = {
     "rules", kRules, nullptr,
@@ -502,10 +524,14 @@ constexpr std::array<std::string_view, 3> kTintsBelow = {"untinted", "complement
 constexpr std::array<std::string_view, 3> kFilms = {"spectral", "belcour_barla", "lines"};
 constexpr std::array<std::string_view, 3> kFilmMetals = {"gulbrandsen_f82", "gulbrandsen_tint",
                                                          "real_index"};
+constexpr std::array<std::string_view, 2> kCoatMetals = {"unchanged", "gulbrandsen"};
 constexpr std::array<std::string_view, 2> kFilmOutsides = {"coat", "air"};
 constexpr std::array<std::string_view, 2> kAlphaLimits = {"none", "one"};
+constexpr std::array<std::string_view, 4> kEmissionsThrough = {"coat_path", "coat_color",
+                                                               "base_factors", "materialx"};
 constexpr std::array<std::string_view, 2> kYesNo = {"no", "yes"};
 constexpr std::array kOpenPbrChoices = {
+    kVersionChoice,
     kRulesChoice,
     Option<&OpenPbrOptions::specular_weight_rule>(
         "specular_weight_rule", kWeightRules,
@@ -517,6 +543,11 @@ constexpr std::array kOpenPbrChoices = {
         "light that the coat refracts. invert_ratio: of a mix of both ratios of indices, inverted "
         "where the coat is denser. index_lerp: of base over a mix of the indices of air and coat. "
         "none: as in air."),
+    Option<&OpenPbrOptions::coat_metal>(
+        "coat_metal", kCoatMetals,
+        "The metal below the coat. unchanged: as in air. gulbrandsen: its reflectance at normal "
+        "incidence is that of its index (film_metal) over the coat's; the factor at 81.8 degrees "
+        "stays."),
     Option<&OpenPbrOptions::coat_roughening>(
         "coat_roughening", kRoughenings,
         "How a rough coat widens highlights below it. spec: (r^4 + 2 c^4)^(1/4). adobe: "
@@ -554,6 +585,11 @@ constexpr std::array kOpenPbrChoices = {
     Option<&OpenPbrOptions::film_outside>(
         "film_outside", kFilmOutsides,
         "What lies above a film. coat: the coat, where there is one. air: air, always."),
+    Option<&OpenPbrOptions::emission_through>(
+        "emission_through", kEmissionsThrough,
+        "What the coat leaves of emission. coat_path: one crossing of its medium. coat_color: "
+        "coat_color. base_factors: one crossing, less what coat and fuzz reflect, and the coat's "
+        "darkening. materialx: coat_color (1 - F0) (1 - (1 - n.v)^5)."),
     Option<&OpenPbrOptions::base_weight_in_rho>(
         "base_weight_in_rho", kYesNo,
         "Whether base_weight multiplies the colour before light bounces between rough facets."),
@@ -739,7 +775,8 @@ constexpr std::array<MaterialModel, 11> kModels = {{
      Make<DielectricMaterial>, Holds<DielectricMaterial>, kDielectricParameters, kDielectricChoices,
      kDielectricMaps, kNormalMaps, kRoughnessAxis, "ior=1.1,1.33,1.5,1.8,2.4"},
     {"open_pbr",
-     "OpenPBR Surface 1.1.1: a coat over a mix of metal and glossy-diffuse dielectric; choices of "
+     "OpenPBR Surface 1.1.1 (or version 1.2's branch): a coat over a mix of metal and "
+     "glossy-diffuse dielectric; choices of "
      "implementations by name (rules)",
      Make<OpenPbrMaterial>, Holds<OpenPbrMaterial>, kOpenPbrParameters, kOpenPbrChoices,
      kOpenPbrMaps, kNormalMaps, "specular_roughness=0.1:0.9:5", "base_metalness=0:1:5"},
@@ -771,7 +808,8 @@ const MaterialModel* ModelOf(const Material& material) {
 Rgb EmissionOf(const Material& material) {
   const auto* const open_pbr = std::get_if<OpenPbrMaterial>(&material.model);
   if (open_pbr == nullptr) return material.emission;
-  return material.emission + open_pbr->emission_color * open_pbr->emission_luminance;
+  const double luminance = open_pbr->emission_weight * open_pbr->emission_luminance;
+  return material.emission + open_pbr->emission_color * luminance;
 }
 
 std::vector<TextureId> TexturesOf(const Material& material) {

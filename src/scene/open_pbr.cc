@@ -19,7 +19,8 @@ OpenPbrOptions OptionsOf(OpenPbrRules rules) {
               .compensation = Compensation::kTurquin,
               .film = ThinFilmForm::kBelcourBarla,
               .film_metal = FilmMetal::kRealIndex,
-              .film_outside = FilmOutside::kAir};
+              .film_outside = FilmOutside::kAir,
+              .emission_through = EmissionThrough::kMaterialX};
     case OpenPbrRules::kAdobe:
       return {.coat_fresnel = CoatFresnel::kIndexLerp,
               .coat_roughening = CoatRoughening::kAdobe,
@@ -30,10 +31,18 @@ OpenPbrOptions OptionsOf(OpenPbrRules rules) {
               .alpha_max = AlphaLimit::kNone,
               .film = ThinFilmForm::kLines,
               .film_metal = FilmMetal::kGulbrandsenTint,
+              .emission_through = EmissionThrough::kBaseFactors,
               .film_fade_nm = 30,
               .base_weight_in_rho = true};
   }
   return {};
+}
+
+OpenPbrMaterial DefaultsOf(OpenPbrVersion version) {
+  if (version == OpenPbrVersion::k11) return {};
+  return {.options = OptionsOf(OpenPbrRules::kSpec12),
+          .emission_weight = 0,
+          .emission_luminance = 1000};
 }
 
 }  // namespace nacre

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene/open_pbr.h: OpenPBR Surface of the Academy Software Foundation, version 1.1.1: its
-// parameters by their own names, and what its text leaves to implementers as options with names.
+// scene/open_pbr.h: OpenPBR Surface of the Academy Software Foundation, version 1.1.1, and what the
+// branch of version 1.2 adds: its parameters by their own names, and what its text leaves to
+// implementers as options with names.
 //
 // The specification describes a slab of materials and calls every approximation of it conforming.
 // Implementations differ by factors. Each open choice is therefore an option here, and a set of
@@ -85,10 +86,25 @@ enum class FilmMetal : uint8_t {
   kRealIndex,        // real, of F0 alone
 };
 
+// What a coat does to the reflectance of a metal below it.
+enum class CoatMetal : uint8_t {
+  kUnchanged,
+  kGulbrandsen,  // F0 is that of the metal's index, as film_metal has it, over the coat's
+};
+
 // What lies above a film.
 enum class FilmOutside : uint8_t {
   kCoat,  // the coat where it covers the base
   kAir,
+};
+
+// What coat and fuzz leave of the emission below them [Emission]. C is the coat's weight.
+enum class EmissionThrough : uint8_t {
+  kCoatPath,     // lerp(1, one crossing of the coat's medium, C)
+  kCoatColor,    // lerp(1, coat_color, C): two crossings
+  kBaseFactors,  // the factors of the base on the side of the viewer: one crossing, what coat and
+                 // fuzz do not reflect, and the coat's darkening
+  kMaterialX,    // lerp(1, coat_color (1 - F0) (1 - (1 - n.v)^5), C)
 };
 
 // The options that the text leaves open, each with what rules kSpec11 choose.
@@ -107,12 +123,20 @@ struct OpenPbrOptions {
   ThinFilmForm film = ThinFilmForm::kSpectral;  // not kGltf
   FilmMetal film_metal = FilmMetal::kGulbrandsenF82;
   FilmOutside film_outside = FilmOutside::kCoat;
+  CoatMetal coat_metal = CoatMetal::kUnchanged;
+  EmissionThrough emission_through = EmissionThrough::kCoatPath;
   double film_fade_nm = 0;  // thinner films fade to none (ThinFilmShare)
   bool base_weight_in_rho = false;
 };
 
 // The options of a set of rules.
 OpenPbrOptions OptionsOf(OpenPbrRules rules);
+
+// The version whose text gives rules and defaults.
+enum class OpenPbrVersion : uint8_t {
+  k11,  // 1.1.1
+  k12,  // the branch of 1.2: other rules, and emission by emission_weight
+};
 
 // The parameters, by the names, units and defaults of the specification. A fuzz lies over a coat,
 // over a base that is a mix of metal and dielectric, the latter with a diffuse inside.
@@ -127,7 +151,12 @@ struct OpenPbrMaterial {
   double specular_roughness = 0.3;           // in [0, 1]
   double specular_roughness_anisotropy = 0;  // in [0, 1]
   double specular_ior = 1.5;
-  double coat_weight = 0;  // in [0, 1]
+  // Version 1.2: a share of the lobe that is wider, how much wider, and the share that is reflected
+  // back to where the light comes from. Kept, and noted when a picture is made, but not rendered.
+  double specular_haze = 0;               // in [0, 1]
+  double specular_haze_spread = 0.3;      // in [0, 1]
+  double specular_retroreflectivity = 0;  // in [0, 1]
+  double coat_weight = 0;                 // in [0, 1]
   // The transmittance of the coat there and back at normal incidence, each in [0, 1].
   Rgb coat_color{1, 1, 1};
   double coat_roughness = 0;             // in [0, 1]
@@ -155,8 +184,10 @@ struct OpenPbrMaterial {
   double thin_film_weight = 0;       // in [0, 1]
   double thin_film_thickness = 0.5;  // in micrometres
   double thin_film_ior = 1.4;
+  // The radiance is the product of the three. The weight is of version 1.2.
+  double emission_weight = 1;     // in [0, 1]
   double emission_luminance = 0;  // >= 0, in the scene's unit of radiance
-  Rgb emission_color{1, 1, 1};    // each in [0, 1]
+  Rgb emission_color{1, 1, 1};    // each >= 0
   // The angles by which the tangents of base and coat are turned about the normal, towards the
   // bitangent: geometry_tangent and geometry_coat_tangent.
   double geometry_tangent_deg = 0, geometry_coat_tangent_deg = 0;
@@ -167,5 +198,8 @@ struct OpenPbrMaterial {
   TextureId fuzz_color_map{};
   TextureId fuzz_roughness_map{};
 };
+
+// The defaults of a version.
+OpenPbrMaterial DefaultsOf(OpenPbrVersion version);
 
 }  // namespace nacre

@@ -160,6 +160,11 @@ void ValidateMaterial(const Scene& scene, size_t index, FaultList* faults) {
   }
   CheckAnisotropy(scene, index, faults);
   if (const auto* open_pbr = std::get_if<OpenPbrMaterial>(&material.model)) {
+    if (!(LargestChannel(EmissionOf(material)) <= limits::kRadiance.max)) {
+      faults->Add(MaterialPlace(scene, index) + "/emission_color",
+                  fmt::format("times emission_luminance it is above {:g}", limits::kRadiance.max),
+                  "give a smaller luminance");
+    }
     const OpenPbrOptions& options = open_pbr->options;
     if (options.layering == Layering::kReciprocal &&
         options.compensation == Compensation::kTurquin) {

@@ -116,9 +116,13 @@ void ReadTwoNumbers(const JsonValue& value, const Range& range, std::string_view
 
 bool ReadChoice(const JsonValue& value, std::string_view kind,
                 std::span<const std::string_view> names, size_t* out) {
-  std::string word;
-  if (!ReadText(value, &word)) return false;
-  const auto found = std::find(names.begin(), names.end(), word);
+  // A number stands for its text, such as a version's.
+  std::string word = value.json.is_number() ? value.json.dump() : "";
+  auto found = std::find(names.begin(), names.end(), word);
+  if (found == names.end()) {
+    if (!ReadText(value, &word)) return false;
+    found = std::find(names.begin(), names.end(), word);
+  }
   if (found == names.end()) {
     FaultUnknownName(value, kind, word, {names.begin(), names.end()});
     return false;

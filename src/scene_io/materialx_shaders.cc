@@ -31,7 +31,7 @@ struct ShaderInput {
 
 constexpr Rgb Grey(double number) { return {number, number, number}; }
 
-// open_pbr_surface 1.1.1.
+// open_pbr_surface 1.1.1, and what the branch of 1.2 adds.
 const std::array kOpenPbrInputs = std::to_array<ShaderInput>({
     {"base_weight", 1, Grey(1)},
     {"base_color", 3, Grey(0.8)},
@@ -42,6 +42,9 @@ const std::array kOpenPbrInputs = std::to_array<ShaderInput>({
     {"specular_roughness", 1, Grey(0.3)},
     {"specular_ior", 1, Grey(1.5)},
     {"specular_roughness_anisotropy", 1},
+    {"specular_haze", 1},
+    {"specular_haze_spread", 1, Grey(0.3)},
+    {"specular_retroreflectivity", 1},
     {"transmission_weight", 1},
     {"transmission_color", 3, Grey(1)},
     {"transmission_depth", 1},
@@ -66,6 +69,7 @@ const std::array kOpenPbrInputs = std::to_array<ShaderInput>({
     {"thin_film_weight", 1},
     {"thin_film_thickness", 1, Grey(0.5)},
     {"thin_film_ior", 1, Grey(1.4)},
+    {"emission_weight", 1},
     {"emission_luminance", 1},
     {"emission_color", 3, Grey(1)},
     {"geometry_opacity", 1, Grey(1)},
@@ -75,6 +79,10 @@ const std::array kOpenPbrInputs = std::to_array<ShaderInput>({
     {"geometry_tangent", 0},
     {"geometry_coat_tangent", 0},
 });
+
+// The inputs of it that only version 1.2 has.
+constexpr std::array<std::string_view, 4> kOpenPbr12Names = {
+    "specular_haze", "specular_haze_spread", "specular_retroreflectivity", "emission_weight"};
 
 // standard_surface 1.0.1.
 const std::array kStandardInputs = std::to_array<ShaderInput>({
@@ -278,10 +286,11 @@ class ShaderConverter {
     return Followed(input, Get(input), DefaultOf(FindInput(input)));
   }
 
-  void PutEmission(std::string_view color, std::string_view strength) {
-    if (!HasWeight(Get(color)) || !HasWeight(Get(strength))) return;
-    Put("emission", color, Multiply(GetFollowed(color), GetFollowed(strength)),
-        MaterialXColor(Rgb(0)));
+  void PutEmission(std::string_view color, std::string_view strength,
+                   const Value& weight = MaterialXNumber(1)) {
+    if (!HasWeight(Get(color)) || !HasWeight(Get(strength)) || !HasWeight(weight)) return;
+    const Value whole = Multiply(GetFollowed(color), GetFollowed(strength));
+    Put("emission", color, Multiply(whole, weight), MaterialXColor(Rgb(0)));
   }
 
   void PutNumbers(const MaterialParameter& row, std::string_view input, const Rgb& given) {
@@ -479,8 +488,17 @@ class ShaderConverter {
     if (!has_own && has_base) Note(normal, "the coat has these normals, too");
   }
 
+  // Whether an open_pbr_surface is of version 1.2, by what it says or by its inputs.
+  bool IsOpenPbr12() const {
+    if (element().Attribute("version") == "1.2") return true;
+    return std::ranges::any_of(
+        kOpenPbr12Names, [&](std::string_view name) { return graph_.HasInput(shader_, name); });
+  }
+
   void FromOpenPbr() {
     Begin("open_pbr");
+    const bool is_12 = IsOpenPbr12();
+    if (is_12) result_.material["version"] = "1.2";
     PutBase({.weight = Get("base_weight"),
              .color = Get("base_color"),
              .metalness = Get("base_metalness"),
@@ -499,7 +517,12 @@ class ShaderConverter {
           "fuzz_weight", "fuzz_color", "fuzz_roughness"}) {
       Put(name, name, Get(name));
     }
-    PutEmission("emission_color", "emission_luminance");
+    PutEmission("emission_color", "emission_luminance",
+                is_12 ? GetFollowed("emission_weight") : MaterialXNumber(1));
+    for (const char* const name :
+         {"specular_haze", "specular_haze_spread", "specular_retroreflectivity"}) {
+      Put(name, name, Get(name));
+    }
     PutOpacity("geometry_opacity", Get("geometry_opacity"));
     PutNormal("normal_map", "geometry_normal");
     TellCoatNormal("geometry_coat_normal", "geometry_normal", Get("coat_weight"));

@@ -325,6 +325,13 @@ Rgb TransmittedAt(const MaterialHits& at, size_t k, size_t i, double n_dot_l) {
          Rgb(VectorAt(coat.along_light, i)) * CrossingOfLight(TransmissionAt(at, k, i), n_dot_l);
 }
 
+Rgb EmittedThroughCoat(const MaterialHits& at, size_t k, size_t i) {
+  const CoatHits& coat = at.coats[k];
+  const Rgb albedo = Rgb(1) - Rgb(VectorAt(coat.surface.transmittance, i));
+  return EmittedThroughCoat(at.material.emission_through, TransmissionAt(at, k, i), albedo,
+                            NDotV(coat.surface, i));
+}
+
 void CopyToCoat(const HitBatch& hits, const Surface& surface, CoatHits* coat) {
   const size_t padded = RoundUp(hits.count, kBatchPadding);
   HitBatch& to = coat->hits;

@@ -70,6 +70,9 @@ void PrepareBsdf(const ShadingMaterial& material, size_t begin, size_t end, HitP
 // direction whose cosine with the coat's normal is n_dot_l. PrepareBsdf must have run.
 Rgb TransmittedAt(const MaterialHits& at, size_t k, size_t i, double n_dot_l);
 
+// The factor of coat k on what the material emits, at hit i. PrepareBsdf must have run.
+Rgb EmittedThroughCoat(const MaterialHits& at, size_t k, size_t i);
+
 // Sets the light's irradiance to 0 at hits of a normal-mapped batch (Surface::normal_mapped) where
 // no lobe faces the light (normal_map_kernel.cc).
 void HideUnreflectedLight(const MaterialHits& at, LightBatch* light);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shading/coat_transmission.h"
 
+#include <cmath>
+
 #include "brdf/fresnel.h"
 #include "brdf/open_pbr.h"
 
@@ -59,6 +61,30 @@ CoatFactors FactorsOf(const CoatTransmission& coat, const Rgb& albedo, double n_
       break;
   }
   return {Rgb(0), left * crossing * darkened};
+}
+
+Rgb EmittedThroughCoat(EmissionThrough rule, const CoatTransmission& coat, const Rgb& albedo,
+                       double n_dot_v) {
+  const Rgb medium = Crossing(coat, n_dot_v);
+  // The medium of kLerpThenExponent has the coat's weight in it.
+  const Rgb crossing =
+      coat.partial == CoatPartial::kLerpThenExponent ? medium : Lerp(Rgb(1), medium, coat.weight);
+  switch (rule) {
+    case EmissionThrough::kCoatPath:
+      return crossing;
+    case EmissionThrough::kCoatColor:
+      return Lerp(Rgb(1), coat.color, coat.weight);
+    case EmissionThrough::kMaterialX: {
+      const double left = (1 - FresnelF0(coat.eta, 0.0)) * (1 - std::pow(1 - n_dot_v, 5));
+      return Lerp(Rgb(1), coat.color * left, coat.weight);
+    }
+    case EmissionThrough::kBaseFactors:
+      break;
+  }
+  const bool darkens = coat.darkening > 0;
+  const double amount = coat.weight * coat.darkening;
+  const Rgb darkened = darkens ? Lerp(Rgb(1), DarkeningOf(coat, n_dot_v), amount) : Rgb(1);
+  return (Rgb(1) - albedo) * crossing * darkened;
 }
 
 Rgb CrossingOfLight(const CoatTransmission& coat, double n_dot_l) {

@@ -52,4 +52,8 @@ inline Rgb TransmittedByCoat(const CoatTransmission& coat, const Rgb& albedo, do
   return factors.constant + factors.along_light * CrossingOfLight(coat, n_dot_l);
 }
 
+// The factor on what is emitted below the coat, seen from n.v. `albedo` as in FactorsOf.
+Rgb EmittedThroughCoat(EmissionThrough rule, const CoatTransmission& coat, const Rgb& albedo,
+                       double n_dot_v);
+
 }  // namespace nacre

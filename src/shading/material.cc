@@ -350,7 +350,11 @@ MicrofacetModel MakeModel(const OpenPbrMaterial& material) {
   const auto of_channel = [&](int c) {
     const OpenPbrChannel at{material.base_color[c], material.base_metalness,
                             material.subsurface_color[c], tint[c], LargestChannel(tint)};
-    return BelowFilm(model, DeriveOpenPbr(material, at, f0), c);
+    const MicrofacetColors colors = DeriveOpenPbr(material, at, f0);
+    return BelowFilm(
+        model,
+        ChangesMetal(material) ? WithMetalBelowCoat(material, at.specular_color, colors) : colors,
+        c);
   };
   if (model.compensation == Compensation::kKullaConty && !model.film) {
     model.dielectric_f_average = Rgb(AverageDielectric(model.dielectric));
@@ -444,6 +448,7 @@ ShadingMaterial PrepareUncoated(const Material& material) {
           },
           [&](const OpenPbrMaterial& open_pbr) {
             prepared.model = MakeModel(open_pbr);
+            prepared.emission_through = open_pbr.options.emission_through;
             const Rgb color = DiffuseColor(open_pbr);
             take_shown([&](int c) { return DeriveShown(color[c]); });
           },
@@ -506,11 +511,12 @@ ShadingMaterial PrepareMaterial(const Material& material, bool in_ambient) {
     throw Error(ExitCode::kInternal, "material \"" + material.name + "\"",
                 "too many coats or layers");
   }
-  // The ambient light that coats and layers reflect, and the emission that coats transmit, depend
-  // on the view direction of the hit.
+  // The ambient light that coats and layers reflect, and the emission that they transmit, depend on
+  // the view direction of the hit.
   const bool coated = !prepared.coats.empty();
   const bool hides_emission =
-      coated || std::any_of(prepared.layers.begin(), prepared.layers.end(), LiesOverCoats);
+      coated || (prepared.emission_through == EmissionThrough::kBaseFactors &&
+                 std::any_of(prepared.layers.begin(), prepared.layers.end(), LiesOverCoats));
   if (((coated || !prepared.layers.empty()) && in_ambient) ||
       (hides_emission && !IsBlack(prepared.emission))) {
     prepared.by_hit.parameters = true;

@@ -31,6 +31,7 @@ struct VariesByHit {
 struct ShadingMaterial {
   Rgb of_ambient{0, 0, 0};  // the fraction of ambient light that is reflected
   Rgb emission{0, 0, 0};
+  EmissionThrough emission_through = EmissionThrough::kBaseFactors;  // coats and fuzz above
   // For the albedo output layer: diffuse reflectance, or base colour, or F0 of a conductor.
   Rgb albedo{0, 0, 0};
   VariesByHit by_hit;

@@ -9,6 +9,7 @@
 #include "shading/derive.h"
 #include "shading/hit_parameters.h"
 #include "shading/material.h"
+#include "shading/open_pbr.h"
 
 namespace nacre {
 
@@ -72,12 +73,15 @@ struct OpenPbrHits {
         specular_blue(NumbersOf(t, MappedNumber::kSpecularColor, 2)),
         subsurface_color(of.subsurface_color[c]),
         f0(model.dielectric_f0[c]),
-        average(model.dielectric_f_average[c]) {}
+        average(model.dielectric_f_average[c]),
+        changes_metal(ChangesMetal(of)) {}
 
   NACRE_DERIVE MicrofacetColors Colors(size_t i) const {
     const double largest = std::max(std::max(specular_red[i], specular_green[i]), specular_blue[i]);
-    return DeriveOpenPbr(
-        material, {base_color[i], metalness[i], subsurface_color, specular_color[i], largest}, f0);
+    const OpenPbrChannel at{base_color[i], metalness[i], subsurface_color, specular_color[i],
+                            largest};
+    const MicrofacetColors colors = DeriveOpenPbr(material, at, f0);
+    return changes_metal ? WithMetalBelowCoat(material, at.specular_color, colors) : colors;
   }
   NACRE_DERIVE CurveAverages Averages(const MicrofacetColors& at) const {
     return {average, DeriveAverages(at).metal};
@@ -87,6 +91,7 @@ struct OpenPbrHits {
   const double *base_color, *metalness, *specular_color;
   const double *specular_red, *specular_green, *specular_blue;
   double subsurface_color, f0, average;
+  bool changes_metal;
 };
 
 // The same under a thin film, whose curves are the same at all hits.

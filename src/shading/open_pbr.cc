@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "brdf/open_pbr.h"
-#include "shading/derive.h"
 
 namespace nacre {
 namespace {
@@ -134,6 +133,33 @@ Rgb DiffuseColor(const OpenPbrMaterial& m) {
 
 double RelativeIndexBelow(const OpenPbrMaterial& material, double above) {
   return WeightedIndex(material.specular_ior / above, IndexWeight(material));
+}
+
+Substrate MetalBelow(FilmMetal rule, double f0, double tint) {
+  switch (rule) {
+    case FilmMetal::kGulbrandsenTint:
+      return GulbrandsenIndex(f0, tint, 0.99);
+    case FilmMetal::kRealIndex:
+      return RealIndex(f0);
+    case FilmMetal::kGulbrandsenF82:
+      break;
+  }
+  const double seventh = 1.0 / 7;
+  return GulbrandsenIndex(f0, FresnelF82(seventh, 1 - seventh, f0, F82SlopeFromTint(f0, tint)));
+}
+
+bool ChangesMetal(const OpenPbrMaterial& material) {
+  return material.options.coat_metal == CoatMetal::kGulbrandsen && material.coat_weight > 0;
+}
+
+MicrofacetColors WithMetalBelowCoat(const OpenPbrMaterial& material, double specular_color,
+                                    MicrofacetColors at) {
+  const Substrate metal = MetalBelow(material.options.film_metal, at.metal_f0, specular_color);
+  const double coat = material.coat_ior;
+  at.metal_f0 =
+      Lerp(at.metal_f0, FresnelF0(metal.eta / coat, metal.k / coat), material.coat_weight);
+  at.f82_slope = F82SlopeFromTint(at.metal_f0, specular_color);
+  return at;
 }
 
 CoatedDielectric<double> DielectricOf(const OpenPbrMaterial& material) {

@@ -4,8 +4,10 @@
 #pragma once
 
 #include "brdf/fresnel.h"
+#include "brdf/thin_film.h"
 #include "scene/open_pbr.h"
 #include "shading/coat_transmission.h"
+#include "shading/derive.h"
 
 namespace nacre {
 
@@ -25,6 +27,15 @@ Rgb DiffuseColor(const OpenPbrMaterial& material);
 
 // The index of the dielectric base over that of what lies above it, by the weight's rule.
 double RelativeIndexBelow(const OpenPbrMaterial& material, double above);
+
+// The index of a metal, seen from vacuum, of which F0 and the factor on the reflectance at 81.8
+// degrees are given.
+Substrate MetalBelow(FilmMetal rule, double f0, double tint);
+
+// Whether the coat changes the metal's F0; and a channel with the F0 that it has then.
+bool ChangesMetal(const OpenPbrMaterial& material);
+MicrofacetColors WithMetalBelowCoat(const OpenPbrMaterial& material, double specular_color,
+                                    MicrofacetColors at);
 
 // Fresnel's curve of the dielectric base, as seen through its coat.
 CoatedDielectric<double> DielectricOf(const OpenPbrMaterial& material);

@@ -86,21 +86,6 @@ ThinFilmOptions FilmOptionsOf(ThinFilmForm form) {
   return options;
 }
 
-// The index of a metal, seen from vacuum, of which F0 and the factor on the reflectance at 81.8
-// degrees are given.
-Substrate MetalBelow(FilmMetal rule, double f0, double tint) {
-  switch (rule) {
-    case FilmMetal::kGulbrandsenTint:
-      return GulbrandsenIndex(f0, tint, 0.99);
-    case FilmMetal::kRealIndex:
-      return RealIndex(f0);
-    case FilmMetal::kGulbrandsenF82:
-      break;
-  }
-  const double seventh = 1.0 / 7;
-  return GulbrandsenIndex(f0, FresnelF82(seventh, 1 - seventh, f0, F82SlopeFromTint(f0, tint)));
-}
-
 // What lies above the film, and the cosine there of light that comes from the air at a cosine.
 struct Outside {
   double index;

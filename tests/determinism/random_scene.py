@@ -315,11 +315,16 @@ class SceneMaker:
             material.update(coat_weight=r.choice((1, 1, 0.5)), coat_color=self.color(),
                             coat_roughness_anisotropy=r.choice((0, 0, 0.9)),
                             coat_ior=r.choice((1, 1.3, 1.6, 2)),
+                            coat_metal=r.choice(('unchanged', 'unchanged', 'gulbrandsen')),
                             coat_roughness=r.choice(roughness))
         if r.random() < 0.3:
             material.update(fuzz_weight=r.random(), fuzz_color=self.color(),
                             fuzz_roughness=r.choice((0, 0.1, 0.4, 1)))
             self.maybe_map(material, fuzz_color_map='colors', fuzz_roughness_map='grey')
+        if r.random() < 0.2:
+            material.update(emission_luminance=r.choice((0.1, 1, 10)), emission_color=self.color(),
+                            emission_through=r.choice(('coat_path', 'coat_color', 'base_factors',
+                                                       'materialx')))
         if r.random() < 0.3:
             material.update(thin_film_weight=r.choice((1, 1, 0.5)),
                             thin_film_thickness=r.choice((0, 0.2, 0.5, 2)),

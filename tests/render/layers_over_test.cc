@@ -217,6 +217,26 @@ TEST_CASE("a coat dims what a material emits, by what it reflects") {
   CHECK(std::abs(image.Find("B")->samples[middle] / (1 * left) - 1) < 1e-4);
 }
 
+TEST_CASE("emission passes OpenPBR's coat as emission_through says") {
+  OpenPbrMaterial model{.base_color = Rgb(0), .coat_weight = 1, .coat_color = Rgb(0.25, 0.81, 1)};
+  model.fuzz_weight = 1;  // no matter by the text
+  model.emission_luminance = 2;
+  const size_t middle = static_cast<size_t>(32 * 64 + 32);
+  const auto emitted = [&](const char* channel) {
+    const Scene scene = OrthographicSphere(model, 1);
+    return RenderImage(scene, {}).Find(channel)->samples[middle] / 2;
+  };
+  // The pixel's centre is half a pixel from the middle: n.v is 1 - 3e-4 there, which makes the path
+  // in the coat 1.2e-4 longer.
+  CHECK(std::abs(emitted("R") - 0.5) < 1e-4);
+  CHECK(std::abs(emitted("G") - 0.9) < 1e-4);
+  CHECK(std::abs(emitted("B") - 1) < 1e-6);
+  model.options.emission_through = EmissionThrough::kCoatColor;
+  CHECK(std::abs(emitted("R") - 0.25) < 1e-6);
+  model.options.emission_through = EmissionThrough::kBaseFactors;
+  CHECK(emitted("B") < 0.95);  // coat and fuzz reflect
+}
+
 TEST_CASE("OpenPBR's emission is the common one in two numbers, below its coat and times the map") {
   OpenPbrMaterial model{.coat_weight = 1, .coat_roughness = 0.3};
   Scene common = TexturedSpheres(Material{.emission = Rgb(3, 1.5, 0.75), .model = model});

@@ -515,6 +515,24 @@ TEST_CASE("open_pbr_surface is open_pbr, with what it has not told") {
   }
 }
 
+TEST_CASE("MaterialX: an open_pbr_surface of version 1.2 has emission by weight") {
+  const std::string emission = MtlxIn("emission_luminance", "float", "100");
+  CHECK_FALSE(ReadMtlx(OneMtlx("open_pbr_surface", emission)).material.contains("version"));
+  const MaterialXMaterial half =
+      ReadMtlx(OneMtlx("open_pbr_surface", emission + MtlxIn("emission_weight", "float", "0.5") +
+                                               MtlxIn("specular_haze", "float", "0.25")));
+  CHECK(half.notes.empty());
+  CHECK(half.material["version"] == "1.2");
+  CHECK(half.material["specular_haze"] == 0.25);
+  CheckMtlxColor(half.material["emission"], 50, 50, 50);
+  // By its attribute alone: no weight is 0.
+  std::string text = OneMtlx("open_pbr_surface", emission);
+  text.replace(text.find("<open_pbr_surface "), 18, "<open_pbr_surface version=\"1.2\" ");
+  const MaterialXMaterial none = ReadMtlx(text);
+  CHECK(none.material["version"] == "1.2");
+  CHECK_FALSE(none.material.contains("emission"));
+}
+
 TEST_CASE("subsurfaces and films are read, transmission is read and told") {
   const MaterialXMaterial wax = ReadMtlx(
       OneMtlx("open_pbr_surface", MtlxIn("base_weight", "float", "0.5") +

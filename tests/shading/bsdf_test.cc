@@ -180,6 +180,9 @@ void AddOpenPbr(std::vector<Stack>* stacks) {
     tinted.options.specular_tint_below = tint;
     Add("open_pbr, tint below " + std::to_string(static_cast<int>(tint)), tinted, stacks);
   }
+  OpenPbrMaterial changed{.base_metalness = 1, .coat_weight = 0.7};
+  changed.options.coat_metal = CoatMetal::kGulbrandsen;
+  Add("open_pbr, a coat that changes the metal", changed, stacks);
   OpenPbrMaterial smooth{.coat_weight = 1};
   smooth.specular_roughness = 0.5;
   smooth.coat_color = Rgb(0.9, 0.5, 0.2);
