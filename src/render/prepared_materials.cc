@@ -20,15 +20,10 @@ constexpr double kPrintedGain = 1.005;  // less would be printed as 1.00
 // Whether what lies below the material's film, if it has one, has another reflectance at each hit.
 bool HasMapsBelowFilm(const Material& material, const ThinFilmLobe* film) {
   if (film == nullptr) return false;
-  const auto* const metallic = std::get_if<MetallicRoughnessMaterial>(&material.model);
-  if (metallic != nullptr && film->has_dielectric && metallic->specular_color_map.valid()) {
-    return true;
-  }
-  if (!film->has_metal) return false;
-  if (material.vertex_colors == VertexColors::kBase) return true;
-  if (metallic != nullptr) return metallic->base_color_map.valid();
-  const auto& open_pbr = std::get<OpenPbrMaterial>(material.model);
-  return open_pbr.base_color_map.valid() || open_pbr.specular_color_map.valid();
+  const auto* const open_pbr = std::get_if<OpenPbrMaterial>(&material.model);
+  if (open_pbr == nullptr || !film->has_metal) return false;
+  return material.vertex_colors == VertexColors::kBase || open_pbr->base_color_map.valid() ||
+         open_pbr->specular_color_map.valid();
 }
 
 MaterialTraits TraitsOf(const Material& material, const ShadingMaterial& prepared,

@@ -19,6 +19,8 @@ enum class MappedNumber : uint8_t {
   kSheenColor,      // fuzz_color
   kSheenRoughness,  // fuzz_roughness
   kEmission,
+  kFilm,           // iridescence
+  kFilmThickness,  // iridescence_thickness_nm
   kCount,
 };
 inline constexpr size_t kMappedNumbers = static_cast<size_t>(MappedNumber::kCount);

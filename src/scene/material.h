@@ -99,6 +99,10 @@ struct MetallicRoughnessMaterial {
   double iridescence_ior = 1.3;
   double iridescence_thickness_nm = 400;
   ThinFilmForm iridescence_model = ThinFilmForm::kGltf;
+  TextureId iridescence_map{};  // red multiplies iridescence
+  // Green interpolates between the minimum, where it is 0, and iridescence_thickness_nm.
+  TextureId iridescence_thickness_map{};
+  double iridescence_thickness_minimum_nm = 100;
   // The sheen of cloth (brdf/sheen.h), between the coat and the other layers, as
   // KHR_materials_sheen.
   Rgb sheen_color{0, 0, 0};    // each in [0, 1]; 0: none

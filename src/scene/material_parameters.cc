@@ -235,6 +235,9 @@ constexpr auto kMetallicRoughnessParameters = WithCommon(
                                                         "Index of refraction of the film."),
     Number<&MetallicRoughnessMaterial::iridescence_thickness_nm>(
         "iridescence_thickness_nm", limits::kFilmThicknessNm, "Thickness of the film in nm."),
+    Number<&MetallicRoughnessMaterial::iridescence_thickness_minimum_nm>(
+        "iridescence_thickness_minimum_nm", limits::kFilmThicknessNm,
+        "Thickness of the film where iridescence_thickness_map is 0. Without a map nothing."),
     Color<&MetallicRoughnessMaterial::sheen_color>(
         "sheen_color", limits::kUnit,
         "Colour of the sheen, the fuzz of velvet, which is bright at grazing angles (Estevez and "
@@ -638,6 +641,17 @@ constexpr std::array kPhongMaps = {
         "shininess_map", MapUse::kData, "Multiplies shininess.",
         Target<&PhongMaterial::shininess>(MappedNumber::kWidth, 0, limits::kExponent.max)),
     kEmissionMap, kOpacityMap};
+constexpr MapTarget kFilmThicknessTarget = {
+    MappedNumber::kFilmThickness,
+    false,
+    1,
+    [](const Material& material) {
+      return Rgb(std::get<MetallicRoughnessMaterial>(material.model).iridescence_thickness_nm);
+    },
+    limits::kFilmThicknessNm.max,
+    [](const Material& material) {
+      return std::get<MetallicRoughnessMaterial>(material.model).iridescence_thickness_minimum_nm;
+    }};
 constexpr std::array kMetallicRoughnessMaps = {
     BaseColorMap<MetallicRoughnessMaterial>(),
     Map<&MetallicRoughnessMaterial::metallic_roughness_map>(
@@ -659,6 +673,14 @@ constexpr std::array kMetallicRoughnessMaps = {
         Target<&MetallicRoughnessMaterial::dielectric_f0>(MappedNumber::kSpecularColor)),
     kEmissionMap,
     kOpacityMap,
+    Map<&MetallicRoughnessMaterial::iridescence_map>(
+        "iridescence_map", MapUse::kData, "Its first channel multiplies iridescence.",
+        Target<&MetallicRoughnessMaterial::iridescence>(MappedNumber::kFilm)),
+    Map<&MetallicRoughnessMaterial::iridescence_thickness_map>(
+        "iridescence_thickness_map", MapUse::kTwoData,
+        "Its green channel interpolates the thickness, from iridescence_thickness_minimum_nm to "
+        "iridescence_thickness_nm, as in glTF.",
+        kFilmThicknessTarget),
     Map<&MetallicRoughnessMaterial::coat_map>("coat_map", MapUse::kData,
                                               "Its first channel multiplies coat."),
     Map<&MetallicRoughnessMaterial::coat_roughness_map>(

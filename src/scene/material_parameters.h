@@ -56,6 +56,8 @@ struct MapTarget {
   int channel;  // of the texels, for a number; colours are multiplied channel by channel
   Rgb (*factor)(const Material&);  // what the map multiplies, as MaterialParameter::get
   double most;                     // products are clamped to [0, most]
+  // What the parameter is where the map is 0; null: 0. In between it is interpolated.
+  double (*least)(const Material&) = nullptr;
 };
 
 // A texture that multiplies parameters.

@@ -190,12 +190,10 @@ class MaterialMaker {
     result->iridescence = weight;
     result->iridescence_ior = index;
     result->iridescence_thickness_nm = most;
-    if (film->Has("iridescenceTexture")) {
-      document_.Warn("iridescence textures are left out: films cover what their factor says");
-    }
-    if (film->Has("iridescenceThicknessTexture")) {
-      document_.Warn("textures of the thickness of films are left out: it is their maximum");
-    }
+    result->iridescence_thickness_minimum_nm = least;
+    result->iridescence_map = Map(*film, "iridescenceTexture", TextureEncoding::kLinear);
+    result->iridescence_thickness_map =
+        Map(*film, "iridescenceThicknessTexture", TextureEncoding::kLinear);
   }
 
   // KHR_materials_clearcoat.

@@ -174,6 +174,15 @@ NACRE_DERIVE MicrofacetColors DeriveUnderFilm(MicrofacetColors at, double dielec
   return at;
 }
 
+// The colours where a film covers `share` of the surface, as Schlick's curves through its F0.
+NACRE_DERIVE MicrofacetColors DeriveFilmedAtHit(MicrofacetColors at, double share,
+                                                double dielectric_f0, double metal_f0) {
+  at.dielectric_f0 += (dielectric_f0 * at.dielectric_f90 - at.dielectric_f0) * share;
+  at.metal_f0 += (metal_f0 - at.metal_f0) * share;
+  at.f82_slope *= 1 - share;
+  return at;
+}
+
 // F90 of the mix, in a form that is exactly 1 for the default dielectric_f90 of 1.
 NACRE_DERIVE double MixedF90(double dielectric_f90, double metallic) {
   return 1 - (1 - dielectric_f90) * (1 - metallic);

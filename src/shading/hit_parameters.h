@@ -51,6 +51,8 @@ struct HitParameters {
   AlignedArray<double> one_average{kBatchCapacity}, schlick_average{kBatchCapacity};
   AlignedArray<double> phong_scale{kBatchCapacity};
   Soa3<double> dielectric_average;
+  // FilmAtHit, if MicrofacetModel::film_by_hit.
+  Soa3<double> film_dielectric, film_metal;
   AlignedArray<double> sharp_alpha{kBatchCapacity};  // LobeWidth::sharp_alpha
   // Of anisotropic hits with alphas each; made for the first of them, as it is large.
   std::vector<AnisotropicLobe> lobes;

@@ -10,7 +10,9 @@
 #include "shading/kernels.h"
 #include "shading/models_at_hit.h"
 #include "shading/open_pbr.h"
+#include "shading/surface.h"
 #include "shading/texture_kernels.h"
+#include "shading/thin_film.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/mapped_kernel.cc"
@@ -55,13 +57,15 @@ void StartNumbersT(const TexturedRun& run) {
 
 void MultiplyNumberT(const TexturedRun& run, const MapTarget& target) {
   const double most = target.most;
+  const double least = target.least == nullptr ? 0 : target.least(*run.material.scene_material);
   for (int c = 0; c < (target.is_color ? 3 : 1); ++c) {
     const float* HWY_RESTRICT const texels =
         ChannelOf(run.textures.texels, target.is_color ? c : target.channel).data();
     double* HWY_RESTRICT const values =
         ChannelOf(run.textures.numbers[static_cast<size_t>(target.number)], c).data();
     for (size_t i = run.begin; i < run.end; ++i) {
-      values[i] = std::min(std::max(values[i] * double{texels[i]}, 0.0), most);
+      const double value = least + (values[i] - least) * double{texels[i]};
+      values[i] = std::min(std::max(value, 0.0), most);
     }
   }
 }
@@ -289,6 +293,22 @@ void PutBase(const TexturedRun& run, const MicrofacetModel& model,
   }
 }
 
+// Stores what the films of hits make of F0, seen from the viewer.
+void PutFilms(const TexturedRun& run) {
+  HitParameters& t = run.textures;
+  const auto& material = std::get<MetallicRoughnessMaterial>(run.material.scene_material->model);
+  const double* const thickness = NumbersOf(t, MappedNumber::kFilmThickness);
+  for (size_t i = run.begin; i < run.end; ++i) {
+    const FilmedF0 filmed =
+        FilmAtHit(material, thickness[i], ColorOfHit(t, MappedNumber::kColor, i),
+                  ColorOfHit(t, MappedNumber::kSpecularColor, i), NDotV(run.surface, i));
+    for (int c = 0; c < 3; ++c) {
+      ChannelOf(t.film_dielectric, c)[i] = filmed.dielectric[c];
+      ChannelOf(t.film_metal, c)[i] = filmed.metal[c];
+    }
+  }
+}
+
 void Finish(const TexturedRun& run, const MicrofacetModel& model) {
   const Hits hits{run.begin, run.end};
   const auto to = ColumnsIn<MicrofacetConstants<float*>>(run.textures.constants);
@@ -300,6 +320,7 @@ void Finish(const TexturedRun& run, const MicrofacetModel& model) {
   }
   if (model.anisotropic && run.material.by_hit.width) PutLobes(run, model);
   PutWidths(run, model, to);
+  if (model.film_by_hit) PutFilms(run);
   if (model.prepared) PutAlbedos(run, model);
   for (int c = 0; c < 3; ++c) {
     VisitChannel(run.material, run.textures, c, [&](const auto& channel) {

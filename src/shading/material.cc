@@ -230,7 +230,8 @@ void CoupleBase(const Microfacet& material, MicrofacetModel* model) {
   PrepareBase(material, model);
 }
 
-MicrofacetModel MakeModel(const MetallicRoughnessMaterial& material) {
+// `base_by_hit`: whether base_color differs by hit by vertex colours.
+MicrofacetModel MakeModel(const MetallicRoughnessMaterial& material, bool base_by_hit) {
   MicrofacetModel model = MakeLobe(material);
   CoupleBase(material, &model);
   // The tint has no effect on a material that is not metallic.
@@ -238,7 +239,8 @@ MicrofacetModel MakeModel(const MetallicRoughnessMaterial& material) {
   const Rgb tint = tinted ? material.f82_tint : Rgb(1);
   model.fresnel = tinted ? FresnelForm::kF82 : FresnelForm::kSchlick;
   const bool maps_metallic = material.metallic_roughness_map.valid();
-  if (material.iridescence > 0) {
+  model.film_by_hit = FilmVaries(material, base_by_hit);
+  if (material.iridescence > 0 && !model.film_by_hit) {
     FilmUse use = FilmUseOf(material, model, material.roughness,
                             maps_metallic || material.anisotropy_map.valid());
     use.dielectric = material.metallic < 1 || maps_metallic;
@@ -430,7 +432,8 @@ ShadingMaterial PrepareUncoated(const Material& material) {
                 [&](int c) { return DerivePhongShown(phong.color[c], phong.kd[c], phong.ka[c]); });
           },
           [&](const MetallicRoughnessMaterial& metallic_roughness) {
-            prepared.model = MakeModel(metallic_roughness);
+            prepared.model =
+                MakeModel(metallic_roughness, material.vertex_colors == VertexColors::kBase);
             take_shown([&](int c) { return DeriveShown(metallic_roughness.base_color[c]); });
           },
           [&](const ConductorMaterial& conductor) {

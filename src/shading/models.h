@@ -149,10 +149,11 @@ struct MicrofacetModel : MicrofacetForm {
   Rgb dielectric_f_average{0, 0, 0}, metal_f_average{0, 0, 0};
   Rgb dielectric_f_multiple{0, 0, 0}, f_multiple{0, 0, 0};
   std::shared_ptr<const ThinFilmLobe> film;  // kThinFilm; else null
-  double multiple = 0;  // kKullaConty: 1 / (pi (1 - E_avg)); 0 where nothing is lost
-  double alpha;         // of the GGX lobe; of an anisotropic one the smaller
-  double schlick_k;     // SchlickK
-  bool delta;           // a perfect mirror, which punctual lights cannot show
+  bool film_by_hit = false;  // F0 is that of a film, which differs by hit (FilmAtHit)
+  double multiple = 0;       // kKullaConty: 1 / (pi (1 - E_avg)); 0 where nothing is lost
+  double alpha;              // of the GGX lobe; of an anisotropic one the smaller
+  double schlick_k;          // SchlickK
+  bool delta;                // a perfect mirror, which punctual lights cannot show
   bool double_terms;
   bool prepared = false;    // shading needs PrepareRun
   FresnelAlbedoFit albedo;  // the exact Fresnel curve is set if kDielectric or kOpenPbr

@@ -22,10 +22,17 @@ struct MetallicRoughnessHits {
         metallic(NumbersOf(t, MappedNumber::kMetallic)),
         dielectric_f0(NumbersOf(t, MappedNumber::kSpecularColor, c)),
         specular(NumbersOf(t, MappedNumber::kSpecular)),
-        tint(model.fresnel == FresnelForm::kF82 ? material.f82_tint[c] : 1) {}
+        tint(model.fresnel == FresnelForm::kF82 ? material.f82_tint[c] : 1),
+        is_filmed(model.film_by_hit),
+        film(NumbersOf(t, MappedNumber::kFilm)),
+        film_dielectric(ChannelOf(t.film_dielectric, c).data()),
+        film_metal(ChannelOf(t.film_metal, c).data()) {}
 
   NACRE_DERIVE MicrofacetColors Colors(size_t i) const {
-    return DeriveMetallicRoughness(base_color[i], metallic[i], dielectric_f0[i], specular[i], tint);
+    const MicrofacetColors at =
+        DeriveMetallicRoughness(base_color[i], metallic[i], dielectric_f0[i], specular[i], tint);
+    if (!is_filmed) return at;
+    return DeriveFilmedAtHit(at, film[i], film_dielectric[i], film_metal[i]);
   }
   NACRE_DERIVE CurveAverages Averages(const MicrofacetColors& at) const {
     return DeriveAverages(at);
@@ -33,6 +40,8 @@ struct MetallicRoughnessHits {
 
   const double *base_color, *metallic, *dielectric_f0, *specular;
   double tint;
+  bool is_filmed;
+  const double *film, *film_dielectric, *film_metal;
 };
 
 struct ConductorHits {

@@ -156,36 +156,82 @@ std::shared_ptr<const ThinFilmLobe> MakeThinFilmLobe(const OpenPbrMaterial& m, c
   return MakeFilmLobe(dielectric, metal, m.thin_film_ior, use);
 }
 
+namespace {
+
+// --- Metallic-roughness. ---
+
+// 1 - R under a film over what reflects `f0` at normal incidence, of the index `below`.
+FresnelCurve FilmOver(const MetallicRoughnessMaterial& m, double thickness_nm, const Rgb& f0,
+                      const RgbSubstrate& below) {
+  const ThinFilm film{1, m.iridescence_ior, thickness_nm};
+  if (m.iridescence_model == ThinFilmForm::kGltf) {
+    return {[=](double cosine) { return Rgb(1) - GltfIridescence(film, f0, cosine); }};
+  }
+  return ThinFilmCurve(film, below, FilmOptionsOf(m.iridescence_model));
+}
+
+RgbSubstrate DielectricsBelow(const Rgb& f0) {
+  return {RealIndex(f0.x), RealIndex(f0.y), RealIndex(f0.z)};
+}
+
+RgbSubstrate MetalsBelow(const MetallicRoughnessMaterial& m, const Rgb& f0) {
+  RgbSubstrate below;
+  for (int c = 0; c < 3; ++c) {
+    below[static_cast<size_t>(c)] = MetalBelow(FilmMetal::kGulbrandsenF82, f0[c], m.f82_tint[c]);
+  }
+  return below;
+}
+
+}  // namespace
+
 std::shared_ptr<const ThinFilmLobe> MakeThinFilmLobe(const MetallicRoughnessMaterial& m,
                                                      const FilmUse& use) {
   if (!(m.iridescence > 0)) return nullptr;
-  const ThinFilm film{1, m.iridescence_ior, m.iridescence_thickness_nm};
-  // A film over what reflects `f0` at normal incidence and by Schlick's curve, or by F82's,
-  // without.
-  const auto curve = [&](const Rgb& f0, const Rgb& slope, const auto& index_of) {
-    FresnelCurve with;
-    if (m.iridescence_model == ThinFilmForm::kGltf) {
-      with.loss = [=](double cosine) { return Rgb(1) - GltfIridescence(film, f0, cosine); };
-    } else {
-      RgbSubstrate below;
-      for (int c = 0; c < 3; ++c) below[static_cast<size_t>(c)] = index_of(c);
-      with = ThinFilmCurve(film, below, FilmOptionsOf(m.iridescence_model));
-    }
+  // With what reflects by Schlick's curve, or by F82's, where there is no film.
+  const auto curve = [&](const Rgb& f0, const Rgb& slope, const RgbSubstrate& below) {
+    const FresnelCurve with = FilmOver(m, m.iridescence_thickness_nm, f0, below);
     return Blend(with, m.iridescence, [=](double cosine) {
       return MakeRgb([&](int c) { return 1 - FresnelF82(cosine, 1 - cosine, f0[c], slope[c]); });
     });
   };
   const auto dielectric = [&] {
-    return curve(m.dielectric_f0, Rgb(0), [&](int c) { return RealIndex(m.dielectric_f0[c]); });
+    return curve(m.dielectric_f0, Rgb(0), DielectricsBelow(m.dielectric_f0));
   };
   const auto metal = [&] {
     const Rgb slope =
         MakeRgb([&](int c) { return F82SlopeFromTint(m.base_color[c], m.f82_tint[c]); });
-    return curve(m.base_color, slope, [&](int c) {
-      return MetalBelow(FilmMetal::kGulbrandsenF82, m.base_color[c], m.f82_tint[c]);
-    });
+    return curve(m.base_color, slope, MetalsBelow(m, m.base_color));
   };
   return MakeFilmLobe(dielectric, metal, m.iridescence_ior, use);
+}
+
+bool FilmVaries(const MetallicRoughnessMaterial& m, bool base_by_hit) {
+  if (!(m.iridescence > 0)) return false;
+  if (m.iridescence_map.valid() || m.iridescence_thickness_map.valid()) return true;
+  const bool maps_metallic = m.metallic_roughness_map.valid();
+  const bool has_metal = m.metallic > 0, has_dielectric = m.metallic < 1 || maps_metallic;
+  return (has_metal && (base_by_hit || m.base_color_map.valid())) ||
+         (has_dielectric && m.specular_color_map.valid());
+}
+
+FilmedF0 FilmAtHit(const MetallicRoughnessMaterial& m, double thickness_nm, const Rgb& base_color,
+                   const Rgb& dielectric_f0, double n_dot_v) {
+  const double grazing = std::pow(1 - n_dot_v, 5);
+  // Schlick's curve is 1 at grazing incidence whatever its F0, which is then of no account.
+  const auto f0_of = [&](const FresnelCurve& film) {
+    if (!(grazing < 1)) return Rgb(1);
+    const Rgb loss = film.loss(n_dot_v);
+    return MakeRgb([&](int c) { return 1 - std::clamp(loss[c] / (1 - grazing), 0.0, 1.0); });
+  };
+  FilmedF0 filmed{Rgb(0), Rgb(0)};
+  if (m.metallic < 1 || m.metallic_roughness_map.valid()) {
+    filmed.dielectric =
+        f0_of(FilmOver(m, thickness_nm, dielectric_f0, DielectricsBelow(dielectric_f0)));
+  }
+  if (m.metallic > 0) {
+    filmed.metal = f0_of(FilmOver(m, thickness_nm, base_color, MetalsBelow(m, base_color)));
+  }
+  return filmed;
 }
 
 }  // namespace nacre

@@ -25,4 +25,17 @@ std::shared_ptr<const ThinFilmLobe> MakeThinFilmLobe(const OpenPbrMaterial& mate
 std::shared_ptr<const ThinFilmLobe> MakeThinFilmLobe(const MetallicRoughnessMaterial& material,
                                                      const FilmUse& use);
 
+// Whether the film, or what lies below it, differs by hit. `base_by_hit`: base_color does, by the
+// colours of vertices.
+bool FilmVaries(const MetallicRoughnessMaterial& material, bool base_by_hit);
+
+// F0 of Schlick's curves that reflect at n.v what a film of that thickness does: over a dielectric,
+// and over the metal. A lobe is thus that of the film along the mirror direction, as in Khronos'
+// viewer, and coloured less than it should be where light and viewer are far from it.
+struct FilmedF0 {
+  Rgb dielectric, metal;
+};
+FilmedF0 FilmAtHit(const MetallicRoughnessMaterial& material, double thickness_nm,
+                   const Rgb& base_color, const Rgb& dielectric_f0, double n_dot_v);
+
 }  // namespace nacre

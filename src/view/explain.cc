@@ -361,9 +361,10 @@ Material MaterialAtHit(const Material& material, size_t index, const PixelWith& 
     const Rgb texel = LayerOf(pixel_with(index, white), "albedo");
     for (const MapTarget& target : TargetsOf(map)) {
       Rgb value = target.factor(at_hit);
+      const double least = target.least == nullptr ? 0 : target.least(material);
       for (int c = 0; c < 3; ++c) {
-        value[c] =
-            std::clamp(value[c] * texel[target.is_color ? c : target.channel], 0.0, target.most);
+        const double share = texel[target.is_color ? c : target.channel];
+        value[c] = std::clamp(least + (value[c] - least) * share, 0.0, target.most);
       }
       for (const MaterialParameter& parameter : model->parameters) {
         if (!IsParameterOf(parameter, target, material)) continue;

@@ -508,11 +508,22 @@ TEST_CASE("iridescence") {
   CHECK(refused("iridescenceIor", 0.5));
   CHECK(refused("iridescenceThicknessMinimum", -1));
   CHECK(refused("iridescenceThicknessMaximum", "thick"));
+  extension["iridescenceThicknessMinimum"] = 150;
   extension["iridescenceThicknessTexture"] = {{"index", 0}};
   std::vector<std::string> warnings;
-  LoadFile(file, &warnings);
-  REQUIRE(warnings.size() == 1);
-  CHECK(warnings[0].find("thickness") != std::string::npos);
+  MetallicRoughnessMaterial mapped = MaterialOf(LoadFile(file, &warnings));
+  CHECK(warnings.empty());
+  CHECK(mapped.iridescence_thickness_map.valid());
+  CHECK(!mapped.iridescence_map.valid());
+  CHECK(mapped.iridescence_thickness_minimum_nm == 150);
+  CHECK(mapped.iridescence_thickness_nm == 350);
+  extension["iridescenceTexture"] = {{"index", 0}};
+  mapped = MaterialOf(LoadFile(file, &warnings));
+  CHECK(mapped.iridescence_map.valid());
+  extension["iridescenceFactor"] = 0;  // no film, whatever its textures
+  mapped = MaterialOf(LoadFile(file, &warnings));
+  CHECK(!mapped.iridescence_map.valid());
+  CHECK(!mapped.iridescence_thickness_map.valid());
 }
 
 // One row of texels as a PNG file: 8 or 16 bits a channel, of a colour type of PNG (0 grey, 2 RGB,
