@@ -44,15 +44,12 @@ inline Vec3d SampleMicrofacet(const Vec3d& to_view, double alpha, double u0, dou
       .normalized();
 }
 
-// The light's direction after it met a microfacet, of which `cosine` is normal . to_view, both on
-// the side from which it came.
-inline Vec3d ReflectedAt(const Vec3d& normal, const Vec3d& to_view, double cosine) {
-  return normal * (2 * cosine) - to_view;
-}
+// The light's direction after it was refracted by a microfacet, of which `cosine` is
+// normal . to_view, both on the side from which it came.
 inline Vec3d RefractedAt(const Vec3d& normal, const Vec3d& to_view, double cosine, double eta) {
   const double cosine_beyond =
       std::sqrt(std::max(1 - (1 - cosine) * (1 + cosine) / (eta * eta), 0.0));
-  return normal * (cosine / eta - cosine_beyond) - to_view / eta;
+  return (normal * (cosine / eta - cosine_beyond) - to_view / eta).normalized();
 }
 
 struct MicrosurfaceExit {
@@ -65,28 +62,29 @@ struct MicrosurfaceExit {
 template <class Random>
 MicrosurfaceExit WalkDielectric(Vec3d direction, bool above, double eta, double alpha,
                                 Random& random) {
-  const bool is_smooth = IsDeltaLobe(alpha);
   // Seen from below, an interface is the same one upside down.
   const auto upright = [&](const Vec3d& v) { return above ? v : -v; };
-  double height = 1;
-  for (bool has_met = false;; has_met = true) {
-    const Vec3d to_view = upright(-direction);
-    if (is_smooth && has_met) return {direction, above};
-    if (!is_smooth) {
-      height = NextMicrofacet(-to_view.z, height, alpha, random());
-      if (height > 1) return {direction, above};
-    }
-    const double u0 = random(), u1 = random();
-    const Vec3d normal = is_smooth ? Vec3d(0, 0, 1) : SampleMicrofacet(to_view, alpha, u0, u1);
+  // Reflects or refracts the light at a microfacet.
+  const auto meet = [&](const Vec3d& to_view, const Vec3d& normal) {
     const double cosine = std::min(normal ^ to_view, 1.0);
     const double index = above ? eta : 1 / eta;
-    if (random() < FresnelDielectric(cosine, 1 - cosine, index)) {
-      direction = upright(ReflectedAt(normal, to_view, cosine));
-    } else {
-      direction = upright(RefractedAt(normal, to_view, cosine, index).normalized());
-      above = !above;
-      height = 1 - height;
-    }
+    const bool is_reflected = random() < FresnelDielectric(cosine, 1 - cosine, index);
+    direction = upright(is_reflected ? Mirrored(to_view, normal)
+                                     : RefractedAt(normal, to_view, cosine, index));
+    if (!is_reflected) above = !above;
+    return is_reflected;
+  };
+  if (IsDeltaLobe(alpha)) {
+    meet(upright(-direction), Vec3d(0, 0, 1));
+    return {direction, above};
+  }
+  double height = 1;
+  for (;;) {
+    const Vec3d to_view = upright(-direction);
+    height = NextMicrofacet(-to_view.z, height, alpha, random());
+    if (height > 1) return {direction, above};
+    const double u0 = random(), u1 = random();
+    if (!meet(to_view, SampleMicrofacet(to_view, alpha, u0, u1))) height = 1 - height;
   }
 }
 
@@ -95,20 +93,21 @@ MicrosurfaceExit WalkDielectric(Vec3d direction, bool above, double eta, double 
 template <class Random, class Reflectance, class Weight>
 Vec3d WalkOpaque(Vec3d direction, double alpha, const Reflectance& reflectance, Random& random,
                  Weight* weight) {
-  const bool is_smooth = IsDeltaLobe(alpha);
+  const auto meet = [&](const Vec3d& to_view, const Vec3d& normal) {
+    *weight *= reflectance(std::min(normal ^ to_view, 1.0));
+    direction = Mirrored(to_view, normal);
+  };
+  if (IsDeltaLobe(alpha)) {
+    meet(-direction, Vec3d(0, 0, 1));
+    return direction;
+  }
   double height = 1;
   for (;;) {
     const Vec3d to_view = -direction;
-    if (!is_smooth) {
-      height = NextMicrofacet(direction.z, height, alpha, random());
-      if (height > 1) return direction;
-    }
+    height = NextMicrofacet(direction.z, height, alpha, random());
+    if (height > 1) return direction;
     const double u0 = random(), u1 = random();
-    const Vec3d normal = is_smooth ? Vec3d(0, 0, 1) : SampleMicrofacet(to_view, alpha, u0, u1);
-    const double cosine = std::min(normal ^ to_view, 1.0);
-    *weight *= reflectance(cosine);
-    direction = ReflectedAt(normal, to_view, cosine);
-    if (is_smooth) return direction;
+    meet(to_view, SampleMicrofacet(to_view, alpha, u0, u1));
   }
 }
 

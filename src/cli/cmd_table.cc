@@ -106,18 +106,10 @@ bool WithAlbedo(const TableArguments& a, const std::vector<DirectionPair>& pairs
 
 // Non-finite values are written as they are, and told.
 void TellNotFinite(const BrdfTable& table) {
-  const auto is_finite = [](double value) { return std::isfinite(value); };
-  size_t rows = 0, first = 0;
-  for (size_t row = 0; row < table.rows(); ++row) {
-    const auto values =
-        std::span(table.values).subspan(row * table.columns.size(), table.columns.size());
-    if (std::ranges::all_of(values, is_finite)) continue;
-    if (rows == 0) first = row + 1;
-    ++rows;
-  }
-  if (rows == 0) return;
-  PrintError("warning: {} of {} rows hold values that are not finite, the first is row {}\n", rows,
-             table.rows(), first);
+  const std::vector<size_t> rows = RowsNotFinite(table);
+  if (rows.empty()) return;
+  PrintError("warning: {} of {} rows hold values that are not finite, the first is row {}\n",
+             rows.size(), table.rows(), rows.front() + 1);
 }
 
 void WriteTables(const TableArguments& a) {

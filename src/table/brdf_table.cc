@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "table/brdf_table.h"
 
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "base/version.h"
@@ -179,6 +184,17 @@ BrdfTable TabulateBrdf(const Material& material, std::span<const DirectionPair> 
     AddRgb(v.z > 0 ? albedos.At(v) : Rgb(0), &table.values);
   }
   return table;
+}
+
+std::vector<size_t> RowsNotFinite(const BrdfTable& table) {
+  const auto is_finite = [](double value) { return std::isfinite(value); };
+  std::vector<size_t> rows;
+  for (size_t row = 0; row < table.rows(); ++row) {
+    const size_t columns = table.columns.size();
+    const auto values = std::span(table.values).subspan(row * columns, columns);
+    if (!std::ranges::all_of(values, is_finite)) rows.push_back(row);
+  }
+  return rows;
 }
 
 BrdfTable TabulateDirections(std::span<const DirectionPair> pairs) {

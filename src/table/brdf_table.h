@@ -27,6 +27,9 @@ struct BrdfTable {
   double At(size_t row, size_t column) const { return values[row * columns.size() + column]; }
 };
 
+// The rows that hold a value that is not finite.
+std::vector<size_t> RowsNotFinite(const BrdfTable& table);
+
 struct TableOptions {
   // The columns albedo_r, albedo_g and albedo_b: quadratures of some milliseconds to some hundred
   // for each different n.v.

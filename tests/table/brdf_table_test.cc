@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <vector>
 
 #include "brdf/anisotropic_albedo_integral.h"
 #include "brdf/fresnel.h"
@@ -46,6 +48,15 @@ std::vector<Material> Materials() {
 }
 
 }  // namespace
+
+TEST_CASE("rows that are not finite are found, whatever their column") {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  BrdfTable table{.columns = {"f_r", "f_g"},
+                  .values = {1, 2, std::nan(""), 0, 3, 4, 0, -kInfinity}};
+  CHECK(RowsNotFinite(table) == std::vector<size_t>{1, 3});
+  CHECK(RowsNotFinite(TabulateBrdf(FullOpenPbr(), PairsOf({}), {.albedo = false})).empty());
+  CHECK(RowsNotFinite({}).empty());
+}
 
 TEST_CASE("f is what the model reflects over n.l, and its lobes sum to it") {
   const std::vector<DirectionPair> pairs = PairsOf({});
