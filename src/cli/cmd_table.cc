@@ -2,10 +2,8 @@
 // cli/cmd_table.cc: nacre table: the BRDF of a material as a table, and what differs in the table
 // of another program.
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <set>
-#include <span>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
