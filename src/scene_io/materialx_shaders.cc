@@ -478,6 +478,10 @@ class ShaderConverter {
     }
   }
 
+  void TellThinWalls(std::string_view input) {
+    if (HasWeight(Get(input))) Note(input, "what passes through thin walls is not rendered");
+  }
+
   void TellCoatNormal(std::string_view input, std::string_view normal, const Value& coat) {
     if (!HasWeight(coat)) return;
     const bool has_own = graph_.HasInput(shader_, input),
@@ -524,6 +528,7 @@ class ShaderConverter {
       Put(name, name, Get(name));
     }
     PutOpacity("geometry_opacity", Get("geometry_opacity"));
+    TellThinWalls("geometry_thin_walled");
     PutNormal("normal_map", "geometry_normal");
     TellCoatNormal("geometry_coat_normal", "geometry_normal", Get("coat_weight"));
     TellTangent("geometry_tangent", Get("specular_roughness_anisotropy"));
@@ -637,6 +642,7 @@ class ShaderConverter {
     PutEmission("emission_color", "emission");
     const Value opacity = Get("opacity");
     PutOpacity("opacity", Component(opacity, 0));
+    TellThinWalls("thin_walled");
     PutNormal("normal_map", "normal");
     TellTangent("tangent", Get("specular_anisotropy"));
     if (const Value thickness = Get("thin_film_thickness"); HasWeight(thickness)) {
@@ -654,8 +660,12 @@ class ShaderConverter {
     Begin("metallic_roughness");
     Put("base_color", "base_color", Get("base_color"));
     PutMetallicRoughness();
-    const double ior = GetFixed("ior").numbers[0];
-    const double root = ior + 1 != 0 ? (ior - 1) / (ior + 1) : 1;
+    double ior = GetFixed("ior").numbers[0];
+    if (!(ior >= 1)) {
+      Note("ior", fmt::format("{} is below 1, and taken for 1", NumbersText(Rgb(ior), false)));
+      ior = 1;
+    }
+    const double root = (ior - 1) / (ior + 1);
     const Value f0 = MaterialXNumber(root * root);
     Put("dielectric_f0", "specular_color", Multiply(GetFollowed("specular_color"), f0),
         Resized(f0, 3));
@@ -727,6 +737,11 @@ class ShaderConverter {
     const double mode = GetFixed("alpha_mode").numbers[0];
     if (mode == 0) return;  // opaque
     const Value alpha = Get("alpha");
+    if (mode != 1 && mode != 2) {
+      Note("alpha_mode",
+           fmt::format("{} is none of 0 (opaque), 1 (mask), 2 (blend), and taken for 2",
+                       NumbersText(Rgb(mode), false)));
+    }
     if (mode != 1) {
       if (!alpha.Is(1)) Note("alpha_mode", "transparency is not shown: the material is opaque");
       return;

@@ -515,6 +515,23 @@ TEST_CASE("open_pbr_surface is open_pbr, with what it has not told") {
   }
 }
 
+TEST_CASE("MaterialX: what is read as something else is told") {
+  const auto note_of = [](const std::string& shader, const std::string& inputs) {
+    const MaterialXMaterial material = ReadMtlx(OneMtlx(shader, inputs));
+    return material.notes.size() == 1 ? material.notes[0] : std::string();
+  };
+  CHECK(note_of("open_pbr_surface", MtlxIn("geometry_thin_walled", "boolean", "true"))
+            .find("geometry_thin_walled: what passes through") != std::string::npos);
+  CHECK(note_of("open_pbr_surface", MtlxIn("geometry_thin_walled", "boolean", "false")).empty());
+  CHECK(note_of("standard_surface", MtlxIn("thin_walled", "boolean", "true"))
+            .find("thin_walled: what passes through") != std::string::npos);
+  CHECK(note_of("gltf_pbr", MtlxIn("ior", "float", "0.5")).find("ior: 0.5 is below 1") !=
+        std::string::npos);
+  CHECK(note_of("gltf_pbr", MtlxIn("alpha_mode", "integer", "7"))
+            .find("alpha_mode: 7 is none of 0") != std::string::npos);
+  CHECK(note_of("gltf_pbr", MtlxIn("alpha_mode", "integer", "2")).empty());
+}
+
 TEST_CASE("MaterialX: an open_pbr_surface of version 1.2 has emission by weight") {
   const std::string emission = MtlxIn("emission_luminance", "float", "100");
   CHECK_FALSE(ReadMtlx(OneMtlx("open_pbr_surface", emission)).material.contains("version"));
