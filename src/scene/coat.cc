@@ -50,7 +50,7 @@ std::vector<Coat> CoatsOf(const std::string& name, const OpenPbrMaterial& below)
   model.base_weight = 0;
   model.specular_weight = below.coat_weight;
   model.specular_ior = below.coat_ior;
-  model.specular_roughness = below.coat_roughness;
+  model.specular_roughness = CoatRoughnessOf(below);
   model.specular_roughness_anisotropy = below.coat_roughness_anisotropy;
   model.options.alpha_max = below.options.alpha_max;
   model.geometry_tangent_deg = below.geometry_coat_tangent_deg;

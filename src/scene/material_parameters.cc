@@ -554,7 +554,8 @@ constexpr std::array kOpenPbrChoices = {
     Option<&OpenPbrOptions::coat_roughening>(
         "coat_roughening", kRoughenings,
         "How a rough coat widens highlights below it. spec: (r^4 + 2 c^4)^(1/4). adobe: "
-        "(r^4 + (1 - 1 / n) c^4)^(1/4). fit261: the fit of issue 261 of the specification."),
+        "(r^4 + (1 - 1 / n) c^4)^(1/4), and fuzz widens the coat. fit261: the fit of issue 261 of "
+        "the specification."),
     Option<&OpenPbrOptions::coat_darkening_rule>(
         "coat_darkening_rule", kDarkenings,
         "How light that is reflected inside the coat darkens the base."),

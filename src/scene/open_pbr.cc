@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/open_pbr.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace nacre {
 
 OpenPbrOptions OptionsOf(OpenPbrRules rules) {
@@ -36,6 +39,14 @@ OpenPbrOptions OptionsOf(OpenPbrRules rules) {
               .base_weight_in_rho = true};
   }
   return {};
+}
+
+double CoatRoughnessOf(const OpenPbrMaterial& m) {
+  const double c = m.coat_roughness;
+  if (m.options.coat_roughening != CoatRoughening::kAdobe || !(m.fuzz_weight > 0)) return c;
+  const double mean = (m.fuzz_color.x + m.fuzz_color.y + m.fuzz_color.z) / 3;
+  const double widened = std::pow(c, 4) + 0.005 * mean * std::pow(m.fuzz_roughness, 5);
+  return c + (std::pow(std::min(widened, 1.0), 0.25) - c) * m.fuzz_weight;
 }
 
 OpenPbrMaterial DefaultsOf(OpenPbrVersion version) {

@@ -199,6 +199,10 @@ struct OpenPbrMaterial {
   TextureId fuzz_roughness_map{};
 };
 
+// The roughness of the coat. By coat_roughening kAdobe, fuzz widens it: c^4 becomes
+// c^4 + 0.005 m f^5 where there is fuzz, of roughness f and a colour whose mean is m.
+double CoatRoughnessOf(const OpenPbrMaterial& material);
+
 // The defaults of a version.
 OpenPbrMaterial DefaultsOf(OpenPbrVersion version);
 

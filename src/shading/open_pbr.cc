@@ -19,7 +19,7 @@ double IndexWeight(const OpenPbrMaterial& material) {
 
 // The roughness below a coat that covers all of the base.
 double WhollyCoated(const OpenPbrMaterial& material, double r) {
-  const double c = material.coat_roughness;
+  const double c = CoatRoughnessOf(material);
   const double n = material.coat_ior;
   switch (material.options.coat_roughening) {
     case CoatRoughening::kSpec:
