@@ -6,8 +6,10 @@
 // C++ in the textbook's form, x^5 by multiplication, -O3 -march=native (scalar_baseline.h).
 //   ggx_plain_*            glTF's form: no compensation, diffuse 1 - F; the baseline's formula
 //   ggx_default            with Turquin's compensation and a base scaled by the lobe's albedo
-//   open_pbr_*             by the specification's text: Kulla and Conty's compensation; and with a
-//   film
+//   open_pbr_*             by the specification's text, with Kulla and Conty's compensation
+//   stack_*                whole materials by EvaluateBsdf; the baseline is the scalar twin, which
+//   is
+//                          in double and evaluates per light what kernels evaluate per view
 //   *_double_terms         lobes so narrow that their half vector is formed in double
 //   *_in_lobe              hits that have Phong's lobe; everywhere else three of four have none, of
 //                          which plain C++ knows the power at once
@@ -25,7 +27,10 @@
 #include "base/float_mode.h"
 #include "base/target.h"
 #include "scalar_baseline.h"
+#include "scene/coat.h"
 #include "scene/material.h"
+#include "shading/bsdf.h"
+#include "shading/scalar_bsdf.h"
 #include "shading/shade.h"
 #include "textbook_kernel.h"
 
@@ -128,6 +133,86 @@ void BenchKernel(benchmark::State& state, const Material& material, Target targe
     PrepareRun(prepared, 0, kHits, surface);
     ShadeRun(lit, &scratch);
   });
+}
+
+// The same of a whole stack: layers, coats, and lobes that need a tangent.
+void BenchStack(benchmark::State& state, const Material& material, Target target) {
+  const ShadingMaterial prepared = PrepareMaterial(material);
+  BsdfRoom room;
+  std::vector<CoatHits> coats(prepared.coats.size());
+  LightBatch on_hits;
+  bool is_first = true;
+  BenchShade(state, prepared, target, {}, [&](const LitHits& lit, Surface* surface) {
+    if (is_first) {
+      for (size_t i = 0; i < kHits; ++i) {
+        const Vec3d normal(VectorAt(surface->normal, i));
+        SetVector(DefaultTangent(prepared, normal), i, &surface->tangent);
+      }
+      for (CoatHits& coat : coats) {
+        CopyToCoat(lit.hits, *surface, &coat);
+        CopySoa(surface->tangent, kHits, &coat.surface.tangent);
+      }
+      is_first = false;
+    }
+    EvaluateLight(lit.light, lit.hits, *surface, &on_hits);
+    PrepareBsdf(prepared, 0, kHits, nullptr, surface, coats);
+    EvaluateBsdf({{prepared, lit.hits, *surface, 0, kHits, nullptr, coats},
+                  lit.light,
+                  &on_hits,
+                  lit.radiance,
+                  false},
+                 &room);
+  });
+}
+
+void BenchTwin(benchmark::State& state, const Material& material) {
+  const ShadingMaterial prepared = PrepareMaterial(material);
+  const HitBatch hits = MakeHits(false);
+  Surface surface;
+  PrepareSurface(hits, &surface);
+  Rgb sum(0);
+  for (auto _ : state) {
+    for (size_t i = 0; i < kHits; ++i) {
+      const Vec3d to_light = kLight - VectorAt(hits.position, i);
+      const double distance2 = to_light ^ to_light;
+      const Reflection reflected =
+          Reflect(prepared, Vec3d(VectorAt(surface.normal, i)).normalized(), to_light.normalized(),
+                  Vec3d(VectorAt(surface.to_view, i)).normalized());
+      sum += reflected.Sum() * (60 / distance2);
+    }
+    benchmark::DoNotOptimize(sum);
+  }
+  ReportShades(state);
+}
+
+std::vector<std::pair<const char*, Material>> MakeStacks() {
+  const OpenPbrMaterial base{.base_color = Rgb(0.9, 0.6, 0.2)};
+  std::vector<std::pair<const char*, Material>> stacks;
+  const auto add = [&](const char* name, const auto& change) {
+    OpenPbrMaterial model = base;
+    change(&model);
+    stacks.emplace_back(name, Material{.model = model});
+  };
+  const auto coat = [](OpenPbrMaterial* m) { m->coat_weight = 1, m->coat_roughness = 0.2; };
+  const auto coloured = [=](OpenPbrMaterial* m) { coat(m), m->coat_color = Rgb(0.9, 0.6, 0.3); };
+  const auto fuzz = [](OpenPbrMaterial* m) { m->fuzz_weight = 1; };
+  const auto film = [](OpenPbrMaterial* m) { m->thin_film_weight = 1; };
+  const auto brushed = [](OpenPbrMaterial* m) { m->specular_roughness_anisotropy = 0.7; };
+  add("stack_open_pbr", [](OpenPbrMaterial*) {});
+  add("stack_open_pbr_coat", coat);
+  add("stack_open_pbr_coloured_coat", coloured);
+  add("stack_open_pbr_fuzz", fuzz);
+  add("stack_open_pbr_film", film);
+  add("stack_open_pbr_anisotropy", brushed);
+  add("stack_open_pbr_everything", [=](OpenPbrMaterial* m) {
+    coloured(m), fuzz(m), film(m), brushed(m);
+    m->base_metalness = 0.5;
+    m->base_diffuse_roughness = 0.5;
+  });
+  stacks.emplace_back("stack_metallic_roughness",
+                      Material{.model = MetallicRoughnessMaterial{.base_color = base.base_color,
+                                                                  .roughness = 0.3}});
+  return stacks;
 }
 
 using TextbookKernel = void (*)(const TextbookGgxUniforms&, const LitHits&);
@@ -244,8 +329,9 @@ std::vector<ModelBench> MakeModels() {
   rough.model = OrenNayarMaterial{.albedo = color};
   burley.model = BurleyMaterial{.albedo = color};
   std::get<MetallicRoughnessMaterial>(rough_base.model).diffuse = DiffuseForm::kOrenNayar;
-  Material open_pbr, film;
-  open_pbr.model = OpenPbrMaterial{.base_color = color, .base_metalness = 0.5};
+  Material open_pbr, mix, film;
+  open_pbr.model = OpenPbrMaterial{.base_color = color};
+  mix.model = OpenPbrMaterial{.base_color = color, .base_metalness = 0.5};
   film.model = OpenPbrMaterial{.base_color = color, .base_metalness = 0.5, .thin_film_weight = 1};
   const BaselineKernel scalar_phong = [=](const auto& hits, const auto& light) {
     baseline::ShadePhong(hits, kHits, light, kColor, 0.5f, shininess);
@@ -290,6 +376,7 @@ std::vector<ModelBench> MakeModels() {
       {"burley", burley, nullptr},
       {"ggx_default_oren_nayar_base", rough_base, nullptr},
       {"open_pbr_default", open_pbr, nullptr},
+      {"open_pbr_mix", mix, nullptr},
       {"open_pbr_film", film, nullptr},
   };
 }
@@ -304,6 +391,14 @@ const bool kRegistered = [] {
     for (const Target target : SupportedTargets()) {
       benchmark::RegisterBenchmark((prefix + TargetName(target)).c_str(), BenchKernel,
                                    model.material, target, model.places);
+    }
+  }
+  for (const auto& [name, material] : MakeStacks()) {
+    const std::string prefix = std::string("shade/") + name + "/";
+    benchmark::RegisterBenchmark((prefix + "scalar_baseline").c_str(), BenchTwin, material);
+    for (const Target target : SupportedTargets()) {
+      benchmark::RegisterBenchmark((prefix + TargetName(target)).c_str(), BenchStack, material,
+                                   target);
     }
   }
   for (const Target target : SupportedTargets()) {
