@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
   benchmark::AddCustomContext(
       "scalar_baseline",
       "plain per-hit float C++ in textbook form, x^5 by multiplication, -O3 "
-      "-march=native");
+      "-march=native; of stack_*: the scalar twin, in double");
   benchmark::AddCustomContext("memory", "freed memory is kept from one repetition to the next");
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
