@@ -210,13 +210,6 @@ void NoteNarrowLobes(const NotedMaterials& of, int max_samples, std::vector<std:
   }
 }
 
-void NoteFilms(const NotedMaterials& of, std::vector<std::string>* notes) {
-  const std::string names =
-      NameMaterials(of, MaterialTrait::kFilmWithoutMaps, [](size_t) { return true; });
-  if (names.empty()) return;
-  notes->push_back(names + ": its thin film is that of the material's own colours, without maps");
-}
-
 void NoteTransmission(const NotedMaterials& of, std::vector<std::string>* notes) {
   const std::string names =
       NameMaterials(of, MaterialTrait::kTransmits, [](size_t) { return true; });
@@ -244,7 +237,6 @@ void NoteMaterials(const NotedMaterials& of, bool sampled_lights, std::vector<st
   NotePhongGain(of, notes);
   NoteTransmission(of, notes);
   NoteHaze(of, notes);
-  NoteFilms(of, notes);
   NoteMeasuredGain(of, notes);
   NoteMeasuredBlack(of, notes);
 }

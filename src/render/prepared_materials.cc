@@ -17,15 +17,6 @@ namespace {
 
 constexpr double kPrintedGain = 1.005;  // less would be printed as 1.00
 
-// Whether what lies below the material's film, if it has one, has another reflectance at each hit.
-bool HasMapsBelowFilm(const Material& material, const ThinFilmLobe* film) {
-  if (film == nullptr) return false;
-  const auto* const open_pbr = std::get_if<OpenPbrMaterial>(&material.model);
-  if (open_pbr == nullptr || !film->has_metal) return false;
-  return material.vertex_colors == VertexColors::kBase || open_pbr->base_color_map.valid() ||
-         open_pbr->specular_color_map.valid();
-}
-
 MaterialTraits TraitsOf(const Material& material, const ShadingMaterial& prepared,
                         double phong_gain) {
   MaterialTraits traits = ShadowingTrait(material);
@@ -45,9 +36,6 @@ MaterialTraits TraitsOf(const Material& material, const ShadingMaterial& prepare
       MaterialTrait::kTextured);
   add(HasDoubleTerms(prepared) || any_coat(HasDoubleTerms), MaterialTrait::kDoubleTerms);
   add(HasDeltaLobe(prepared), MaterialTrait::kMirror);
-  const auto* const microfacet = std::get_if<MicrofacetModel>(&prepared.model);
-  add(microfacet != nullptr && HasMapsBelowFilm(material, microfacet->film.get()),
-      MaterialTrait::kFilmWithoutMaps);
   if (const auto* const open_pbr = std::get_if<OpenPbrMaterial>(&material.model)) {
     add(open_pbr->transmission_weight > 0, MaterialTrait::kTransmits);
     add(open_pbr->specular_haze > 0 || open_pbr->specular_retroreflectivity > 0,

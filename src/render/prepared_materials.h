@@ -29,8 +29,7 @@ enum class MaterialTrait : uint32_t {
   kFirstShadowing = 1 << 11,
   kTransmits = 1 << 15,  // OpenPbrMaterial::transmission_weight above 0, which is not rendered
   kMeasured = 1 << 16,
-  kFilmWithoutMaps = 1 << 17,  // below its film the colour differs by hit, which the film does not
-  kHazy = 1 << 18,  // OpenPBR's haze or retroreflectivity above 0, which are not rendered
+  kHazy = 1 << 17,  // OpenPBR's haze or retroreflectivity above 0, which are not rendered
 };
 
 // A set of traits, as bits.

@@ -91,8 +91,10 @@ ModelAlbedos AlbedosAtHit(const MicrofacetModel& model,
                      0,
                      0};
   if (model.film) {
-    numbers.f0 = LargestUnderFilm(*model.film, largest(constants.dielectric),
-                                  NumberOfHit(constants.metal, i));
+    const double metal = NumberOfHit(constants.metal, i);
+    const bool by_hit = model.film->metal_by_hit;
+    numbers.f0 = LargestUnderFilm(*model.film, largest(constants.dielectric), by_hit ? 0 : metal);
+    if (by_hit) numbers.f0 += metal * largest(constants.metal_f0);
   }
   const double multiple = NumberOfHit(constants.multiple, i);
   if (HasSecondLobe(model) && multiple > 0) {

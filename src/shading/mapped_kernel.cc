@@ -296,6 +296,15 @@ void PutBase(const TexturedRun& run, const MicrofacetModel& model,
 // Stores what the films of hits make of F0, seen from the viewer.
 void PutFilms(const TexturedRun& run) {
   HitParameters& t = run.textures;
+  if (const auto* open_pbr = std::get_if<OpenPbrMaterial>(&run.material.scene_material->model)) {
+    for (size_t i = run.begin; i < run.end; ++i) {
+      const Rgb f0 =
+          FilmedMetalAtHit(*open_pbr, ColorOfHit(t, MappedNumber::kColor, i),
+                           ColorOfHit(t, MappedNumber::kSpecularColor, i), NDotV(run.surface, i));
+      for (int c = 0; c < 3; ++c) ChannelOf(t.film_metal, c)[i] = f0[c];
+    }
+    return;
+  }
   const auto& material = std::get<MetallicRoughnessMaterial>(run.material.scene_material->model);
   const double* const thickness = NumbersOf(t, MappedNumber::kFilmThickness);
   for (size_t i = run.begin; i < run.end; ++i) {
@@ -320,7 +329,7 @@ void Finish(const TexturedRun& run, const MicrofacetModel& model) {
   }
   if (model.anisotropic && run.material.by_hit.width) PutLobes(run, model);
   PutWidths(run, model, to);
-  if (model.film_by_hit) PutFilms(run);
+  if (model.film_by_hit || (model.film && model.film->metal_by_hit)) PutFilms(run);
   if (model.prepared) PutAlbedos(run, model);
   for (int c = 0; c < 3; ++c) {
     VisitChannel(run.material, run.textures, c, [&](const auto& channel) {

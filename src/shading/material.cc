@@ -312,7 +312,7 @@ MicrofacetModel MakeModel(const DielectricMaterial& material) {
   return model;
 }
 
-MicrofacetModel MakeModel(const OpenPbrMaterial& material) {
+MicrofacetModel MakeModel(const OpenPbrMaterial& material, bool base_by_hit) {
   const OpenPbrOptions& options = material.options;
   struct Lobe {
     Shadowing shadowing;
@@ -338,6 +338,7 @@ MicrofacetModel MakeModel(const OpenPbrMaterial& material) {
     FilmUse use = FilmUseOf(material, model, lobe.roughness, maps_roughness);
     use.dielectric = material.base_metalness < 1 || material.base_metalness_map.valid();
     use.metal = !model.is_dielectric;
+    use.metal_by_hit = MetalVariesBelowFilm(material, base_by_hit);
     TakeFilm(MakeThinFilmLobe(material, use), &model);
   }
   if (!model.film) {
@@ -450,7 +451,7 @@ ShadingMaterial PrepareUncoated(const Material& material) {
                 [&](int c) { return DeriveDielectricShown(dielectric.base_color[c], gloss); });
           },
           [&](const OpenPbrMaterial& open_pbr) {
-            prepared.model = MakeModel(open_pbr);
+            prepared.model = MakeModel(open_pbr, material.vertex_colors == VertexColors::kBase);
             prepared.emission_through = open_pbr.options.emission_through;
             const Rgb color = DiffuseColor(open_pbr);
             take_shown([&](int c) { return DeriveShown(color[c]); });

@@ -83,10 +83,13 @@ HWY_INLINE auto EvaluateCurve(FloatTag d, const HalfIncidentV& in, size_t i,
       return MixedCurveV{dielectric, metal};
     } else if constexpr (kFresnel == FresnelForm::kThinFilm) {
       const ThinFilmLobe& film = *uniforms.model.film;
+      const FloatV share = NumberAt(d, uniforms.metal, i);
+      RgbV metal =
+          UnderFilm(d, film.metal, film.has_metal && !film.metal_by_hit, v_dot_h, GreyOf(share));
+      if (film.metal_by_hit) metal = Scale(MetalF82(d, in, v_dot_h, i, uniforms), share);
       return MixedCurveV{UnderFilm(d, film.dielectric, film.has_dielectric, v_dot_h,
                                    RgbAt(d, uniforms.dielectric, i)),
-                         UnderFilm(d, film.metal, film.has_metal, v_dot_h,
-                                   GreyOf(NumberAt(d, uniforms.metal, i)))};
+                         metal};
     } else if constexpr (kFresnel == FresnelForm::kDielectric) {
       const FloatV grey = FresnelDielectric(d, v_dot_h, one_minus_vh, hn::Set(d, uniforms.eta[0]));
       return FresnelCurveV{{grey, grey, grey}};

@@ -103,6 +103,8 @@ struct AnisotropicLobes {
 struct ThinFilmLobe {
   FresnelTable dielectric, metal;
   bool has_dielectric = true, has_metal = true;  // whether any hit reflects anything of it
+  // The colours of the metal differ by hit: each has Schlick's curve through F0 (FilmedMetalAtHit).
+  bool metal_by_hit = false;
   Rgb dielectric_average{0, 0, 0}, metal_average{0, 0, 0};  // 2 int F c dc
   double bend = 1;                                          // FittedFresnel
   // The albedo of the dielectric under isotropic lobes; and by all roughnesses, if hits have one

@@ -103,23 +103,33 @@ struct OpenPbrHits {
   bool changes_metal;
 };
 
-// The same under a thin film, whose curves are the same at all hits.
+// The same under a thin film, whose curves are the same at all hits, but for what metal_by_hit
+// says.
 template <class Hits>
 struct HitsUnderFilm {
-  HitsUnderFilm(const Hits& under, const MicrofacetModel& model, int c)
+  HitsUnderFilm(const Hits& under, const MicrofacetModel& model, const HitParameters& t, int c)
       : hits(under),
         dielectric_f0(model.dielectric_f0[c]),
         metal_f0(model.metal_f0[c]),
-        averages{model.dielectric_f_average[c], model.metal_f_average[c]} {}
+        averages{model.dielectric_f_average[c], model.metal_f_average[c]},
+        metal_by_hit(model.film->metal_by_hit),
+        film_metal(ChannelOf(t.film_metal, c).data()) {}
 
   NACRE_DERIVE MicrofacetColors Colors(size_t i) const {
-    return DeriveUnderFilm(hits.Colors(i), dielectric_f0, metal_f0);
+    MicrofacetColors at =
+        DeriveUnderFilm(hits.Colors(i), dielectric_f0, metal_by_hit ? film_metal[i] : metal_f0);
+    if (metal_by_hit) at.f82_slope = 0;
+    return at;
   }
-  NACRE_DERIVE CurveAverages Averages(const MicrofacetColors&) const { return averages; }
+  NACRE_DERIVE CurveAverages Averages(const MicrofacetColors& at) const {
+    return {averages.dielectric, metal_by_hit ? DeriveAverages(at).metal : averages.metal};
+  }
 
   Hits hits;
   double dielectric_f0, metal_f0;
   CurveAverages averages;
+  bool metal_by_hit;
+  const double* film_metal;
 };
 
 // Calls use(hits) with one of these for channel c of the material, which must have a
@@ -130,7 +140,7 @@ void VisitChannel(const ShadingMaterial& material, const HitParameters& t, int c
   const Material& of = *material.scene_material;
   const auto use_hits = [&](const auto& hits) {
     if (model.film) {
-      use(HitsUnderFilm(hits, model, c));
+      use(HitsUnderFilm(hits, model, t, c));
     } else {
       use(hits);
     }

@@ -66,6 +66,7 @@ std::shared_ptr<const ThinFilmLobe> MakeFilmLobe(const std::function<FresnelCurv
   film->bend = FresnelBend(film_index);
   film->has_dielectric = use.dielectric;
   film->has_metal = use.metal;
+  film->metal_by_hit = use.metal_by_hit;
   film->metal = MakeFresnelTable(metal());
   film->metal_average = ReflectedAverage(film->metal);
   film->dielectric = MakeFresnelTable(dielectric());
@@ -116,16 +117,46 @@ FresnelCurve BelowCoat(const OpenPbrMaterial& m, const MakeCurve& make_curve) {
   return Blend(make_curve(Outside{1, false}), 1 - coverage, below);
 }
 
+ThinFilm FilmBelow(const OpenPbrMaterial& m, const Outside& outside) {
+  return {outside.index, m.thin_film_ior, 1000 * m.thin_film_thickness};
+}
+
+double FilmWeight(const OpenPbrMaterial& m) {
+  return m.thin_film_weight * ThinFilmShare(1000 * m.thin_film_thickness, m.options.film_fade_nm);
+}
+
+// 1 - R of a metal of these colours, of which films cover a fraction.
+FresnelCurve FilmOnMetal(const OpenPbrMaterial& m, const Rgb& base_color,
+                         const Rgb& specular_color) {
+  RgbSubstrate below;
+  Rgb f0, slope;
+  for (int c = 0; c < 3; ++c) {
+    f0[c] = m.base_weight * base_color[c];
+    slope[c] = F82SlopeFromTint(f0[c], specular_color[c]);
+    below[static_cast<size_t>(c)] = MetalBelow(m.options.film_metal, f0[c], specular_color[c]);
+  }
+  const FresnelCurve curve = BelowCoat(m, [&](const Outside& outside) {
+    return ThinFilmCurve(FilmBelow(m, outside), below, FilmOptionsOf(m.options.film));
+  });
+  return Blend(curve, FilmWeight(m), [=](double cosine) {
+    return MakeRgb([&](int c) { return 1 - FresnelF82(cosine, 1 - cosine, f0[c], slope[c]); });
+  });
+}
+
+// F0 of Schlick's curve that reflects at n.v what the film does. The curve is 1 at grazing
+// incidence whatever its F0, which is then of no account.
+Rgb SchlickF0(const FresnelCurve& film, double n_dot_v) {
+  const double grazing = std::pow(1 - n_dot_v, 5);
+  if (!(grazing < 1)) return Rgb(1);
+  const Rgb loss = film.loss(n_dot_v);
+  return MakeRgb([&](int c) { return 1 - std::clamp(loss[c] / (1 - grazing), 0.0, 1.0); });
+}
+
 }  // namespace
 
 std::shared_ptr<const ThinFilmLobe> MakeThinFilmLobe(const OpenPbrMaterial& m, const FilmUse& use) {
-  const double thickness_nm = 1000 * m.thin_film_thickness;
-  const double weight = m.thin_film_weight * ThinFilmShare(thickness_nm, m.options.film_fade_nm);
+  const double weight = FilmWeight(m);
   if (!(weight > 0)) return nullptr;
-  const ThinFilmOptions options = FilmOptionsOf(m.options.film);
-  const auto film = [&](const Outside& outside) {
-    return ThinFilm{outside.index, m.thin_film_ior, thickness_nm};
-  };
   const auto dielectric = [&] {
     const CoatedDielectric<double> bare = DielectricOf(m);
     const bool has_ratio = m.coat_weight > 0 && m.options.coat_fresnel == CoatFresnel::kInvertRatio;
@@ -133,27 +164,25 @@ std::shared_ptr<const ThinFilmLobe> MakeThinFilmLobe(const OpenPbrMaterial& m, c
       // MaterialX takes the ratio of base and coat for the index below a film in air.
       const double below =
           has_ratio ? bare.eta : outside.index * RelativeIndexBelow(m, outside.index);
-      return ThinFilmCurve(film(outside), SameSubstrate({below}), options);
+      return ThinFilmCurve(FilmBelow(m, outside), SameSubstrate({below}),
+                           FilmOptionsOf(m.options.film));
     });
     return Blend(curve, weight, [=](double cosine) {
       return Rgb(1 - FresnelCoatedDielectric(cosine, 1 - cosine, bare));
     });
   };
-  const auto metal = [&] {
-    RgbSubstrate below;
-    Rgb f0, slope;
-    for (int c = 0; c < 3; ++c) {
-      f0[c] = m.base_weight * m.base_color[c];
-      slope[c] = F82SlopeFromTint(f0[c], m.specular_color[c]);
-      below[static_cast<size_t>(c)] = MetalBelow(m.options.film_metal, f0[c], m.specular_color[c]);
-    }
-    const FresnelCurve curve = BelowCoat(
-        m, [&](const Outside& outside) { return ThinFilmCurve(film(outside), below, options); });
-    return Blend(curve, weight, [=](double cosine) {
-      return MakeRgb([&](int c) { return 1 - FresnelF82(cosine, 1 - cosine, f0[c], slope[c]); });
-    });
-  };
+  const auto metal = [&] { return FilmOnMetal(m, m.base_color, m.specular_color); };
   return MakeFilmLobe(dielectric, metal, m.thin_film_ior, use);
+}
+
+bool MetalVariesBelowFilm(const OpenPbrMaterial& m, bool base_by_hit) {
+  const bool has_metal = (m.base_metalness > 0) && m.specular_weight > 0;
+  return has_metal && (base_by_hit || m.base_color_map.valid() || m.specular_color_map.valid());
+}
+
+Rgb FilmedMetalAtHit(const OpenPbrMaterial& m, const Rgb& base_color, const Rgb& specular_color,
+                     double n_dot_v) {
+  return SchlickF0(FilmOnMetal(m, base_color, specular_color), n_dot_v);
 }
 
 namespace {
@@ -216,20 +245,14 @@ bool FilmVaries(const MetallicRoughnessMaterial& m, bool base_by_hit) {
 
 FilmedF0 FilmAtHit(const MetallicRoughnessMaterial& m, double thickness_nm, const Rgb& base_color,
                    const Rgb& dielectric_f0, double n_dot_v) {
-  const double grazing = std::pow(1 - n_dot_v, 5);
-  // Schlick's curve is 1 at grazing incidence whatever its F0, which is then of no account.
-  const auto f0_of = [&](const FresnelCurve& film) {
-    if (!(grazing < 1)) return Rgb(1);
-    const Rgb loss = film.loss(n_dot_v);
-    return MakeRgb([&](int c) { return 1 - std::clamp(loss[c] / (1 - grazing), 0.0, 1.0); });
-  };
   FilmedF0 filmed{Rgb(0), Rgb(0)};
   if (m.metallic < 1 || m.metallic_roughness_map.valid()) {
-    filmed.dielectric =
-        f0_of(FilmOver(m, thickness_nm, dielectric_f0, DielectricsBelow(dielectric_f0)));
+    filmed.dielectric = SchlickF0(
+        FilmOver(m, thickness_nm, dielectric_f0, DielectricsBelow(dielectric_f0)), n_dot_v);
   }
   if (m.metallic > 0) {
-    filmed.metal = f0_of(FilmOver(m, thickness_nm, base_color, MetalsBelow(m, base_color)));
+    filmed.metal =
+        SchlickF0(FilmOver(m, thickness_nm, base_color, MetalsBelow(m, base_color)), n_dot_v);
   }
   return filmed;
 }

@@ -13,6 +13,7 @@ namespace nacre {
 // Which curves a material's hits need, and of which lobes.
 struct FilmUse {
   bool dielectric = true, metal = true;
+  bool metal_by_hit = false;  // ThinFilmLobe::metal_by_hit
   Shadowing shadowing = Shadowing::kHeightCorrelated;
   double roughness = 0;
   bool roughness_by_hit = false;  // ShadingMaterial::by_hit.width
@@ -24,6 +25,12 @@ std::shared_ptr<const ThinFilmLobe> MakeThinFilmLobe(const OpenPbrMaterial& mate
                                                      const FilmUse& use);
 std::shared_ptr<const ThinFilmLobe> MakeThinFilmLobe(const MetallicRoughnessMaterial& material,
                                                      const FilmUse& use);
+
+// Whether the colours of a metal below a film differ by hit; and F0 of Schlick's curve that
+// reflects at n.v what such a hit does below its film and coat.
+bool MetalVariesBelowFilm(const OpenPbrMaterial& material, bool base_by_hit);
+Rgb FilmedMetalAtHit(const OpenPbrMaterial& material, const Rgb& base_color,
+                     const Rgb& specular_color, double n_dot_v);
 
 // Whether the film, or what lies below it, differs by hit. `base_by_hit`: base_color does, by the
 // colours of vertices.

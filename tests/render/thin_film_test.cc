@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "catch.h"
@@ -34,29 +35,14 @@ TEST_CASE("a plan notes light that would pass through") {
         "material \"ball\": the light that passes through is not rendered; the base is opaque");
 }
 
-TEST_CASE("a plan notes films that do not know the maps below them") {
-  OpenPbrMaterial film{.base_metalness = 1};
-  film.thin_film_weight = 1;
-  CHECK(NotesOf(LitSphere(film)).empty());
-  const auto notes_with_map = [](const OpenPbrMaterial& material) {
-    Scene scene = LitSphere(material);
-    std::get<OpenPbrMaterial>(scene.materials[0].model).base_color_map =
-        AddConstant(&scene, Rgb(0.5));
-    return NotesOf(scene);
-  };
-  REQUIRE(notes_with_map(film).size() == 1);
-  CHECK(notes_with_map(film)[0].find("without maps") != std::string::npos);
-  film.base_metalness = 0;  // the colour of a diffuse base does not change its film
-  CHECK(notes_with_map(film).empty());
-}
-
 // The middle of the picture of a sphere that is lit from the viewer: all cosines are 1.
-Rgb HeadOn(const MetallicRoughnessMaterial& material,
-           const std::function<void(Scene*, MetallicRoughnessMaterial*)>& add_maps = {}) {
+template <class Model>
+Rgb HeadOn(const Model& material,
+           const std::type_identity_t<std::function<void(Scene*, Model*)>>& add_maps = {}) {
   Scene scene = OrthographicSphere(material, 1);
   scene.lights = {Named("key", DirectionalLight{Vec3d(0, 0, -1), Rgb(1)})};
   if (add_maps) {
-    MetallicRoughnessMaterial with_maps = material;
+    Model with_maps = material;
     add_maps(&scene, &with_maps);
     scene.materials[0].model = with_maps;
   }
@@ -107,6 +93,36 @@ TEST_CASE("maps of a film, and of what lies below it, are the constants that the
                          material->base_color_map = AddConstant(scene, Rgb(0.5, 0.75, 1));
                        }),
                 HeadOn(other));
+    }
+  }
+}
+
+TEST_CASE("maps of a metal's colours below OpenPBR's film are the constants that they hold") {
+  for (const ThinFilmForm form : {ThinFilmForm::kSpectral, ThinFilmForm::kLines}) {
+    for (const double metalness : {0.5, 1.0}) {
+      for (const double coat : {0.0, 0.5, 1.0}) {
+        CAPTURE(static_cast<int>(form), metalness, coat);
+        OpenPbrMaterial film{.base_color = {0.9, 0.6, 0.3}, .base_metalness = metalness};
+        film.coat_weight = coat;
+        film.thin_film_weight = 0.75;
+        film.options.film = form;
+        OpenPbrMaterial other = film;
+        other.base_color = film.base_color * Rgb(0.5, 0.75, 1);
+        const Rgb darker = HeadOn(other);
+        CheckNear(HeadOn(film,
+                         [](Scene* scene, OpenPbrMaterial* material) {
+                           material->base_color_map = AddConstant(scene, Rgb(0.5, 0.75, 1));
+                         }),
+                  darker);
+        CHECK(std::abs(darker.x / HeadOn(film).x - 1) > 0.02);  // the check above could fail
+        other = film;
+        other.specular_color = Rgb(1, 0.5, 0.25);
+        CheckNear(HeadOn(film,
+                         [](Scene* scene, OpenPbrMaterial* material) {
+                           material->specular_color_map = AddConstant(scene, Rgb(1, 0.5, 0.25));
+                         }),
+                  HeadOn(other));
+      }
     }
   }
 }
