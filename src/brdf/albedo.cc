@@ -2,6 +2,8 @@
 #include "brdf/albedo.h"
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
 
 #include "brdf/albedo_integral.h"
 #include "brdf/albedo_table.h"
@@ -70,27 +72,57 @@ AlbedoPolynomial FitFresnelAlbedo(Shadowing shadowing, double roughness, const A
   return fit;
 }
 
-FresnelAlbedoFit MakeDielectricAlbedoFit(Shadowing shadowing, double roughness,
-                                         const CoatedDielectric<double>& base) {
+namespace {
+
+// Without the corner.
+FresnelAlbedoFit FitDielectric(Shadowing shadowing, double roughness,
+                               const CoatedDielectric<double>& base, const FresnelFunction& curve) {
   FresnelAlbedoFit fit;
   fit.lobe = MakeAlbedoFit(shadowing, roughness);
   fit.curve = base;
-  fit.fresnel =
-      FitFresnelAlbedo(shadowing, roughness, fit.lobe, [&](double v_dot_h, double one_minus_vh) {
-        return FresnelCoatedDielectric(v_dot_h, one_minus_vh, base);
-      });
-  fit.average = IntegrateTowardsZero([&](double mu) { return 2 * mu * AlbedoFresnel(fit, mu); });
+  fit.fresnel = FitFresnelAlbedo(shadowing, roughness, fit.lobe, curve);
   return fit;
 }
 
-DielectricCurves MakeDielectricCurves(Shadowing shadowing, const CoatedDielectric<double>& curve) {
+double AverageOf(const FresnelAlbedoFit& fit) {
+  return IntegrateTowardsZero([&](double mu) { return 2 * mu * AlbedoFresnel(fit, mu); });
+}
+
+FresnelFunction FunctionOf(const CoatedDielectric<double>& base) {
+  return [base](double v_dot_h, double one_minus_vh) {
+    return FresnelCoatedDielectric(v_dot_h, one_minus_vh, base);
+  };
+}
+
+}  // namespace
+
+FresnelAlbedoFit MakeDielectricAlbedoFit(Shadowing shadowing, double roughness,
+                                         const CoatedDielectric<double>& base) {
+  const FresnelFunction curve = FunctionOf(base);
+  FresnelAlbedoFit fit = FitDielectric(shadowing, roughness, base, curve);
+  if (base.eta < 1 && base.coat < 1 && fit.lobe.shape.offset > 0) {
+    // A fifth of the error that all fits are held to (1e-3); the quadrature's is no less.
+    const FresnelTableOptions options{.tolerance = 2e-4, .most = 256};
+    const auto loss = [&](double mu) {
+      return Rgb(1 - AlbedoOf(shadowing, roughness, mu, curve, kCornerQuadrature));
+    };
+    const double critical = std::sqrt((1 - base.eta) * (1 + base.eta));
+    fit.corner = std::make_shared<const FresnelTable>(
+        MakeFresnelTable({.loss = loss, .corner = critical}, options));
+  }
+  fit.average = AverageOf(fit);
+  return fit;
+}
+
+DielectricCurves MakeDielectricCurves(Shadowing shadowing, const CoatedDielectric<double>& base) {
   DielectricCurves curves;
   curves.fresnel.reserve(kAlbedoIntervals + 1);
   curves.average.reserve(kAlbedoIntervals + 1);
   for (int i = 0; i <= kAlbedoIntervals; ++i) {
-    const FresnelAlbedoFit fit = MakeDielectricAlbedoFit(shadowing, AlbedoNodeRoughness(i), curve);
+    const FresnelAlbedoFit fit =
+        FitDielectric(shadowing, AlbedoNodeRoughness(i), base, FunctionOf(base));
     curves.fresnel.push_back(fit.fresnel);
-    curves.average.push_back(fit.average);
+    curves.average.push_back(AverageOf(fit));
   }
   return curves;
 }

@@ -9,11 +9,13 @@
 // that kSchlickDirect's E, which is nearly 0 there, has a relative error of up to 0.7 %.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "brdf/albedo_curve.h"
 #include "brdf/fresnel.h"
 #include "brdf/fresnel_function.h"
+#include "brdf/fresnel_table.h"
 
 namespace nacre {
 
@@ -37,6 +39,9 @@ struct FresnelAlbedoFit {
   AlbedoFit lobe;
   AlbedoPolynomial fresnel{};
   CoatedDielectric<double> curve;
+  // Set where light arrives from the optically denser side: the albedo itself against n.v, as 1 - a
+  // loss. Total reflection sets in at a corner that the polynomial cannot follow.
+  std::shared_ptr<const FresnelTable> corner;
   double average = 0;  // 2 int of the albedo mu dmu
 };
 
@@ -44,15 +49,14 @@ struct FresnelAlbedoFit {
 AlbedoPolynomial FitFresnelAlbedo(Shadowing shadowing, double roughness, const AlbedoFit& lobe,
                                   const FresnelFunction& curve);
 
-// eta >= 1: light arrives from the optically thinner side. (From the denser side, total reflection
-// sets in at a corner that a polynomial cannot follow.) Computed by quadrature, in about half a
-// millisecond.
+// Computed by quadrature, in about half a millisecond; with a corner, in some tens.
 FresnelAlbedoFit MakeDielectricAlbedoFit(Shadowing shadowing, double roughness,
                                          const CoatedDielectric<double>& curve);
 
 // The third curve of FresnelAlbedoFit, and its average, for one curve at all roughnesses of
-// brdf/albedo_table.h. Hits that have a roughness each blend theirs from four of these.
-// MakeDielectricCurves takes some tens of milliseconds.
+// brdf/albedo_table.h. Corners are not known: eta >= 1, or errors are up to a half. Hits that have
+// a roughness each blend theirs from four of these. MakeDielectricCurves takes some tens of
+// milliseconds.
 struct DielectricCurves {
   std::vector<AlbedoPolynomial> fresnel;
   std::vector<double> average;
@@ -108,6 +112,7 @@ Real AlbedoSchlick(const AlbedoFit& fit, Real n_dot_v) {
 // The albedo for the exact Fresnel curve of the fit.
 template <typename Real>
 Real AlbedoFresnel(const FresnelAlbedoFit& fit, Real n_dot_v) {
+  if (fit.corner) return 1 - FresnelTableLoss(*fit.corner, n_dot_v)[0];
   const Real mu = std::min(std::max(n_dot_v, static_cast<Real>(kLeastAlbedoCosine)), Real(1));
   const CoatedDielectric<Real> curve{
       static_cast<Real>(fit.curve.eta), static_cast<Real>(fit.curve.coat),

@@ -21,6 +21,8 @@ struct AlbedoQuadrature {
   double tail = 1e-9;  // end of the azimuth's range that is left out
 };
 inline constexpr AlbedoQuadrature kFastAlbedoQuadrature{7, 0.5, 1e-6};
+// For curves with a corner, which the rules converge slowly at.
+inline constexpr AlbedoQuadrature kCornerQuadrature{12, 0.1, 1e-6};
 
 // The nodes of the integral over the light's elevation, in panels that are fine where the integrand
 // has fine detail. Each node is one elevation, given by the quantities that the azimuth's integrand

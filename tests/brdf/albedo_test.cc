@@ -33,6 +33,33 @@ std::vector<double> FurnaceRoughnesses() {
   return {0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1};
 }
 
+// A finer rule than that of the table.
+TEST_CASE("albedos follow the corner of total reflection from a denser medium") {
+  double worst = 0;
+  for (const double eta : {0.3, 0.67, 0.9, 0.99}) {
+    for (const double roughness : {0.01, 0.1, 0.3, 0.6, 1.0}) {
+      const FresnelAlbedoFit fit =
+          MakeDielectricAlbedoFit(Shadowing::kHeightCorrelated, roughness, {eta});
+      REQUIRE(fit.corner != nullptr);
+      const double critical = std::sqrt(1 - eta * eta);
+      for (const double mu : {0.01, 0.1, 0.5 * critical, critical - 0.02, critical, critical + 0.02,
+                              (1 + critical) / 2, 1.0}) {
+        const double exact =
+            AlbedoOf(Shadowing::kHeightCorrelated, roughness, std::clamp(mu, 0.01, 1.0),
+                     [&](double v_dot_h, double one_minus_vh) {
+                       return FresnelDielectric(v_dot_h, one_minus_vh, eta);
+                     },
+                     {24, 0.04, 1e-8});
+        CAPTURE(eta, roughness, mu);
+        const double error = std::abs(AlbedoFresnel(fit, std::clamp(mu, 0.01, 1.0)) - exact);
+        CHECK(error <= 1e-3);
+        worst = std::max(worst, error);
+      }
+    }
+  }
+  WARN("largest error " << worst);
+}
+
 TEST_CASE("albedo fits are within their tolerances at and between the table's roughnesses") {
   std::vector<float> cosines;
   for (int i = 0; i < 16; ++i) cosines.push_back(static_cast<float>(std::pow(10, -4 + i / 4.0)));

@@ -268,6 +268,26 @@ TEST_CASE("the base below a perfect mirror gets what the mirror leaves") {
 // Sheen over a white surface: as glTF scales it light is lost, scaled by the viewer's side none is.
 // The bound is that of the white furnace above and of the fit of the sheen's albedo
 // (brdf/sheen.h, 1.6e-3).
+TEST_CASE("a white furnace stays white for a base that is thinner than air") {
+  const FlushDenormals flush;
+  double worst = 0;
+  for (const double index : {0.5, 0.8, 0.95}) {
+    for (const double roughness : {0.05, 0.2, 0.5, 1.0}) {
+      for (const double n_dot_v : {1e-3, 0.05, 0.3, 0.6, 0.8, 1.0}) {
+        CAPTURE(index, roughness, n_dot_v);
+        const Vec3d to_view(std::sqrt(1 - n_dot_v * n_dot_v), 0, n_dot_v);
+        const Material white{.model = OpenPbrMaterial{.base_color = Rgb(1),
+                                                      .specular_roughness = roughness,
+                                                      .specular_ior = index}};
+        const double share = LitFurnace(to_view, AlphaFromRoughness(roughness)).Reflected(white).y;
+        CHECK(std::abs(share - 1) <= 1e-3);
+        worst = std::max(worst, std::abs(share - 1));
+      }
+    }
+  }
+  WARN("within " << worst << " of 1");
+}
+
 TEST_CASE("a white furnace stays white under a sheen that conserves") {
   const FlushDenormals flush;
   constexpr double kBound = 1e-3 + 1.6e-3;
