@@ -53,7 +53,8 @@ double ErrorOfRow(const nlohmann::json& row) {
 
 TEST_CASE("rules adobe are Adobe's library, lobe by lobe", "[table]") {
   std::map<std::string, size_t> counts;
-  for (const nlohmann::json& row : LoadTable("openpbr_adobe")["rows"]) {
+  const nlohmann::json table = LoadTable("openpbr_adobe");
+  for (const nlohmann::json& row : table["rows"]) {
     const std::string part = row[3];
     const auto has = [&](const char* weight) { return row[0].value(weight, 0.0) > 0; };
     const bool is_covered = has("coat_weight") || has("fuzz_weight");
