@@ -135,14 +135,20 @@ class LayersAtHit {
   LayersAtHit(const MaterialHits& at, LobeKind kind, size_t i)
       : material_(at.material), kind_(kind), maps_(at.Maps()), i_(i) {
     const double n_dot_v = NDotV(at.surface, i);
-    const double below = kind == LobeKind::kDiffuse
-                             ? BaseAlbedo(material_, maps_, i)
-                             : AlbedosAt(material_, maps_, at.surface, i, n_dot_v).glossy;
+    albedo_ = kind == LobeKind::kDiffuse
+                  ? BaseAlbedo(material_, maps_, i)
+                  : AlbedosAt(material_, maps_, at.surface, i, n_dot_v).glossy;
     for (size_t k = 0; k < material_.layers.size(); ++k) {
-      if (KindOf(material_.layers[k]) == kind) chance_[k] = LayerChance(Layer(k), n_dot_v, below);
+      if (KindOf(material_.layers[k]) != kind) continue;
+      const LayerModel layer = Layer(k);
+      chance_[k] = LayerChance(layer, n_dot_v, albedo_);
+      albedo_ = AlbedoWithLayer(layer, n_dot_v, albedo_);
       reflects_ = reflects_ || chance_[k] > 0;
     }
   }
+
+  // The albedo of these lobes together, by estimate.
+  double Albedo() const { return albedo_; }
 
   // Whether any of the layers reflects light.
   bool Reflects() const { return reflects_; }
@@ -164,6 +170,7 @@ class LayersAtHit {
   LobeKind kind_;
   const HitParameters* maps_;
   size_t i_;
+  double albedo_ = 0;
   std::array<double, kMostLayers> chance_{};
   bool reflects_ = false;
 };
@@ -191,11 +198,11 @@ double LayerPdfAt(const MaterialHits& at, const LayerModel& layer, size_t i,
                   const Vec3d& to_light) {
   const Surface& surface = at.surface;
   const Vec3d n = VectorAt(surface.normal, i), v = VectorAt(surface.to_view, i);
-  const double pdf = LayerPdf(layer, ComputeAngles(n, to_light, v));
+  const double pdf = LayerPdf(layer, LayerAnglesOf(n, to_light, v));
   if (!at.material.by_hit.normal || KindOf(layer) != LobeKind::kGlossy) return pdf;
   const Vec3d horizon = VectorAt(surface.interpolated_normal, i);
   const Vec3d mirrored = to_light - horizon * (2 * horizon.dot(to_light));
-  return n.dot(mirrored) > 0 ? pdf + LayerPdf(layer, ComputeAngles(n, mirrored, v)) : pdf;
+  return n.dot(mirrored) > 0 ? pdf + LayerPdf(layer, LayerAnglesOf(n, mirrored, v)) : pdf;
 }
 
 // Mixes the pdfs of the layers of a kind with that of the model's lobe, which `pdf` holds.
@@ -356,11 +363,9 @@ void PrepareBsdf(const ShadingMaterial& material, size_t begin, size_t end, HitP
     PrepareRun(*material.coats[k], begin, end, &coats[k].surface, coats[k].textures.get());
     FindCoatFactors(at, k, &coats[k]);
   }
-  const HitParameters* const maps = at.Maps();
   std::array<double, kMostCoats> chances;
   for (size_t i = begin; i < end; ++i) {
-    const double n_dot_v = NDotV(*surface, i);
-    const double glossy = AlbedosAt(material, maps, *surface, i, n_dot_v).glossy;
+    const double glossy = LayersAtHit(at, LobeKind::kGlossy, i).Albedo();
     FindCoatChances({CoatsInView(at, i).data(), count}, glossy, chances);
     for (size_t k = 0; k < count; ++k) coats[k].chance[i] = static_cast<float>(chances[k]);
   }

@@ -46,6 +46,11 @@ HWY_INLINE Vec3V<V> ColorOfHits(const Rgb& of_material, const HitParameters* map
   return LoadSoa(d, maps->numbers[static_cast<size_t>(number)], i);
 }
 
+// LayerAngles of a packet of hits.
+struct LayerAnglesV : AnglesV<V> {
+  Vec3V<V> normal, to_light, to_view;
+};
+
 // --- The kinds of layers. LayerOnHits(model, maps).At(i, angles) is the layer's reflection at hits
 // i... Both cosines are at least 0. `maps` is null where all hits have the model's parameters.
 
@@ -57,7 +62,7 @@ class LayerOnHits<SheenModel> {
  public:
   LayerOnHits(const SheenModel& sheen, const HitParameters* maps) : sheen_(sheen), maps_(maps) {}
 
-  HWY_INLINE LayerReflectionV At(size_t i, const AnglesV<V>& a) const {
+  HWY_INLINE LayerReflectionV At(size_t i, const LayerAnglesV& a) const {
     const D d;
     const Charlie<V> charlie =
         maps_ == nullptr ? BroadcastCharlie(d, sheen_.charlie)
@@ -83,7 +88,7 @@ class LayerOnHits<FuzzModel> {
  public:
   LayerOnHits(const FuzzModel& fuzz, const HitParameters* maps) : fuzz_(fuzz), maps_(maps) {}
 
-  HWY_INLINE LayerReflectionV At(size_t i, const AnglesV<V>& a) const {
+  HWY_INLINE LayerReflectionV At(size_t i, const LayerAnglesV& a) const {
     const D d;
     const Fuzz<V> fuzz =
         maps_ == nullptr ? BroadcastFuzz(d, fuzz_.fuzz)
@@ -111,11 +116,12 @@ HWY_INLINE Vec3V<V> UnitOf(const Vec3V<V>& v) {
   return Scale(v, hn::Div(one, hn::Sqrt(hn::IfThenElse(some, squared, one))));
 }
 
-HWY_INLINE AnglesV<V> AnglesAt(const Surface& surface, const LightBatch& light, size_t i) {
+HWY_INLINE LayerAnglesV AnglesAt(const Surface& surface, const LightBatch& light, size_t i) {
   const D d;
-  AnglesV<V> angles = ComputeAngles(d, UnitOf(PromoteSoa(d, surface.normal, i)),
-                                    UnitOf(PromoteSoa(d, light.light_vector, i)),
-                                    UnitOf(PromoteSoa(d, surface.to_view, i)));
+  const Vec3V<V> n = UnitOf(PromoteSoa(d, surface.normal, i));
+  const Vec3V<V> l = UnitOf(PromoteSoa(d, light.light_vector, i));
+  const Vec3V<V> v = UnitOf(PromoteSoa(d, surface.to_view, i));
+  LayerAnglesV angles{ComputeAngles(d, n, l, v), n, l, v};
   angles.n_dot_l = hn::Max(angles.n_dot_l, hn::Zero(d));
   angles.n_dot_v = hn::Max(angles.n_dot_v, hn::Zero(d));
   return angles;
@@ -142,7 +148,7 @@ void Cover(const Model& model, const LitHits& lit) {
   Soa3<float>& other = kIsDiffuse ? specular : diffuse;
   for (size_t i = lit.begin; i < lit.end; i += hn::Lanes(d)) {
     const auto mask = hn::FirstN(df, lit.end - i);
-    const AnglesV<V> angles = AnglesAt(lit.surface, *lit.on_hits, i);
+    const LayerAnglesV angles = AnglesAt(lit.surface, *lit.on_hits, i);
     const LayerReflectionV terms = layer.At(i, angles);
     const Vec3V<V> lobe = Scale(terms.lobe, PromoteAt(d, lit.on_hits->irradiance, i));
     const Vec3V<V> of_layer = Mul3(lobe, SetVec3(d, lit.light.color));

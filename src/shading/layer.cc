@@ -10,7 +10,7 @@
 namespace nacre {
 namespace {
 
-LayerReflection TermsOf(const SheenModel& sheen, const Angles<double>& a) {
+LayerReflection TermsOf(const SheenModel& sheen, const LayerAngles& a) {
   const double albedo_v = CharlieAlbedo(sheen.charlie, a.n_dot_v);
   const double albedo_l = sheen.scaling == SheenScaling::kReciprocal
                               ? CharlieAlbedo(sheen.charlie, a.n_dot_l)
@@ -30,7 +30,7 @@ Vec3d SampleOf(const SheenModel& sheen, const Vec3d& normal, const Vec3d&, doubl
   return SampleCharlie(normal, sheen.charlie.roughness, u0, u1);
 }
 
-double PdfOf(const SheenModel& sheen, const Angles<double>& a) {
+double PdfOf(const SheenModel& sheen, const LayerAngles& a) {
   return CharliePdf(a.n_dot_l, sheen.charlie.roughness);
 }
 
@@ -39,7 +39,7 @@ SheenModel ModelAtHit(const SheenModel& sheen, const HitParameters& textures, si
           MakeCharlie(NumbersOf(textures, MappedNumber::kSheenRoughness)[i]), sheen.scaling};
 }
 
-LayerReflection TermsOf(const FuzzModel& fuzz, const Angles<double>& a) {
+LayerReflection TermsOf(const FuzzModel& fuzz, const LayerAngles& a) {
   const FuzzView<double> view = FuzzFromView(fuzz.fuzz, a.n_dot_v);
   return {fuzz.color * (fuzz.weight * FuzzLobe(view, a) * a.n_dot_l),
           1 - fuzz.weight * view.albedo};
@@ -55,7 +55,7 @@ Vec3d SampleOf(const FuzzModel& fuzz, const Vec3d& normal, const Vec3d& to_view,
   return SampleFuzz(normal, to_view, FuzzFromView(fuzz.fuzz, normal ^ to_view), u0, u1);
 }
 
-double PdfOf(const FuzzModel& fuzz, const Angles<double>& a) {
+double PdfOf(const FuzzModel& fuzz, const LayerAngles& a) {
   return FuzzPdf(FuzzFromView(fuzz.fuzz, a.n_dot_v), a);
 }
 
@@ -65,7 +65,7 @@ FuzzModel ModelAtHit(const FuzzModel& fuzz, const HitParameters& textures, size_
 }
 
 std::vector<std::pair<std::string_view, double>> NamedTermsOf(const FuzzModel& fuzz,
-                                                              const Angles<double>& a) {
+                                                              const LayerAngles& a) {
   const FuzzView<double> view = FuzzFromView(fuzz.fuzz, a.n_dot_v);
   return {{"roughness", fuzz.fuzz.roughness},
           {"R", view.albedo},
@@ -76,7 +76,7 @@ std::vector<std::pair<std::string_view, double>> NamedTermsOf(const FuzzModel& f
 double WidthOf(const FuzzModel&) { return std::numeric_limits<double>::infinity(); }
 
 std::vector<std::pair<std::string_view, double>> NamedTermsOf(const SheenModel& sheen,
-                                                              const Angles<double>& a) {
+                                                              const LayerAngles& a) {
   const Charlie<double>& charlie = sheen.charlie;
   return {{"roughness", charlie.roughness},
           {"D", CharlieDistribution(a, charlie.alpha)},
@@ -120,7 +120,7 @@ std::vector<std::string_view> RemoveLayers(Material* material) {
   return names;
 }
 
-LayerReflection EvaluateLayer(const LayerModel& layer, const Angles<double>& angles) {
+LayerReflection EvaluateLayer(const LayerModel& layer, const LayerAngles& angles) {
   return std::visit([&](const auto& model) { return TermsOf(model, angles); }, layer);
 }
 
@@ -135,7 +135,7 @@ LayerModel LayerAtHit(const LayerModel& layer, const HitParameters* maps, size_t
 }
 
 std::vector<std::pair<std::string_view, double>> LayerTerms(const LayerModel& layer,
-                                                            const Angles<double>& angles) {
+                                                            const LayerAngles& angles) {
   return std::visit([&](const auto& model) { return NamedTermsOf(model, angles); }, layer);
 }
 
@@ -149,7 +149,7 @@ Vec3d SampleLayer(const LayerModel& layer, const Vec3d& normal, const Vec3d& to_
                     layer);
 }
 
-double LayerPdf(const LayerModel& layer, const Angles<double>& angles) {
+double LayerPdf(const LayerModel& layer, const LayerAngles& angles) {
   return std::visit([&](const auto& model) { return PdfOf(model, angles); }, layer);
 }
 

@@ -68,30 +68,40 @@ LayerModel LayerAtHit(const LayerModel& layer, const HitParameters* maps, size_t
 // Removes the layers from a material and returns their names.
 std::vector<std::string_view> RemoveLayers(Material* material);
 
+// Angles, and for lobes about another half vector than h the directions themselves. The cosines of
+// the angles are at least 0.
+struct LayerAngles : Angles<double> {
+  Vec3d normal, to_light, to_view;
+};
+inline LayerAngles LayerAnglesOf(const Vec3d& n, const Vec3d& l, const Vec3d& v) {
+  return {ComputeAngles(n, l, v), n, l, v};
+}
+
 // The reflection of one layer for one direction of light and one of view.
 struct LayerReflection {
   Rgb lobe{0, 0, 0};  // f n.l of the layer itself
   double below = 1;   // the factor for the reflection of all that is below
 };
-LayerReflection EvaluateLayer(const LayerModel& layer, const Angles<double>& angles);
+LayerReflection EvaluateLayer(const LayerModel& layer, const LayerAngles& angles);
 
 // At n.v, `lobe` is the directional albedo of the layer, and `below` the factor for light that
 // arrives and leaves at the same angle, as by a mirror. The factor is used for ambient light, too,
 // so that a white surface reflects all of it.
 LayerReflection LayerAlbedo(const LayerModel& layer, double n_dot_v);
 
-// The angle at which the layer's lobe has fallen to about half its peak, in radians; infinite for a
-// layer that reflects diffusely.
+// The angle between normal and half vector at which the layer's lobe has fallen to about half its
+// peak, in radians: adaptive sampling seeks such peaks. Infinite for a layer that reflects
+// diffusely, or whose peak is elsewhere.
 double LayerLobeWidth(const LayerModel& layer);
 
 // The terms of the layer's lobe by name, for explaining a pixel.
 std::vector<std::pair<std::string_view, double>> LayerTerms(const LayerModel& layer,
-                                                            const Angles<double>& angles);
+                                                            const LayerAngles& angles);
 
 // Samples a direction to light for the layer's own reflection, with u0 and u1 in [0, 1). LayerPdf
 // is its pdf, per solid angle.
 Vec3d SampleLayer(const LayerModel& layer, const Vec3d& normal, const Vec3d& to_view, double u0,
                   double u1);
-double LayerPdf(const LayerModel& layer, const Angles<double>& angles);
+double LayerPdf(const LayerModel& layer, const LayerAngles& angles);
 
 }  // namespace nacre

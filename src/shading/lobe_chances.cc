@@ -146,6 +146,11 @@ double LayerChance(const LayerModel& layer, double n_dot_v, double below_albedo)
   return Fraction(LargestChannel(albedo.lobe), albedo.below * below_albedo);
 }
 
+double AlbedoWithLayer(const LayerModel& layer, double n_dot_v, double below_albedo) {
+  const LayerReflection albedo = LayerAlbedo(layer, n_dot_v);
+  return albedo.below * below_albedo + LargestChannel(albedo.lobe);
+}
+
 void FindCoatChances(std::span<const CoatInView> coats, double glossy, std::span<double> chances) {
   for (size_t k = 0; k < coats.size(); ++k) {
     const double albedo = coats[k].is_mirror ? 0 : LargestChannel(coats[k].albedo);

@@ -56,6 +56,9 @@ double BaseAlbedo(const ShadingMaterial& material, const HitParameters* maps = n
 // `below_albedo` by itself.
 double LayerChance(const LayerModel& layer, double n_dot_v, double below_albedo);
 
+// The albedo of a layer over lobes whose albedo is `below_albedo`.
+double AlbedoWithLayer(const LayerModel& layer, double n_dot_v, double below_albedo);
+
 // One coat, seen from the viewer.
 struct CoatInView {
   Rgb albedo;

@@ -220,7 +220,7 @@ Rgb MirroredLobe(const ShadingMaterial& material, const StackNormals& normals, c
   const Vec3d below = MirroredAtHorizon(*normals.unmapped, l);
   if (!IsAbove(n, below, v)) return Rgb(0, 0, 0);
   Reflection reflected = ReflectModel(material, frame, below, v);
-  const Angles<double> angles = ComputeAngles(n, below, v);
+  const LayerAngles angles = LayerAnglesOf(n, below, v);
   for (const LayerModel& layer : material.layers) {
     if (LiesOverCoats(layer)) continue;
     const LayerReflection terms = EvaluateLayer(layer, angles);
@@ -237,7 +237,7 @@ void ForEachLevel(const ShadingMaterial& material, const StackNormals& normals, 
   if (IsBelowHorizon(normals, l)) return;
   const Vec3d& n = normals.model;
   const auto use_layers = [&](bool over_coats) {
-    Angles<double> angles = ComputeAngles(n, l, v);
+    LayerAngles angles = LayerAnglesOf(n, l, v);
     if (!over_coats && !IsAbove(n, l, v)) return;
     // Coats with other normals may face the light where the model does not.
     angles.n_dot_l = std::max(angles.n_dot_l, 0.0);
@@ -363,12 +363,13 @@ StackChances ChancesOf(const ShadingMaterial& material, const StackNormals& norm
   const ModelAlbedos albedos = AlbedosOf(material, ViewIn(FrameOfModel(material, normals), v));
   StackChances chances;
   chances.kind = ChancesOfKinds(material.layers, n_dot_v, albedos, coats, mirrors);
-  FindCoatChances(coats, albedos.glossy, chances.coats);
+  double diffuse = BaseAlbedo(material), glossy = albedos.glossy;
   for (const LayerModel& layer : material.layers) {
-    const bool diffuse = KindOf(layer) == LobeKind::kDiffuse;
-    const double below = diffuse ? BaseAlbedo(material) : albedos.glossy;
+    double& below = KindOf(layer) == LobeKind::kDiffuse ? diffuse : glossy;
     chances.layers.push_back(LayerChance(layer, n_dot_v, below));
+    below = AlbedoWithLayer(layer, n_dot_v, below);
   }
+  FindCoatChances(coats, glossy, chances.coats);
   return chances;
 }
 
@@ -406,7 +407,7 @@ double KindPdf(const ShadingMaterial& material, const StackNormals& normals,
   for (size_t k = material.layers.size(); k-- > 0;) {
     if (KindOf(material.layers[k]) != kind) continue;
     const auto layer_pdf = [&](const Vec3d& to_light) {
-      return LayerPdf(material.layers[k], ComputeAngles(n, to_light, v));
+      return LayerPdf(material.layers[k], LayerAnglesOf(n, to_light, v));
     };
     pdf += left * chances.layers[k] *
            (kind == LobeKind::kGlossy ? WithMirroredPdf(normals, n, l, layer_pdf) : layer_pdf(l));

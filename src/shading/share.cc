@@ -250,10 +250,10 @@ Rgb ShareThroughCoat(const ShadingMaterial& material, ShareOf what, const Rgb& s
   return through;
 }
 
-// Of a narrow lobe the quadrature would have to know the peak.
-bool HasNarrowLayer(const ShadingMaterial& material) {
+// Of a glossy lobe the quadrature would have to know the peak.
+bool HasGlossyLayer(const ShadingMaterial& material) {
   return std::any_of(material.layers.begin(), material.layers.end(),
-                     [](const LayerModel& layer) { return std::isfinite(LayerLobeWidth(layer)); });
+                     [](const LayerModel& layer) { return KindOf(layer) == LobeKind::kGlossy; });
 }
 
 // ReflectedShare in a direction in space, as the mean weight of samples. Lobes that are no
@@ -280,7 +280,7 @@ Rgb SampledShare(const ShadingMaterial& material, ShareOf what, const Vec3d& fix
 }  // namespace
 
 Rgb ReflectedShare(const ShadingMaterial& material, ShareOf what, double cosine, double azimuth) {
-  if (HasAnisotropicLobe(material) || HasNarrowLayer(material)) {
+  if (HasAnisotropicLobe(material) || HasGlossyLayer(material)) {
     const double sine = std::sqrt((1 - cosine) * (1 + cosine));
     return SampledShare(material, what,
                         {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine});

@@ -129,7 +129,7 @@ Rgb BelowOf(const ShadingMaterial& material, const StackLevel& level, uint32_t s
     return TransmittedByCoat(coat, CosinesTo(FrameOfCoat(material, kNormal, level.index), view),
                              light.z);
   }
-  const Angles<double> angles = ComputeAngles(kNormal, light, view);
+  const LayerAngles angles = LayerAnglesOf(kNormal, light, view);
   return Rgb(EvaluateLayer(material.layers[level.index], angles).below);
 }
 

@@ -152,7 +152,7 @@ Json TermsJson(const ShadingMaterial& material, const Basis<double>& frame, cons
   return terms;
 }
 
-Json LayerTermsJson(const LayerModel& layer, const Angles<double>& angles) {
+Json LayerTermsJson(const LayerModel& layer, const LayerAngles& angles) {
   Json terms = Json::object();
   for (const auto& [name, value] : LayerTerms(layer, angles)) {
     terms[std::string(name)] = NumberJson(value);
@@ -211,7 +211,7 @@ Reflection ReflectedJson(const ExplainedMaterial& material, const Point& point,
     own["terms"] = std::move(terms);
     covers.push_back(std::move(own));
   };
-  const Angles<double> angles = ComputeAngles(point.normal, to_light, v);
+  const LayerAngles angles = LayerAnglesOf(point.normal, to_light, v);
   const bool above = angles.n_dot_l > 0 && angles.n_dot_v > 0;
   const auto cover_by_layers = [&](bool over_coats) {
     for (size_t k = 0; k < prepared.layers.size(); ++k) {
