@@ -101,12 +101,15 @@ FresnelAlbedoFit MakeDielectricAlbedoFit(Shadowing shadowing, double roughness,
   const FresnelFunction curve = FunctionOf(base);
   FresnelAlbedoFit fit = FitDielectric(shadowing, roughness, base, curve);
   if (base.eta < 1 && base.coat < 1 && fit.lobe.shape.offset > 0) {
-    // A fifth of the error that all fits are held to (1e-3); the quadrature's is no less.
-    const FresnelTableOptions options{.tolerance = 2e-4, .most = 256};
-    const auto loss = [&](double mu) {
-      return Rgb(1 - AlbedoOf(shadowing, roughness, mu, curve, kCornerQuadrature));
-    };
+    // A third of the error that fits are held to (1e-3). A wide lobe blurs the corner.
+    const bool is_wide = roughness > 0.2;
+    const FresnelTableOptions options{
+        .tolerance = 3e-4, .most = is_wide ? 128 : 512, .over_cosine = false};
     const double critical = std::sqrt((1 - base.eta) * (1 + base.eta));
+    const AlbedoQuadrature rule{12, is_wide ? 0.08 : 0.15, 1e-6, critical};
+    const auto loss = [&](double mu) {
+      return Rgb(1 - AlbedoOf(shadowing, roughness, mu, curve, rule));
+    };
     fit.corner = std::make_shared<const FresnelTable>(
         MakeFresnelTable({.loss = loss, .corner = critical}, options));
   }

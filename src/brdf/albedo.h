@@ -49,7 +49,7 @@ struct FresnelAlbedoFit {
 AlbedoPolynomial FitFresnelAlbedo(Shadowing shadowing, double roughness, const AlbedoFit& lobe,
                                   const FresnelFunction& curve);
 
-// Computed by quadrature, in about half a millisecond; with a corner, in some tens.
+// Computed by quadrature, in about half a millisecond; with a corner, in tens to hundreds.
 FresnelAlbedoFit MakeDielectricAlbedoFit(Shadowing shadowing, double roughness,
                                          const CoatedDielectric<double>& curve);
 

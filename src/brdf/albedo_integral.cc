@@ -2,6 +2,7 @@
 #include "brdf/albedo_integral.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "brdf/fresnel.h"
 #include "brdf/quadrature.h"
@@ -49,6 +50,27 @@ std::vector<Panel> MakePanels(double alpha, double view) {
   return panels;
 }
 
+// Ends panels where v.h is the corner's cosine, the light in the viewer's plane.
+std::vector<Panel> SplitAtCorner(const std::vector<Panel>& panels, double view, double corner) {
+  const double apart = 2 * std::acos(corner);
+  const double places[] = {view - apart, view + apart, M_PI - apart - view};  // elevations
+  std::vector<Panel> split = panels;
+  for (const double place : places) {
+    std::vector<Panel> finer;
+    for (const Panel& panel : split) {
+      const double at = panel.from_viewer ? place - view : place;
+      if (at > panel.begin && at < panel.end) {
+        finer.push_back({panel.from_viewer, panel.begin, at});
+        finer.push_back({panel.from_viewer, at, panel.end});
+      } else {
+        finer.push_back(panel);
+      }
+    }
+    split = std::move(finer);
+  }
+  return split;
+}
+
 }  // namespace
 
 double Visibility(Shadowing shadowing, double n_dot_l, double n_dot_v, double roughness) {
@@ -65,11 +87,12 @@ double Visibility(Shadowing shadowing, double n_dot_l, double n_dot_v, double ro
   return 0;
 }
 
-std::vector<AlbedoNode> MakeAlbedoNodes(double alpha, double n_dot_v, int points) {
+std::vector<AlbedoNode> MakeAlbedoNodes(double alpha, double n_dot_v, int points, double corner) {
   const QuadratureRule& rule = GaussLegendre(points);
   const double view = std::asin(std::min(n_dot_v, 1.0));
   std::vector<AlbedoNode> nodes;
-  const std::vector<Panel> panels = MakePanels(alpha, view);
+  std::vector<Panel> panels = MakePanels(alpha, view);
+  if (corner > 0) panels = SplitAtCorner(panels, view, corner);
   nodes.reserve(panels.size() * rule.x.size());
   for (const Panel& panel : panels) {
     const double length = panel.end - panel.begin;

@@ -19,10 +19,11 @@ struct AlbedoQuadrature {
   int points = 12;     // Gauss-Legendre points in each panel of the light's elevation
   double step = 0.42;  // step of the azimuth's warped variable
   double tail = 1e-9;  // end of the azimuth's range that is left out
+  // The cosine v.h at which the Fresnel curve has a corner, where rules converge slowly: panels of
+  // the elevation end where the plane of incidence meets it. 0: there is none.
+  double corner = 0;
 };
 inline constexpr AlbedoQuadrature kFastAlbedoQuadrature{7, 0.5, 1e-6};
-// For curves with a corner, which the rules converge slowly at.
-inline constexpr AlbedoQuadrature kCornerQuadrature{12, 0.1, 1e-6};
 
 // The nodes of the integral over the light's elevation, in panels that are fine where the integrand
 // has fine detail. Each node is one elevation, given by the quantities that the azimuth's integrand
@@ -35,8 +36,10 @@ struct AlbedoNode {
   double p, q;  // sqrt(alpha^2 / (pi D)) opposite the viewer, and on the viewer's side
 };
 
-// The nodes of one n.v in [0, 1]. alpha must not be a delta lobe's.
-std::vector<AlbedoNode> MakeAlbedoNodes(double alpha, double n_dot_v, int points);
+// The nodes of one n.v in [0, 1]. alpha must not be a delta lobe's. `points` and `corner` as in
+// AlbedoQuadrature.
+std::vector<AlbedoNode> MakeAlbedoNodes(double alpha, double n_dot_v, int points,
+                                        double corner = 0);
 
 // The visibility term of a shadowing form.
 double Visibility(Shadowing shadowing, double n_dot_l, double n_dot_v, double roughness);
@@ -86,7 +89,7 @@ double AlbedoOf(Shadowing shadowing, double roughness, double n_dot_v, const Fre
     return AlbedoOfOne(shadowing, roughness, n_dot_v) * fresnel(n_dot_v, 1 - n_dot_v);
   }
   double sum = 0;
-  for (const AlbedoNode& node : MakeAlbedoNodes(alpha, n_dot_v, rule.points)) {
+  for (const AlbedoNode& node : MakeAlbedoNodes(alpha, n_dot_v, rule.points, rule.corner)) {
     sum += node.weight * Visibility(shadowing, node.n_dot_l, n_dot_v, roughness) *
            AzimuthIntegral(node, alpha, rule, fresnel);
   }

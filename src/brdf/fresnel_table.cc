@@ -161,7 +161,7 @@ FresnelTable MakeTable(const SplineFit& fit) {
 }  // namespace
 
 FresnelTable MakeFresnelTable(const FresnelCurve& curve, const FresnelTableOptions& options) {
-  const Factor factor = ChooseFactor(curve);
+  const Factor factor = options.over_cosine ? ChooseFactor(curve) : Factor{1, 0};
   SplineFit fit(curve, Variable(curve.corner, curve.critical_cosine), factor, options.fewest);
   while (fit.error() > options.tolerance && fit.intervals() < options.most) {
     // Where twice as many intervals make errors 16 times smaller, as they do once a spline follows

@@ -55,6 +55,7 @@ struct FresnelCurve {
 struct FresnelTableOptions {
   double tolerance = 2e-6;
   int fewest = 32, most = 2048;  // intervals, powers of two
+  bool over_cosine = true;  // whether 1 - R may be tabulated over v.h: it is 0 at grazing incidence
 };
 
 FresnelTable MakeFresnelTable(const FresnelCurve& curve, const FresnelTableOptions& options = {});

@@ -49,7 +49,7 @@ TEST_CASE("albedos follow the corner of total reflection from a denser medium") 
                      [&](double v_dot_h, double one_minus_vh) {
                        return FresnelDielectric(v_dot_h, one_minus_vh, eta);
                      },
-                     {24, 0.04, 1e-8});
+                     {24, 0.03, 1e-8, critical});
         CAPTURE(eta, roughness, mu);
         const double error = std::abs(AlbedoFresnel(fit, std::clamp(mu, 0.01, 1.0)) - exact);
         CHECK(error <= 1e-3);
