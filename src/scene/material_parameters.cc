@@ -596,7 +596,8 @@ constexpr std::array kOpenPbrChoices = {
         "darkening. materialx: coat_color (1 - F0) (1 - (1 - n.v)^5)."),
     Option<&OpenPbrOptions::base_weight_in_rho>(
         "base_weight_in_rho", kYesNo,
-        "Whether base_weight multiplies the colour before light bounces between rough facets."),
+        "Whether base_weight and 1 - base_metalness multiply the colour before light bounces "
+        "between rough facets."),
     kSides};
 
 constexpr std::array kMeasuredChoices = {

@@ -122,11 +122,11 @@ void PutShown(const TexturedRun& run) {
   }
 }
 
-// Stores the constants of a rough diffuse surface; roughness(i) is that of hit i. `weight` is a
+// Stores the constants of a rough diffuse surface; roughness(i) is that of hit i, and weight(i) a
 // factor on its colour.
-template <class Roughness>
+template <class Roughness, class Weight>
 void PutMatte(const TexturedRun& run, DiffuseForm form, const Roughness& roughness,
-              const MatteConstants<float*>& to, double weight = 1) {
+              const Weight& weight, const MatteConstants<float*>& to) {
   if (form == DiffuseForm::kLambert) return;
   const Hits hits{run.begin, run.end};
   hits.Fill(to.roughness, roughness);
@@ -134,8 +134,14 @@ void PutMatte(const TexturedRun& run, DiffuseForm form, const Roughness& roughne
   for (int c = 0; c < 3; ++c) {
     const double* const color = NumbersOf(run.textures, MappedNumber::kColor, c);
     hits.Fill(to.ratio[c],
-              [&](size_t i) { return EonMultipleRatio(color[i] * weight, roughness(i)); });
+              [&](size_t i) { return EonMultipleRatio(color[i] * weight(i), roughness(i)); });
   }
+}
+template <class Roughness>
+void PutMatte(const TexturedRun& run, DiffuseForm form, const Roughness& roughness,
+              const MatteConstants<float*>& to) {
+  PutMatte(
+      run, form, roughness, [](size_t) { return 1.0; }, to);
 }
 
 void Finish(const TexturedRun& run, const MatteModel& model) {
@@ -279,14 +285,14 @@ void PutBase(const TexturedRun& run, const MicrofacetModel& model,
     own = dielectric->diffuse_roughness;
   }
   const double* const roughness = NumbersOf(run.textures, MappedNumber::kWidth);
-  double weight = 1;
   if (const auto* open_pbr = std::get_if<OpenPbrMaterial>(&material.model)) {
-    own = open_pbr->base_diffuse_roughness;
-    if (open_pbr->options.base_weight_in_rho) weight = open_pbr->base_weight;
-  }
-  if (own) {
+    const double* const metalness = NumbersOf(run.textures, MappedNumber::kMetallic);
     PutMatte(
-        run, model.base_form, [&](size_t) { return *own; }, to.base, weight);
+        run, model.base_form, [&](size_t) { return open_pbr->base_diffuse_roughness; },
+        [&](size_t i) { return WeightInRho(*open_pbr, metalness[i]); }, to.base);
+  } else if (own) {
+    PutMatte(
+        run, model.base_form, [&](size_t) { return *own; }, to.base);
   } else {
     PutMatte(
         run, model.base_form, [&](size_t i) { return roughness[i]; }, to.base);

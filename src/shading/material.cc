@@ -328,7 +328,7 @@ MicrofacetModel MakeModel(const OpenPbrMaterial& material, bool base_by_hit) {
   model.base_roughness = material.base_diffuse_roughness;
   if (model.base_roughness > 0) {
     model.base_form = DiffuseForm::kOrenNayar;
-    const double in_rho = options.base_weight_in_rho ? material.base_weight : 1;
+    const double in_rho = WeightInRho(material, material.base_metalness);
     model.base_ratio = EonRatio(material.base_color * in_rho, model.base_roughness);
   }
   model.is_dielectric = material.base_metalness == 0 || material.specular_weight == 0;

@@ -131,6 +131,10 @@ Rgb DiffuseColor(const OpenPbrMaterial& m) {
   });
 }
 
+double WeightInRho(const OpenPbrMaterial& material, double metalness) {
+  return material.options.base_weight_in_rho ? material.base_weight * (1 - metalness) : 1;
+}
+
 double RelativeIndexBelow(const OpenPbrMaterial& material, double above) {
   return WeightedIndex(material.specular_ior / above, IndexWeight(material));
 }

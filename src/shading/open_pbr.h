@@ -25,6 +25,10 @@ void EstimateBelowCoat(const OpenPbrMaterial& material, CoatTransmission* coat);
 // The colour of the diffuse base, in which a subsurface has its share.
 Rgb DiffuseColor(const OpenPbrMaterial& material);
 
+// The factor on base_color in the albedo for which light bounces between the facets of a rough
+// diffuse base.
+double WeightInRho(const OpenPbrMaterial& material, double metalness);
+
 // The index of the dielectric base over that of what lies above it, by the weight's rule.
 double RelativeIndexBelow(const OpenPbrMaterial& material, double above);
 
