@@ -108,7 +108,9 @@ FresnelAlbedoFit MakeDielectricAlbedoFit(Shadowing shadowing, double roughness,
     const double critical = std::sqrt((1 - base.eta) * (1 + base.eta));
     const AlbedoQuadrature rule{12, is_wide ? 0.08 : 0.15, 1e-6, critical};
     const auto loss = [&](double mu) {
-      return Rgb(1 - AlbedoOf(shadowing, roughness, mu, curve, rule));
+      const double least = std::max(mu, kLeastAlbedoCosine);
+      return Rgb(1 -
+                 AlbedoOf(shadowing, roughness, least, curve, rule) / AlbedoOne(fit.lobe, least));
     };
     fit.corner = std::make_shared<const FresnelTable>(
         MakeFresnelTable({.loss = loss, .corner = critical}, options));

@@ -39,8 +39,9 @@ struct FresnelAlbedoFit {
   AlbedoFit lobe;
   AlbedoPolynomial fresnel{};
   CoatedDielectric<double> curve;
-  // Set where light arrives from the optically denser side: the albedo itself against n.v, as 1 - a
-  // loss. Total reflection sets in at a corner that the polynomial cannot follow.
+  // Set where light arrives from the optically denser side: the albedo against n.v as a fraction
+  // 1 - loss of that for F = 1. Total reflection sets in at a corner that the polynomial cannot
+  // follow.
   std::shared_ptr<const FresnelTable> corner;
   double average = 0;  // 2 int of the albedo mu dmu
 };
@@ -112,7 +113,9 @@ Real AlbedoSchlick(const AlbedoFit& fit, Real n_dot_v) {
 // The albedo for the exact Fresnel curve of the fit.
 template <typename Real>
 Real AlbedoFresnel(const FresnelAlbedoFit& fit, Real n_dot_v) {
-  if (fit.corner) return 1 - FresnelTableLoss(*fit.corner, n_dot_v)[0];
+  if (fit.corner) {
+    return AlbedoOne(fit.lobe, n_dot_v) * (1 - FresnelTableLoss(*fit.corner, n_dot_v)[0]);
+  }
   const Real mu = std::min(std::max(n_dot_v, static_cast<Real>(kLeastAlbedoCosine)), Real(1));
   const CoatedDielectric<Real> curve{
       static_cast<Real>(fit.curve.eta), static_cast<Real>(fit.curve.coat),

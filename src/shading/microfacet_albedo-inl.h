@@ -31,7 +31,9 @@ HWY_INLINE RgbV DielectricAlbedo(FloatTag d, const MicrofacetModel& model, const
   if (model.fresnel == FresnelForm::kThinFilm) {
     return TableAlbedo(d, model.film->albedo, fit, model.film->dielectric, one, x);
   }
-  if (model.albedo.corner) return TableReflectance(d, *model.albedo.corner, x.n_dot_v);
+  if (model.albedo.corner) {
+    return Scale(TableReflectance(d, *model.albedo.corner, x.n_dot_v), one);
+  }
   return GreyOf(AlbedoFresnel(d, model.albedo, one, x));
 }
 HWY_INLINE RgbV DielectricAlbedo(FloatTag d, const MicrofacetModel& model,
