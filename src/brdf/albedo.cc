@@ -101,12 +101,13 @@ FresnelAlbedoFit MakeDielectricAlbedoFit(Shadowing shadowing, double roughness,
   const FresnelFunction curve = FunctionOf(base);
   FresnelAlbedoFit fit = FitDielectric(shadowing, roughness, base, curve);
   if (base.eta < 1 && base.coat < 1 && fit.lobe.shape.offset > 0) {
-    // A third of the error that fits are held to (1e-3). A wide lobe blurs the corner.
+    // A third of the error that fits are held to (1e-3). A wide lobe blurs the corner, which the
+    // azimuths must resolve.
     const bool is_wide = roughness > 0.2;
     const FresnelTableOptions options{
-        .tolerance = 3e-4, .most = is_wide ? 128 : 512, .over_cosine = false};
+        .tolerance = 3e-4, .most = is_wide ? 64 : 256, .over_cosine = false};
     const double critical = std::sqrt((1 - base.eta) * (1 + base.eta));
-    const AlbedoQuadrature rule{12, is_wide ? 0.08 : 0.15, 1e-6, critical};
+    const AlbedoQuadrature rule{is_wide ? 10 : 7, is_wide ? 0.1 : 0.3, 1e-5, critical};
     const auto loss = [&](double mu) {
       const double least = std::max(mu, kLeastAlbedoCosine);
       return Rgb(1 -

@@ -144,6 +144,9 @@ Material DrawAnything(const MaterialModel& model, FuzzRandom* random) {
     const bool costly = parameter.name == "thin_film_weight" || parameter.name == "iridescence" ||
                         parameter.name.ends_with("_anisotropy");
     if (costly && !random->OneIn(8)) number = 0;
+    // So do bases thinner than air.
+    const bool is_thin = parameter.name == "specular_ior" && number < 1;
+    if (is_thin && !random->OneIn(8)) number = 1 / number;
     Rgb value(number, number, number);
     if (parameter.is_color) value = DrawColor(parameter.range.max, random);
     for (int c = 0; c < 3; ++c) value[c] = std::max(value[c], parameter.range.min);
