@@ -41,6 +41,7 @@ OpenPbrOptions OptionsOf(OpenPbrRules rules) {
   return {};
 }
 
+// By the material's own numbers: maps of fuzz are not looked up for its coat.
 double CoatRoughnessOf(const OpenPbrMaterial& m) {
   const double c = m.coat_roughness;
   if (m.options.coat_roughening != CoatRoughening::kAdobe || !(m.fuzz_weight > 0)) return c;
