@@ -22,17 +22,10 @@ struct MetallicRoughnessHits {
         metallic(NumbersOf(t, MappedNumber::kMetallic)),
         dielectric_f0(NumbersOf(t, MappedNumber::kSpecularColor, c)),
         specular(NumbersOf(t, MappedNumber::kSpecular)),
-        tint(model.fresnel == FresnelForm::kF82 ? material.f82_tint[c] : 1),
-        is_filmed(model.film_by_hit),
-        film(NumbersOf(t, MappedNumber::kFilm)),
-        film_dielectric(ChannelOf(t.film_dielectric, c).data()),
-        film_metal(ChannelOf(t.film_metal, c).data()) {}
+        tint(model.fresnel == FresnelForm::kF82 ? material.f82_tint[c] : 1) {}
 
   NACRE_DERIVE MicrofacetColors Colors(size_t i) const {
-    const MicrofacetColors at =
-        DeriveMetallicRoughness(base_color[i], metallic[i], dielectric_f0[i], specular[i], tint);
-    if (!is_filmed) return at;
-    return DeriveFilmedAtHit(at, film[i], film_dielectric[i], film_metal[i]);
+    return DeriveMetallicRoughness(base_color[i], metallic[i], dielectric_f0[i], specular[i], tint);
   }
   NACRE_DERIVE CurveAverages Averages(const MicrofacetColors& at) const {
     return DeriveAverages(at);
@@ -40,7 +33,21 @@ struct MetallicRoughnessHits {
 
   const double *base_color, *metallic, *dielectric_f0, *specular;
   double tint;
-  bool is_filmed;
+};
+
+// The same under films that differ by hit (MicrofacetModel::film_by_hit).
+struct FilmedHits : MetallicRoughnessHits {
+  FilmedHits(const MetallicRoughnessHits& under, const HitParameters& t, int c)
+      : MetallicRoughnessHits(under),
+        film(NumbersOf(t, MappedNumber::kFilm)),
+        film_dielectric(ChannelOf(t.film_dielectric, c).data()),
+        film_metal(ChannelOf(t.film_metal, c).data()) {}
+
+  NACRE_DERIVE MicrofacetColors Colors(size_t i) const {
+    return DeriveFilmedAtHit(MetallicRoughnessHits::Colors(i), film[i], film_dielectric[i],
+                             film_metal[i]);
+  }
+
   const double *film, *film_dielectric, *film_metal;
 };
 
@@ -82,15 +89,12 @@ struct OpenPbrHits {
         specular_blue(NumbersOf(t, MappedNumber::kSpecularColor, 2)),
         subsurface_color(of.subsurface_color[c]),
         f0(model.dielectric_f0[c]),
-        average(model.dielectric_f_average[c]),
-        changes_metal(ChangesMetal(of)) {}
+        average(model.dielectric_f_average[c]) {}
 
   NACRE_DERIVE MicrofacetColors Colors(size_t i) const {
     const double largest = std::max(std::max(specular_red[i], specular_green[i]), specular_blue[i]);
-    const OpenPbrChannel at{base_color[i], metalness[i], subsurface_color, specular_color[i],
-                            largest};
-    const MicrofacetColors colors = DeriveOpenPbr(material, at, f0);
-    return changes_metal ? WithMetalBelowCoat(material, at.specular_color, colors) : colors;
+    return DeriveOpenPbr(
+        material, {base_color[i], metalness[i], subsurface_color, specular_color[i], largest}, f0);
   }
   NACRE_DERIVE CurveAverages Averages(const MicrofacetColors& at) const {
     return {average, DeriveAverages(at).metal};
@@ -100,7 +104,13 @@ struct OpenPbrHits {
   const double *base_color, *metalness, *specular_color;
   const double *specular_red, *specular_green, *specular_blue;
   double subsurface_color, f0, average;
-  bool changes_metal;
+};
+
+// The same below a coat that changes the metal (ChangesMetal).
+struct CoatedMetalHits : OpenPbrHits {
+  NACRE_DERIVE MicrofacetColors Colors(size_t i) const {
+    return WithMetalBelowCoat(material, specular_color[i], OpenPbrHits::Colors(i));
+  }
 };
 
 // The same under a thin film, whose curves are the same at all hits, but for what metal_by_hit
@@ -146,9 +156,13 @@ void VisitChannel(const ShadingMaterial& material, const HitParameters& t, int c
     }
   };
   if (const auto* metallic = std::get_if<MetallicRoughnessMaterial>(&of.model)) {
-    use_hits(MetallicRoughnessHits(*metallic, model, t, c));
+    const MetallicRoughnessHits hits(*metallic, model, t, c);
+    if (model.film_by_hit) return use(FilmedHits(hits, t, c));
+    use_hits(hits);
   } else if (const auto* open_pbr = std::get_if<OpenPbrMaterial>(&of.model)) {
-    use_hits(OpenPbrHits(*open_pbr, model, t, c));
+    const OpenPbrHits hits(*open_pbr, model, t, c);
+    if (ChangesMetal(*open_pbr)) return use_hits(CoatedMetalHits{hits});
+    use_hits(hits);
   } else if (const auto* conductor = std::get_if<ConductorMaterial>(&of.model)) {
     use(ConductorHits(*conductor, model, t, c));
   } else {
