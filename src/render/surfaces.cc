@@ -316,8 +316,8 @@ void AttenuateByCoat(const Rgb& ambient, const MaterialHits& at, size_t k, HitPa
     const Rgb albedo = Rgb(1) - Rgb(VectorAt(coat.surface.transmittance, i));
     const Rgb left = TransmittedAt(at, k, i, NDotV(coat.surface, i));
     SetVector(left * Rgb(VectorAt(below->ambient, i)) + albedo * ambient, i, &below->ambient);
-    SetVector(EmittedThroughCoat(at, k, i) * Rgb(VectorAt(below->emission, i)), i,
-              &below->emission);
+    const Rgb emitted(VectorAt(below->emission, i));
+    if (!IsBlack(emitted)) SetVector(EmittedThroughCoat(at, k, i) * emitted, i, &below->emission);
   }
 }
 
