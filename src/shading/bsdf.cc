@@ -141,8 +141,9 @@ class LayersAtHit {
     for (size_t k = 0; k < material_.layers.size(); ++k) {
       if (KindOf(material_.layers[k]) != kind) continue;
       const LayerModel layer = Layer(k);
-      chance_[k] = LayerChance(layer, n_dot_v, albedo_);
-      albedo_ = AlbedoWithLayer(layer, n_dot_v, albedo_);
+      const LayerChance with = ChanceOf(layer, n_dot_v, albedo_);
+      chance_[k] = with.chance;
+      albedo_ = with.albedo;
       reflects_ = reflects_ || chance_[k] > 0;
     }
   }

@@ -141,14 +141,10 @@ double BaseAlbedo(const ShadingMaterial& material, const HitParameters* maps, si
   return LargestChannel(color) * (1 - metallic);
 }
 
-double LayerChance(const LayerModel& layer, double n_dot_v, double below_albedo) {
+LayerChance ChanceOf(const LayerModel& layer, double n_dot_v, double below_albedo) {
   const LayerReflection albedo = LayerAlbedo(layer, n_dot_v);
-  return Fraction(LargestChannel(albedo.lobe), albedo.below * below_albedo);
-}
-
-double AlbedoWithLayer(const LayerModel& layer, double n_dot_v, double below_albedo) {
-  const LayerReflection albedo = LayerAlbedo(layer, n_dot_v);
-  return albedo.below * below_albedo + LargestChannel(albedo.lobe);
+  const double own = LargestChannel(albedo.lobe), below = albedo.below * below_albedo;
+  return {Fraction(own, below), own + below};
 }
 
 void FindCoatChances(std::span<const CoatInView> coats, double glossy, std::span<double> chances) {

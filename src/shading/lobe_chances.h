@@ -52,12 +52,12 @@ ModelAlbedos AlbedosAt(const ShadingMaterial& material, const HitParameters* map
 double BaseAlbedo(const ShadingMaterial& material, const HitParameters* maps = nullptr,
                   size_t i = 0);
 
-// The probability of sampling a layer rather than what is below it, which has the albedo
-// `below_albedo` by itself.
-double LayerChance(const LayerModel& layer, double n_dot_v, double below_albedo);
-
-// The albedo of a layer over lobes whose albedo is `below_albedo`.
-double AlbedoWithLayer(const LayerModel& layer, double n_dot_v, double below_albedo);
+// A layer over lobes whose albedo is `below_albedo` by itself: the probability of sampling the
+// layer rather than these, and the albedo of all.
+struct LayerChance {
+  double chance, albedo;
+};
+LayerChance ChanceOf(const LayerModel& layer, double n_dot_v, double below_albedo);
 
 // One coat, seen from the viewer.
 struct CoatInView {

@@ -366,8 +366,9 @@ StackChances ChancesOf(const ShadingMaterial& material, const StackNormals& norm
   double diffuse = BaseAlbedo(material), glossy = albedos.glossy;
   for (const LayerModel& layer : material.layers) {
     double& below = KindOf(layer) == LobeKind::kDiffuse ? diffuse : glossy;
-    chances.layers.push_back(LayerChance(layer, n_dot_v, below));
-    below = AlbedoWithLayer(layer, n_dot_v, below);
+    const LayerChance with = ChanceOf(layer, n_dot_v, below);
+    chances.layers.push_back(with.chance);
+    below = with.albedo;
   }
   FindCoatChances(coats, glossy, chances.coats);
   return chances;
