@@ -37,13 +37,12 @@ Prepared Prepare(const Scene& scene, const std::string& name) {
   const std::shared_ptr<const nacre::Scene> made = scene.impl().Made();
   for (const nacre::Material& material : made->materials) {
     if (material.name != name) continue;
-    ShadingMaterial prepared = PrepareMaterial(material);
+    // Maps need a place on a shape; without one, the model has its constant factors only.
+    ShadingMaterial prepared = PrepareWithoutMaps(material);
     if (std::holds_alternative<std::monostate>(prepared.model)) {
       throw nacre::Error(ExitCode::kUsage, "Brdf", "\"" + name + "\" is a split",
                          "name one of the materials that it chooses from");
     }
-    // Maps need a place on a shape; without one, the model has its constant factors only.
-    DropMaps(&prepared);
     return {std::move(prepared), material};
   }
   throw nacre::Error(

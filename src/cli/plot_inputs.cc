@@ -68,8 +68,7 @@ bool IsJson(const std::string& text) { return text.find('{') != std::string::npo
 
 // Curves show a single set of numbers: the constant factors, without maps.
 NamedMaterial Prepare(const std::string& label, const Material& material) {
-  NamedMaterial named{label, PrepareMaterial(material)};
-  DropMaps(&named.material);
+  NamedMaterial named{label, PrepareWithoutMaps(material)};
   if (std::holds_alternative<std::monostate>(named.material.model)) {
     throw Error(ExitCode::kBadInput, label, "a split has no reflection model of its own",
                 "name one of its materials");

@@ -851,6 +851,17 @@ std::vector<TextureId> TexturesOf(const Material& material) {
   return ids;
 }
 
+Material WithoutMaps(const Material& material) {
+  Material without = material;
+  if (const MaterialModel* const model = ModelOf(material)) {
+    for (const MaterialMap& map : model->maps) map.set(without, TextureId{});
+    for (const MaterialNormalMap& row : model->normal_maps) row.of(without) = {};
+  }
+  without.bump_map = {};
+  without.vertex_colors = VertexColors::kNone;
+  return without;
+}
+
 bool CutsHoles(const Material& material) {
   return material.opacity_map.valid() || material.opacity < material.opacity_cutoff;
 }

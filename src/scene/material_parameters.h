@@ -89,6 +89,9 @@ inline const NormalMap& NormalMapOf(const MaterialNormalMap& map, const Material
 // The textures of all maps of the material, in the order in which scene files are read.
 std::vector<TextureId> TexturesOf(const Material& material);
 
+// The material without maps and vertex colours: every hit has the maps' factors as parameters.
+Material WithoutMaps(const Material& material);
+
 struct MaterialModel {
   std::string_view name;  // "metallic_roughness"
   std::string_view title;

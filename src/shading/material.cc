@@ -529,17 +529,13 @@ ShadingMaterial PrepareMaterial(const Material& material, bool in_ambient) {
   return prepared;
 }
 
-void DropMaps(ShadingMaterial* material) {
-  material->scene_material = nullptr;
-  // Anisotropic lobes read a tangent without maps, too.
-  const bool tangent = material->by_hit.tangent;
-  material->by_hit = {};
-  material->by_hit.tangent = tangent;
-  for (std::shared_ptr<const ShadingMaterial>& coat : material->coats) {
-    auto without_maps = std::make_shared<ShadingMaterial>(*coat);
-    DropMaps(without_maps.get());
-    coat = std::move(without_maps);
-  }
+ShadingMaterial PrepareWithoutMaps(const Material& material) {
+  const Material without = WithoutMaps(material);
+  ShadingMaterial prepared = PrepareMaterial(without);
+  // What hits may still have of their own is a tangent, and the emission that coats let through.
+  prepared.scene_material = nullptr;
+  prepared.by_hit.parameters = false;
+  return prepared;
 }
 
 Rgb CoatAlbedo(const ShadingMaterial& coat, const LobeCosines& v) {

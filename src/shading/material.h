@@ -59,8 +59,9 @@ ShadingMaterial PrepareMaterial(const Material& material, bool in_ambient = fals
 // A coat by itself, over `below`. `coat` is copied.
 std::shared_ptr<const ShadingMaterial> MakeShadingCoat(const Coat& coat, const Material& below);
 
-// Removes the maps, so that all hits have the maps' factors as parameters.
-void DropMaps(ShadingMaterial* material);
+// For tables and curves, which have no hits: without maps (WithoutMaps) and ambient light. Needs
+// `material` no longer.
+ShadingMaterial PrepareWithoutMaps(const Material& material);
 
 // The albedo of a coat, seen from v, at most 1.
 Rgb CoatAlbedo(const ShadingMaterial& coat, const LobeCosines& v);

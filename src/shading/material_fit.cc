@@ -195,11 +195,7 @@ void NoteStrength(double f0, MaterialFit* fit) {
 
 void FitMetallic(const Material& original, MaterialFit* fit) {
   if (std::holds_alternative<MetallicRoughnessMaterial>(original.model)) {
-    Material plain = original;
-    const MaterialModel& model = *ModelOf(original);
-    for (const MaterialMap& map : model.maps) map.set(plain, {});
-    for (const MaterialNormalMap& map : model.normal_maps) map.of(plain) = {};
-    fit->guess.model = fit->fitted.model = plain.model;
+    fit->guess.model = fit->fitted.model = original.model;
     return;
   }
   const Summary summary = Summarize(original);
@@ -362,7 +358,7 @@ MaterialFit FitMaterial(const Material& original, std::string_view target) {
   const auto bare = [&] {
     return WithoutAnisotropy(WithoutLayers(original, &fit.notes), &fit.notes);
   };
-  const Material material = WithLobe(keeps_layers ? original : bare(), &fit.notes);
+  const Material material = WithoutMaps(WithLobe(keeps_layers ? original : bare(), &fit.notes));
   fit.guess = fit.fitted = WithoutModel(original);
   const bool to_phong = target.ends_with("phong");
   const bool measured = std::holds_alternative<MeasuredMaterial>(original.model);

@@ -186,13 +186,12 @@ std::vector<std::string> NamesOfLobes(const ShadingMaterial& material) {
 }  // namespace
 
 PreparedVariant::PreparedVariant(const Variant& variant)
-    : material_(PrepareMaterial(variant.material)),
+    : material_(PrepareWithoutMaps(variant.material)),
       formula_(variant.formula),
       directions_(variant.directions),
       factor_(variant.factor),
       cosines_of_light_(variant.cosines_of_light),
       cosines_of_view_(variant.cosines_of_view) {
-  DropMaps(&material_);
   if (auto* const model = std::get_if<MicrofacetModel>(&material_.model)) {
     if (model->compensation == Compensation::kKullaConty) {
       if ((formula_ & kF0ForAverage) != 0) RecolorMultiple(kF0ForAverage, model);

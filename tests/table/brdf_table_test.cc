@@ -12,6 +12,7 @@
 #include "brdf/fresnel.h"
 #include "brdf/ggx_anisotropic.h"
 #include "catch.h"
+#include "scene/material_parameters.h"
 #include "shading/scalar_bsdf.h"
 #include "table/materials.h"
 #include "table/read_table.h"
@@ -56,6 +57,37 @@ TEST_CASE("rows that are not finite are found, whatever their column") {
   CHECK(RowsNotFinite(table) == std::vector<size_t>{1, 3});
   CHECK(RowsNotFinite(TabulateBrdf(FullOpenPbr(), PairsOf({}), {.albedo = false})).empty());
   CHECK(RowsNotFinite({}).empty());
+}
+
+TEST_CASE("tables of materials with maps are of the maps' factors, with their films and coats") {
+  const std::vector<DirectionPair> pairs = PairsOf({});
+  MetallicRoughnessMaterial film;
+  film.base_color = Rgb(0.8, 0.5, 0.2);
+  film.metallic = 0.5;
+  film.iridescence = 1;
+  film.coat = 0.5;
+  auto open_pbr = std::get<OpenPbrMaterial>(FullOpenPbr().model);
+  open_pbr.thin_film_weight = 1;
+  open_pbr.base_metalness = 0.5;
+  for (const Material& factors : {Material{.model = film}, Material{.model = open_pbr}}) {
+    const MaterialModel& model = *ModelOf(factors);
+    CAPTURE(model.name);
+    const BrdfTable expected = TabulateBrdf(factors, pairs, {});
+    Material all = factors;  // with every map at once
+    const auto check = [&](Material mapped) {
+      CHECK(TabulateBrdf(mapped, pairs, {}).values == expected.values);
+    };
+    for (const MaterialMap& map : model.maps) {
+      CAPTURE(map.name);
+      Material mapped = factors;
+      map.set(mapped, TextureId{0});
+      map.set(all, TextureId{0});
+      check(mapped);
+    }
+    all.bump_map.texture = TextureId{0};
+    all.vertex_colors = VertexColors::kBase;
+    check(all);
+  }
 }
 
 TEST_CASE("f is what the model reflects over n.l, and its lobes sum to it") {
