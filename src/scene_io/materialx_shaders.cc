@@ -523,6 +523,10 @@ class ShaderConverter {
     }
     PutEmission("emission_color", "emission_luminance",
                 is_12 ? GetFollowed("emission_weight") : MaterialXNumber(1));
+    if (is_12 && graph_.HasInput(shader_, "emission_luminance") &&
+        !graph_.HasInput(shader_, "emission_weight")) {
+      Note("emission_luminance", "emits nothing, because emission_weight is 0 in version 1.2");
+    }
     for (const char* const name :
          {"specular_haze", "specular_haze_spread", "specular_retroreflectivity"}) {
       Put(name, name, Get(name));
@@ -660,8 +664,8 @@ class ShaderConverter {
     Begin("metallic_roughness");
     Put("base_color", "base_color", Get("base_color"));
     PutMetallicRoughness();
-    double ior = GetFixed("ior").numbers[0];
-    if (!(ior >= 1)) {
+    double ior = GetFixed("ior").numbers[0];  // 0: an infinite index, which reflects everything
+    if (!(ior == 0 || ior >= 1)) {
       Note("ior", fmt::format("{} is below 1, and taken for 1", NumbersText(Rgb(ior), false)));
       ior = 1;
     }

@@ -527,6 +527,7 @@ TEST_CASE("MaterialX: what is read as something else is told") {
             .find("thin_walled: what passes through") != std::string::npos);
   CHECK(note_of("gltf_pbr", MtlxIn("ior", "float", "0.5")).find("ior: 0.5 is below 1") !=
         std::string::npos);
+  CHECK(note_of("gltf_pbr", MtlxIn("ior", "float", "0")).empty());  // an infinite index
   CHECK(note_of("gltf_pbr", MtlxIn("alpha_mode", "integer", "7"))
             .find("alpha_mode: 7 is none of 0") != std::string::npos);
   CHECK(note_of("gltf_pbr", MtlxIn("alpha_mode", "integer", "2")).empty());
@@ -548,6 +549,8 @@ TEST_CASE("MaterialX: an open_pbr_surface of version 1.2 has emission by weight"
   const MaterialXMaterial none = ReadMtlx(text);
   CHECK(none.material["version"] == "1.2");
   CHECK_FALSE(none.material.contains("emission"));
+  REQUIRE(none.notes.size() == 1);
+  CHECK(none.notes[0].find("emission_luminance: emits nothing") != std::string::npos);
 }
 
 TEST_CASE("subsurfaces and films are read, transmission is read and told") {
