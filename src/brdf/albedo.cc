@@ -94,20 +94,30 @@ FresnelFunction FunctionOf(const CoatedDielectric<double>& base) {
   };
 }
 
+// The cosine at which total reflection sets in, or 0: at the base in air, and at the coat or,
+// through it, at the base. Of two that differ, it is that of the larger share. Without a weight of
+// the lobe, Snell's law gives the base the same critical angle below a coat.
+double CriticalCosine(const CoatedDielectric<double>& base) {
+  const double coated = base.coat > 0 ? std::min(base.eta_in_coat, 1.0) / base.inverse_coat_eta : 1;
+  const double sine = coated < 1 && (base.coat >= 0.5 || base.eta >= 1) ? coated : base.eta;
+  return sine < 1 ? std::sqrt((1 - sine) * (1 + sine)) : 0;
+}
+
 }  // namespace
 
 FresnelAlbedoFit MakeDielectricAlbedoFit(Shadowing shadowing, double roughness,
                                          const CoatedDielectric<double>& base) {
   const FresnelFunction curve = FunctionOf(base);
   FresnelAlbedoFit fit = FitDielectric(shadowing, roughness, base, curve);
-  if (base.eta < 1 && base.coat < 1 && fit.lobe.shape.offset > 0) {
+  const double critical = CriticalCosine(base);
+  if (critical > 0 && fit.lobe.shape.offset > 0) {
     // A third of the error that fits are held to (1e-3). A wide lobe blurs the corner, which the
     // azimuths must resolve.
     const bool is_wide = roughness > 0.2;
     const FresnelTableOptions options{
-        .tolerance = 3e-4, .most = is_wide ? 64 : 256, .over_cosine = false};
-    const double critical = std::sqrt((1 - base.eta) * (1 + base.eta));
-    const AlbedoQuadrature rule{is_wide ? 10 : 7, is_wide ? 0.1 : 0.3, 1e-5, critical};
+        .tolerance = 3e-4, .most = is_wide ? 128 : 512, .over_cosine = false};
+    const AlbedoQuadrature rule{is_wide ? 12 : 7, is_wide ? 0.08 : 0.3, is_wide ? 1e-6 : 1e-5,
+                                critical};
     const auto loss = [&](double mu) {
       const double least = std::max(mu, kLeastAlbedoCosine);
       return Rgb(1 -

@@ -39,9 +39,9 @@ struct FresnelAlbedoFit {
   AlbedoFit lobe;
   AlbedoPolynomial fresnel{};
   CoatedDielectric<double> curve;
-  // Set where light arrives from the optically denser side: the albedo against n.v as a fraction
-  // 1 - loss of that for F = 1. Total reflection sets in at a corner that the polynomial cannot
-  // follow.
+  // Set where light arrives from the optically denser side, of the base or of a coat: the albedo
+  // against n.v as a fraction 1 - loss of that for F = 1. Total reflection sets in at a corner that
+  // the polynomial cannot follow. Errors are up to 1e-3, and 2e-3 where there are two corners.
   std::shared_ptr<const FresnelTable> corner;
   double average = 0;  // 2 int of the albedo mu dmu
 };

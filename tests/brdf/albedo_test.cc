@@ -33,27 +33,46 @@ std::vector<double> FurnaceRoughnesses() {
   return {0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1};
 }
 
-// A finer rule than that of the table.
+// Bounds: the tables are made to 3e-4 by a rule of three times that error where there is one
+// corner. Its convergence is slow where a lobe's weight makes two of them, and where a coat thinner
+// than air reflects all light itself, which takes it from the base at once.
 TEST_CASE("albedos follow the corner of total reflection from a denser medium") {
+  struct Base {
+    const char* what;
+    CoatedDielectric<double> base;
+    double critical_sine, bound;
+  };
+  constexpr double kOne = 1e-3, kTwo = 3e-3;
+  const Base bases[] = {
+      {"bare 0.3", {.eta = 0.3}, 0.3, kOne},
+      {"bare 0.67", {.eta = 0.67}, 0.67, kOne},
+      {"bare 0.9", {.eta = 0.9}, 0.9, kOne},
+      {"bare 0.99", {.eta = 0.99}, 0.99, kOne},
+      {"half coated", {0.67, 0.5, 0.67 / 1.5, 1 / 1.5}, 0.67, kOne},
+      {"coated", {0.67, 1, 0.67 / 1.5, 1 / 1.5}, 0.67, kOne},
+      {"weighted below a coat", {1.1, 1, 0.6, 1 / 1.5}, 0.9, kOne},
+      {"weighted below half a coat", {0.8, 0.5, 0.6, 1 / 1.5}, 0.9, kTwo},
+      {"below a thin coat", {1.5, 1, 1.5 / 0.7, 1 / 0.7}, 0.7, kTwo},
+      {"below half a thin coat", {1.5, 0.5, 1.5 / 0.7, 1 / 0.7}, 0.7, kTwo},
+  };
   double worst = 0;
-  for (const double eta : {0.3, 0.67, 0.9, 0.99}) {
+  for (const auto& [what, base, critical_sine, bound] : bases) {
     for (const double roughness : {0.01, 0.1, 0.3, 0.6, 1.0}) {
       const FresnelAlbedoFit fit =
-          MakeDielectricAlbedoFit(Shadowing::kHeightCorrelated, roughness, {eta});
+          MakeDielectricAlbedoFit(Shadowing::kHeightCorrelated, roughness, base);
       REQUIRE(fit.corner != nullptr);
-      const double critical = std::sqrt(1 - eta * eta);
-      for (const double mu : {0.01, 0.1, 0.5 * critical, critical - 0.02, critical, critical + 0.02,
-                              (1 + critical) / 2, 1.0}) {
-        const double exact =
-            AlbedoOf(Shadowing::kHeightCorrelated, roughness, std::clamp(mu, 0.01, 1.0),
-                     [&](double v_dot_h, double one_minus_vh) {
-                       return FresnelDielectric(v_dot_h, one_minus_vh, eta);
-                     },
-                     {24, 0.03, 1e-8, critical});
-        CAPTURE(eta, roughness, mu);
-        const double error = std::abs(AlbedoFresnel(fit, std::clamp(mu, 0.01, 1.0)) - exact);
-        // Of the quadrature; at the corner itself, of intervals wider than the narrowest lobe.
-        CHECK(error <= (roughness < 0.05 ? 5e-3 : 1.5e-3));
+      const double critical = std::sqrt(1 - critical_sine * critical_sine);
+      for (const double place : {0.01, 0.1, 0.5 * critical, critical - 0.02, critical,
+                                 critical + 0.02, (1 + critical) / 2, 1.0}) {
+        const double mu = std::clamp(place, 0.01, 1.0);
+        const double exact = AlbedoOf(Shadowing::kHeightCorrelated, roughness, mu,
+                                      [&base = base](double v_dot_h, double one_minus_vh) {
+                                        return FresnelCoatedDielectric(v_dot_h, one_minus_vh, base);
+                                      },
+                                      {24, 0.03, 1e-8, critical});  // finer than the table's rule
+        CAPTURE(what, roughness, mu);
+        const double error = std::abs(AlbedoFresnel(fit, mu) - exact);
+        CHECK(error <= bound);
         worst = std::max(worst, error);
       }
     }
