@@ -7,9 +7,8 @@
 //   ggx_plain_*            glTF's form: no compensation, diffuse 1 - F; the baseline's formula
 //   ggx_default            with Turquin's compensation and a base scaled by the lobe's albedo
 //   open_pbr_*             by the specification's text, with Kulla and Conty's compensation
-//   stack_*                whole materials by EvaluateBsdf; the baseline is the scalar twin, which
-//   is
-//                          in double and evaluates per light what kernels evaluate per view
+//   stack_*                whole materials by EvaluateBsdf; the baseline is the scalar twin, in
+//                          double, which evaluates per light what kernels evaluate per view
 //   *_double_terms         lobes so narrow that their half vector is formed in double
 //   *_in_lobe              hits that have Phong's lobe; everywhere else three of four have none, of
 //                          which plain C++ knows the power at once
